@@ -7,7 +7,7 @@
 #include "base/one_line.h"
 #include "io/new_file.h"
 
-namespace vesper {
+namespace vesper::apps {
 
 std::string in_shell(const std::string& value) {
     constexpr std::string_view kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=.,:/%@";
@@ -18,7 +18,7 @@ std::string in_shell(const std::string& value) {
 }
 
 void write_text(const std::string& file, const std::string& text) {
-    replace_file(file, std::vector<uint8_t>(text.begin(), text.end()));
+    io::replace_file(file, std::vector<uint8_t>(text.begin(), text.end()));
 }
 
 std::string column(const std::string& text, size_t width) {
@@ -30,4 +30,4 @@ std::string column(const std::string& text, size_t width) {
     return text.substr(0, at) + std::string(width - used, ' ');
 }
 
-}  // namespace vesper
+}  // namespace vesper::apps

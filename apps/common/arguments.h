@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace vesper {
+namespace vesper::apps {
 
 /// A value as a shell takes it for one word.
 std::string in_shell(const std::string& value);
@@ -13,4 +13,4 @@ void write_text(const std::string& file, const std::string& text);
 /// At most so many characters of UTF-8, then spaces up to so many columns.
 std::string column(const std::string& text, size_t width);
 
-}  // namespace vesper
+}  // namespace vesper::apps

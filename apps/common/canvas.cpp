@@ -11,7 +11,7 @@
 #include "io/image_file.h"
 #include "print.h"
 
-namespace vesper {
+namespace vesper::apps {
 
 struct Canvas::Drawing {
     cairo_surface_t* surface;
@@ -140,7 +140,7 @@ std::vector<uint8_t> Canvas::rgba() const {
     return made;
 }
 
-void Canvas::save(const std::string& file) const { write_png(file, width_, height_, rgba()); }
+void Canvas::save(const std::string& file) const { io::write_png(file, width_, height_, rgba()); }
 
 std::vector<double> linear_ticks(double low, double high, int count) {
     std::vector<double> ticks;
@@ -175,4 +175,4 @@ std::string tick_label(double value) {
     return size >= 100 && size < 1e6 ? format("%.0f", value) : format("%.3g", value);
 }
 
-}  // namespace vesper
+}  // namespace vesper::apps

@@ -9,7 +9,7 @@
 
 #include <glm/glm.hpp>
 
-namespace vesper {
+namespace vesper::apps {
 
 using CanvasColour = glm::dvec3;  ///< as displayed (sRGB codes), [0, 1]
 
@@ -58,4 +58,4 @@ std::vector<double> log_ticks(double low, double high);
 /// A value of a tick as short as possible: 0.05, 20000, 1e+06.
 std::string tick_label(double value);
 
-}  // namespace vesper
+}  // namespace vesper::apps

@@ -26,7 +26,7 @@
 #include "own_data.h"
 #include "print.h"
 
-namespace vesper {
+namespace vesper::apps {
 namespace {
 
 // A CPU device builds tens of MiB of its own lists in every frame. glibc would give them back to the system after each,
@@ -40,7 +40,7 @@ void keep_freed_memory() {
 }
 
 extern "C" void end_of_signal(int number) {
-    remove_temporaries();
+    io::remove_temporaries();
     std::raise(number);  // whose action is the system's again
 }
 
@@ -157,13 +157,13 @@ Option Command::add_flag(const std::string& names, bool& value, const std::strin
     return Option(app_->add_flag(names, value, help));
 }
 void Command::add_allow_outside() {
-    const auto folders = std::make_shared<std::vector<std::unique_ptr<const AllowedFolder>>>();
+    const auto folders = std::make_shared<std::vector<std::unique_ptr<const io::AllowedFolder>>>();
     const CLI::callback_t allow = [folders](const CLI::results_t& given) {
         for (const std::string& value : given) {
             const std::string folder = value.empty() || value == "{}" ? "/" : value;  // CLI11 says "{}" for no value
             if (!std::filesystem::is_directory(folder))
                 throw Error("--allow-outside " + one_line(folder) + ": there is no such folder");
-            folders->push_back(std::make_unique<const AllowedFolder>(folder));
+            folders->push_back(std::make_unique<const io::AllowedFolder>(folder));
         }
         return true;
     };
@@ -220,8 +220,8 @@ void Program::version(const std::string& text) { app_->set_version_flag("--versi
 int Program::run(int argc, char** argv) {
     keep_freed_memory();
     handle_signals();
-    const FileGate gate;
-    std::optional<AllowedFolder> own;  // scenes of our own share lamps
+    const io::FileGate gate;
+    std::optional<io::AllowedFolder> own;  // scenes of our own share lamps
     try {
         own.emplace(own_data());
     } catch (const Error&) {
@@ -271,4 +271,4 @@ std::string options_of(const Command& command, const std::vector<std::string>& b
     return one_line(text, 4000);
 }
 
-}  // namespace vesper
+}  // namespace vesper::apps

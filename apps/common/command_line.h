@@ -15,7 +15,7 @@ class Option;
 class Validator;
 }  // namespace CLI
 
-namespace vesper {
+namespace vesper::apps {
 
 constexpr const char* kFirstPage = "Options";  ///< group of the options that --help lists
 constexpr int kBadInput = 2;                   ///< exit code for a file, device or argument that cannot be used
@@ -147,4 +147,4 @@ private:
 /// The options given, but for those named, as they would be given again: what a picture was made with.
 std::string options_of(const Command& command, const std::vector<std::string>& but);
 
-}  // namespace vesper
+}  // namespace vesper::apps

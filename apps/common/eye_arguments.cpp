@@ -4,7 +4,7 @@
 
 #include "arguments.h"
 
-namespace vesper {
+namespace vesper::apps {
 namespace {
 
 const std::map<std::string, uint32_t> kAdaptTo{{"gaze", shared::kAdaptGaze},
@@ -25,13 +25,14 @@ std::vector<std::string> names_of(const std::map<std::string, T>& values) {
 
 std::vector<std::string> operator_names() {
     std::vector<std::string> names;
-    for (const OperatorInfo& op : operators()) names.emplace_back(op.name);
+    for (const render::OperatorInfo& op : render::operators()) names.emplace_back(op.name);
     return names;
 }
 
 std::string operator_help() {
     std::string help = "How luminance is shown";
-    for (const OperatorInfo& op : operators()) help += "\n  " + std::string(op.name) + ": " + std::string(op.summary);
+    for (const render::OperatorInfo& op : render::operators())
+        help += "\n  " + std::string(op.name) + ": " + std::string(op.summary);
     return help;
 }
 
@@ -39,8 +40,9 @@ bool given(const EyeArguments& arguments, const char* name) { return arguments.c
 
 }  // namespace
 
-void add_eye_options(Command command, EyeArguments& arguments, HistogramSettings& histogram, ToneSettings& tone) {
-    Observer& observer = tone.observer;
+void add_eye_options(Command command, EyeArguments& arguments, render::HistogramSettings& histogram,
+                     render::ToneSettings& tone) {
+    vision::Observer& observer = tone.observer;
     arguments.command = command;
     command.add_option("--operator", arguments.tone_operator, operator_help())
         .check(one_of(operator_names()))
@@ -127,12 +129,12 @@ void add_eye_options(Command command, EyeArguments& arguments, HistogramSettings
     command.help_group();
 }
 
-void apply(const EyeArguments& arguments, ToneChainSettings& settings) {
+void apply(const EyeArguments& arguments, render::ToneChainSettings& settings) {
     const bool paper = arguments.preset == "paper";
-    for (const OperatorInfo& op : operators())
+    for (const render::OperatorInfo& op : render::operators())
         if (op.name == (paper && !given(arguments, "--operator") ? "irawan" : arguments.tone_operator))
             settings.tone_operator = op.tone_operator;
-    ToneSettings& tone = settings.tone;
+    render::ToneSettings& tone = settings.tone;
     if (const auto found = kAdaptTo.find(arguments.adapt_to); found != kAdaptTo.end()) tone.adapt_to = found->second;
     if (const auto found = kCeilings.find(arguments.ceiling); found != kCeilings.end()) tone.ceiling = found->second;
     tone.gaze = {arguments.gaze.at(0), arguments.gaze.at(1)};
@@ -144,4 +146,4 @@ void apply(const EyeArguments& arguments, ToneChainSettings& settings) {
     if (paper && !given(arguments, "--adapt-to")) tone.adapt_to = shared::kAdaptTexel;
 }
 
-}  // namespace vesper
+}  // namespace vesper::apps

@@ -8,7 +8,7 @@
 
 #include "render/tone_chain.h"
 
-namespace vesper {
+namespace vesper::apps {
 
 /// Part of ToneArguments.
 struct EyeArguments {
@@ -20,8 +20,9 @@ struct EyeArguments {
 };
 
 /// Adds them to a command. Numbers of the observer and the histogram go straight to the settings.
-void add_eye_options(Command command, EyeArguments& arguments, HistogramSettings& histogram, ToneSettings& tone);
+void add_eye_options(Command command, EyeArguments& arguments, render::HistogramSettings& histogram,
+                     render::ToneSettings& tone);
 /// Takes the rest over.
-void apply(const EyeArguments& arguments, ToneChainSettings& settings);
+void apply(const EyeArguments& arguments, render::ToneChainSettings& settings);
 
-}  // namespace vesper
+}  // namespace vesper::apps

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace vesper {
+namespace vesper::apps {
 namespace {
 
 /// viridis at equal steps.
@@ -127,4 +127,4 @@ void draw_colour_bar(Canvas& canvas, glm::dvec2 corner, double height, const Col
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::apps

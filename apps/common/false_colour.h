@@ -7,7 +7,7 @@
 
 #include "canvas.h"
 
-namespace vesper {
+namespace vesper::apps {
 
 /// viridis (Smith and van der Walt, CC0): dark to light in steps that look even. `position` in [0, 1].
 CanvasColour map_colour(double position);
@@ -40,4 +40,4 @@ void draw_contours(Canvas&, const ValuePicture&, std::span<const double> levels,
 constexpr double kBarWidth = 90;
 void draw_colour_bar(Canvas&, glm::dvec2 corner, double height, const ColourScale&, const std::string& unit);
 
-}  // namespace vesper
+}  // namespace vesper::apps

@@ -13,8 +13,10 @@
 #include "print.h"
 #include "tone_arguments.h"
 
-namespace vesper {
+namespace vesper::apps {
 namespace {
+
+using vision::GlareReport;
 
 constexpr size_t kMostLamps = 10000;
 constexpr uint64_t kMostLampBytes = 4u << 20;  // of their file
@@ -44,7 +46,7 @@ bool is_heading(const std::vector<std::string_view>& cells) {
 }
 
 /// Headings name the columns, or their units, and nothing else.
-void check_heading(const LineReader& lines, const std::vector<std::string_view>& cells) {
+void check_heading(const photometry::LineReader& lines, const std::vector<std::string_view>& cells) {
     static const std::set<std::string> kColumns[]{
         {"azimuth", "az", "right", "horizontal", "h", "deg", "degree", "degrees"},
         {"elevation", "el", "up", "vertical", "v", "deg", "degree", "degrees"},
@@ -57,12 +59,12 @@ void check_heading(const LineReader& lines, const std::vector<std::string_view>&
     if (cells.size() != 3) lines.fail(kWanted);
     for (size_t i = 0; i < cells.size(); ++i) {
         bool named = false;
-        for (const std::string& word : words_of(cells[i])) {
+        for (const std::string& word : photometry::words_of(cells[i])) {
             named |= kColumns[i].contains(word);
             if (!kColumns[i].contains(word) && !kOthers.contains(word))
-                lines.fail(vesper::quoted(word) + " in " + quoted(cells[i]) + ": " + kWanted);
+                lines.fail(photometry::quoted(word) + " in " + photometry::quoted(cells[i]) + ": " + kWanted);
         }
-        if (!named) lines.fail(quoted(cells[i]) + ": " + kWanted);
+        if (!named) lines.fail(photometry::quoted(cells[i]) + ": " + kWanted);
     }
 }
 
@@ -89,22 +91,23 @@ void add_glare_options(Command command, GlareArguments& a) {
     command.help_group();
 }
 
-std::vector<OffscreenLamp> read_lamps(const std::string& file) {
-    std::vector<OffscreenLamp> lamps;
+std::vector<gpu_scene::OffscreenLamp> read_lamps(const std::string& file) {
+    std::vector<gpu_scene::OffscreenLamp> lamps;
     if (file.empty()) return lamps;
-    const std::vector<uint8_t> bytes = read_file(file, kMostLampBytes);
-    LineReader lines(bytes, one_line(file));
+    const std::vector<uint8_t> bytes = io::read_file(file, kMostLampBytes);
+    photometry::LineReader lines(bytes, one_line(file));
     while (const auto line = lines.next()) {
-        const std::string_view text = trimmed(*line);
+        const std::string_view text = photometry::trimmed(*line);
         if (text.empty() || text.front() == '#') continue;
         const char separator = separator_of(text);
-        const auto fields = fields_of(text, separator, 3);
+        const auto fields = photometry::fields_of(text, separator, 3);
         if (lamps.empty() && is_heading(fields)) {
             check_heading(lines, fields);
             continue;
         }
         std::optional<double> values[3];
-        for (size_t i = 0; i < 3 && fields.size() == 3; ++i) values[i] = number_of(fields[i], separator != ',');
+        for (size_t i = 0; i < 3 && fields.size() == 3; ++i)
+            values[i] = photometry::number_of(fields[i], separator != ',');
         if (!values[0] || !values[1] || !values[2]) lines.fail("expected degrees to the right, degrees up, lx");
         const double azimuth = *values[0], elevation = *values[1], lux = *values[2];
         if (std::abs(azimuth) > 180 || std::abs(elevation) > 90 || lux < 0 || lux > 1e9)
@@ -116,26 +119,28 @@ std::vector<OffscreenLamp> read_lamps(const std::string& file) {
     return lamps;
 }
 
-GlareReport glare_of(const GlareArguments& arguments, const ToneChainSettings& settings, const ToneMapped& shown,
-                     const ImageAngles& image, const std::vector<OffscreenLamp>& outside) {
-    std::vector<DazzlingLight> lamps;
-    for (const OffscreenLamp& lamp : outside) lamps.push_back({lamp.direction, luminance(lamp.illuminance)});
-    GlareQuestion question{.eye = settings.scatter.eye, .gaze = glm::dvec2(settings.tone.gaze)};
-    if (const auto& t = arguments.target; t.size() == 4) question.target = MarkedTarget{{t[0], t[1]}, {t[2], t[3]}};
+GlareReport glare_of(const GlareArguments& arguments, const render::ToneChainSettings& settings,
+                     const render::ToneMapped& shown, const vision::ImageAngles& image,
+                     const std::vector<gpu_scene::OffscreenLamp>& outside) {
+    std::vector<vision::DazzlingLight> lamps;
+    for (const gpu_scene::OffscreenLamp& lamp : outside) lamps.push_back({lamp.direction, luminance(lamp.illuminance)});
+    vision::GlareQuestion question{.eye = settings.scatter.eye, .gaze = glm::dvec2(settings.tone.gaze)};
+    if (const auto& t = arguments.target; t.size() == 4)
+        question.target = vision::MarkedTarget{{t[0], t[1]}, {t[2], t[3]}};
     GlareReport report;
     try {
-        report = report_glare(image, shown.scene, lamps, question);
+        report = vision::report_glare(image, shown.scene, lamps, question);
     } catch (const Error& error) {
         throw Error(std::string("--target: ") + error.what());
     }
     report.pupil = shown.pupil;
-    if (settings.glare == Glare::Scatter && settings.scatter.has_corona())
+    if (settings.glare == render::Glare::Scatter && settings.scatter.has_corona())
         report.eye_seed = settings.scatter.aperture.seed;
     return report;
 }
 
-void check_target(const GlareArguments& arguments, const ToneChainSettings& settings) {
-    if (!arguments.target.empty() && settings.tone_operator == Operator::Ldr)
+void check_target(const GlareArguments& arguments, const render::ToneChainSettings& settings) {
+    if (!arguments.target.empty() && settings.tone_operator == render::Operator::Ldr)
         throw Error("--target: the ldr operator has no luminances to measure");
 }
 
@@ -144,13 +149,13 @@ std::string target_line(const GlareReport& r) {
                   r.target_veil, r.visibility);
 }
 
-Header describe_glare(const ToneChainSettings& settings, const GlareReport& report) {
-    const ScatterSettings& s = settings.scatter;
-    Header header{{"vesper:glare", settings.glare == Glare::None  ? "none"
-                                   : settings.glare == Glare::Ldr ? "ldr"
-                                                                  : name_of(s.model)},
-                  {"vesper:glare:age", digits(s.eye.age)},
-                  {"vesper:glare:iris", digits(s.eye.pigmentation)}};
+io::Header describe_glare(const render::ToneChainSettings& settings, const GlareReport& report) {
+    const gpu_scene::ScatterSettings& s = settings.scatter;
+    io::Header header{{"vesper:glare", settings.glare == render::Glare::None  ? "none"
+                                       : settings.glare == render::Glare::Ldr ? "ldr"
+                                                                              : name_of(s.model)},
+                      {"vesper:glare:age", digits(s.eye.age)},
+                      {"vesper:glare:iris", digits(s.eye.pigmentation)}};
     for (const Named& n : kNames) header.emplace_back(std::string("vesper:glare:") + n.name, digits(report.*n.value));
     return header;
 }
@@ -169,13 +174,14 @@ std::string glare_values(const GlareReport& report) {
 
 std::string glare_sources_heading() { return "frame,lamp,azimuth,elevation,distance,candela,lux,veil,inside\n"; }
 
-std::string glare_sources_lines(unsigned frame, const Scene& scene, std::vector<GlareSource> sources,
-                                const ScatteringEye& eye) {
-    std::stable_sort(sources.begin(), sources.end(), [](const GlareSource& a, const GlareSource& b) {
-        return luminance(a.illuminance) > luminance(b.illuminance);
-    });
+std::string glare_sources_lines(unsigned frame, const scene::Scene& scene, std::vector<gpu_scene::GlareSource> sources,
+                                const vision::ScatteringEye& eye) {
+    std::stable_sort(sources.begin(), sources.end(),
+                     [](const gpu_scene::GlareSource& a, const gpu_scene::GlareSource& b) {
+                         return luminance(a.illuminance) > luminance(b.illuminance);
+                     });
     std::string text;
-    for (const GlareSource& s : sources) {
+    for (const gpu_scene::GlareSource& s : sources) {
         const double cosine = -s.direction.z, theta = std::acos(std::clamp(cosine, -1.0, 1.0)) * kDegreesPerRadian,
                      lux = luminance(s.illuminance);
         std::string name = scene.nodes[s.node].name;
@@ -184,9 +190,9 @@ std::string glare_sources_lines(unsigned frame, const Scene& scene, std::vector<
         text += format("%u,%s,%.4f,%.4f,%.3f,%.6g,%.6g,%.6g,%.3f\n", frame, name.c_str(),
                        std::atan2(s.direction.x, -s.direction.z) * kDegreesPerRadian,
                        std::asin(s.direction.y) * kDegreesPerRadian, s.distance, s.candela, lux,
-                       lux * cosine * cie_general_glare(std::max(theta, 0.1), eye), s.inside);
+                       lux * cosine * vision::cie_general_glare(std::max(theta, 0.1), eye), s.inside);
     }
     return text;
 }
 
-}  // namespace vesper
+}  // namespace vesper::apps

@@ -8,7 +8,7 @@
 
 #include "command_line.h"
 
-namespace vesper {
+namespace vesper::apps {
 namespace {
 
 constexpr size_t kWidth = 100, kLeft = 28;  // columns: of a page, of what stands before descriptions
@@ -107,4 +107,4 @@ private:
 
 std::shared_ptr<CLI::FormatterBase> help_pages() { return std::make_shared<Pages>(); }
 
-}  // namespace vesper
+}  // namespace vesper::apps

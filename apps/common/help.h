@@ -7,10 +7,10 @@ namespace CLI {
 class FormatterBase;
 }
 
-namespace vesper {
+namespace vesper::apps {
 
 /// --help lists the options of the first page (kFirstPage), each with the first line of its description; --help-all
 /// lists all options by groups, with all lines.
 std::shared_ptr<CLI::FormatterBase> help_pages();
 
-}  // namespace vesper
+}  // namespace vesper::apps

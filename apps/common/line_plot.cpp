@@ -5,7 +5,7 @@
 
 #include "canvas.h"
 
-namespace vesper {
+namespace vesper::apps {
 namespace {
 
 const CanvasColour kGrid(0.86), kInk(0.15);
@@ -84,4 +84,4 @@ void save_plot(const std::string& file, const LinePlot& plot) {
     canvas.save(file);
 }
 
-}  // namespace vesper
+}  // namespace vesper::apps

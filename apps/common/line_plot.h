@@ -6,7 +6,7 @@
 
 #include <glm/glm.hpp>
 
-namespace vesper {
+namespace vesper::apps {
 
 struct PlotLine {
     std::string name;
@@ -24,4 +24,4 @@ struct LinePlot {
 /// Draws axes that hold every line, a legend on the right, and the lines; writes a PNG of 1100 x 560 px. Throws Error.
 void save_plot(const std::string& file, const LinePlot& plot);
 
-}  // namespace vesper
+}  // namespace vesper::apps

@@ -8,7 +8,7 @@
 #include "base/one_line.h"
 #include "print.h"
 
-namespace vesper {
+namespace vesper::apps {
 
 namespace fs = std::filesystem;
 
@@ -59,4 +59,4 @@ std::vector<NumberedFile> numbered_files(const NumberedName& name) {
     return found;
 }
 
-}  // namespace vesper
+}  // namespace vesper::apps

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace vesper {
+namespace vesper::apps {
 
 /// A name with one number in it.
 struct NumberedName {
@@ -28,4 +28,4 @@ std::vector<NumberedFile> existing_files(const NumberedName&);
 /// The same. Throws Error if there are none.
 std::vector<NumberedFile> numbered_files(const NumberedName&);
 
-}  // namespace vesper
+}  // namespace vesper::apps

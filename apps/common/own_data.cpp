@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 
-namespace vesper {
+namespace vesper::apps {
 namespace {
 
 namespace fs = std::filesystem;
@@ -53,4 +53,4 @@ std::optional<fs::path> own_data_file(const std::string& name) {
     return own_data() / below;
 }
 
-}  // namespace vesper
+}  // namespace vesper::apps

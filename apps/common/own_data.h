@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace vesper {
+namespace vesper::apps {
 
 /// The folder of Vesper's own scenes and tables (`data/` of the source tree), found from where the running program
 /// lies: `share/vesper` beside it or of its install prefix, which in a build folder is a link to the source tree.
@@ -20,4 +20,4 @@ std::string own_data_name(const std::filesystem::path& file);
 /// names that lead out of it.
 std::optional<std::filesystem::path> own_data_file(const std::string& name);
 
-}  // namespace vesper
+}  // namespace vesper::apps

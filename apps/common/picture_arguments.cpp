@@ -12,7 +12,7 @@
 #include "print.h"
 #include "vision/relative_picture.h"
 
-namespace vesper {
+namespace vesper::apps {
 namespace {
 
 /// Degrees from the bottom to the top of a picture plane at distance 1; 0 where that is no picture.
@@ -44,7 +44,7 @@ private:
 };
 
 /// Angle in height that a header tells, degrees, or 0.
-double angle_of(const Header& header) {
+double angle_of(const io::Header& header) {
     std::optional<RadianceView> view;
     for (const auto& [key, value] : header) {
         double left = 0, bottom = 0, right = 0, top = 0;
@@ -59,7 +59,7 @@ double angle_of(const Header& header) {
 }
 
 /// Width of a pixel over its height (OpenEXR), or the inverse (Radiance): 1 if square.
-double pixel_aspect_of(const Header& header) {
+double pixel_aspect_of(const io::Header& header) {
     double aspect = 1;
     for (const auto& [key, value] : header)
         if (double factor = 0;
@@ -69,7 +69,7 @@ double pixel_aspect_of(const Header& header) {
 }
 
 /// Unit, source and notes of a picture for which no option gives a scale.
-void find_unit(PictureMeaning& meaning, const HdrImage& image, const PictureRequest& request) {
+void find_unit(PictureMeaning& meaning, const io::HdrImage& image, const PictureRequest& request) {
     if (image.white_luminance > 0) {
         meaning.unit = image.white_luminance, meaning.scale_source = "header";
     } else if (request.to_white) {
@@ -80,8 +80,8 @@ void find_unit(PictureMeaning& meaning, const HdrImage& image, const PictureRequ
             "its header has an EXPOSURE, but no unit: taken as cd/m^2 (--scale 179 if these are Radiance's watts)");
     } else if (request.held > 0) {
         meaning.unit = request.held, meaning.scale_source = "sequence";
-    } else if (const RelativeLuminance found = relative_luminance(image.rgb); found.log_average > 0) {
-        meaning.unit = plausible_scale(found), meaning.scale_source = "auto";
+    } else if (const vision::RelativeLuminance found = vision::relative_luminance(image.rgb); found.log_average > 0) {
+        meaning.unit = vision::plausible_scale(found), meaning.scale_source = "auto";
         meaning.scale_note = format(
             "its header names no unit: 1.0 is taken as %.6g cd/m^2, so that its log average is %.3g cd/m^2 "
             "(--scale tells another)",
@@ -124,7 +124,7 @@ VkExtent2D parse_size(const std::string& text, unsigned least, unsigned most) {
     return {width, height};
 }
 
-PictureMeaning meaning_of(const HdrImage& image, const PictureRequest& request) {
+PictureMeaning meaning_of(const io::HdrImage& image, const PictureRequest& request) {
     PictureMeaning meaning;
     if (const std::string& scale = request.scale.scale; scale == "auto") {
         find_unit(meaning, image, request);
@@ -146,4 +146,4 @@ PictureMeaning meaning_of(const HdrImage& image, const PictureRequest& request) 
     return meaning;
 }
 
-}  // namespace vesper
+}  // namespace vesper::apps

@@ -9,7 +9,7 @@
 
 #include "io/hdr_image.h"
 
-namespace vesper {
+namespace vesper::apps {
 
 /// WIDTHxHEIGHT, px, with sides from `least` to `most`. Throws Error.
 VkExtent2D parse_size(const std::string& text, unsigned least = 1, unsigned most = 16384);
@@ -45,6 +45,6 @@ struct PictureMeaning {
     std::vector<std::string> notes;  ///< what was taken for granted, and what of the file was passed over
     std::string scale_note;          ///< likewise, of a unit that was found for this picture alone
 };
-PictureMeaning meaning_of(const HdrImage&, const PictureRequest&);
+PictureMeaning meaning_of(const io::HdrImage&, const PictureRequest&);
 
-}  // namespace vesper
+}  // namespace vesper::apps

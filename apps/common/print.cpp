@@ -8,7 +8,7 @@
 
 #include "base/one_line.h"
 
-namespace vesper {
+namespace vesper::apps {
 namespace {
 
 constexpr size_t kMostBytes = 4000;               // of a text within a line
@@ -127,4 +127,4 @@ void print_notes(const std::vector<std::string>& notes, const std::string& befor
 
 void print_error(const std::string& program, const std::string& text) { print_line(stderr, program + ": ", text); }
 
-}  // namespace vesper
+}  // namespace vesper::apps

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace vesper {
+namespace vesper::apps {
 
 /// printf into a string, for the conversions c, d, e, f, g, i, s, u, x and %. Texts (%s) are made plain: see
 /// one_line().
@@ -25,4 +25,4 @@ void print_notes(const std::vector<std::string>& notes, const std::string& befor
 /// Prints "PROGRAM: TEXT" to standard error; TEXT is made plain.
 void print_error(const std::string& program, const std::string& text);
 
-}  // namespace vesper
+}  // namespace vesper::apps

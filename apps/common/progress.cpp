@@ -6,7 +6,7 @@
 
 #include "base/one_line.h"
 
-namespace vesper {
+namespace vesper::apps {
 
 Progress::Progress(std::string what, unsigned total)
     : what_(std::move(what)), total_(total), visible_(total > 1 && isatty(STDERR_FILENO)) {}
@@ -26,4 +26,4 @@ void Progress::step() {
     std::fflush(stderr);
 }
 
-}  // namespace vesper
+}  // namespace vesper::apps

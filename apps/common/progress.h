@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 
-namespace vesper {
+namespace vesper::apps {
 
 /// Draws on standard error while it is a terminal; silent otherwise.
 class Progress {
@@ -20,4 +20,4 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-}  // namespace vesper
+}  // namespace vesper::apps

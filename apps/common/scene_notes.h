@@ -7,10 +7,10 @@
 #include "base/one_line.h"
 #include "scene/gltf.h"
 
-namespace vesper {
+namespace vesper::apps {
 
 /// For who forgot to convert a scene; empty for those who did not.
-inline std::string photometry_note(const LoadedScene& loaded, const std::string& file) {
+inline std::string photometry_note(const scene::LoadedScene& loaded, const std::string& file) {
     return loaded.photometric ? ""
                               : one_line(file) +
                                     " has no photometry: read as plain glTF (sRGB textures, no ambient light, a black "
@@ -18,10 +18,10 @@ inline std::string photometry_note(const LoadedScene& loaded, const std::string&
 }
 
 /// That, and the notes of its reading.
-inline std::vector<std::string> notes_of(const LoadedScene& loaded, const std::string& file) {
+inline std::vector<std::string> notes_of(const scene::LoadedScene& loaded, const std::string& file) {
     std::vector<std::string> notes = loaded.notes;
     if (!loaded.photometric) notes.push_back(photometry_note(loaded, file));
     return notes;
 }
 
-}  // namespace vesper
+}  // namespace vesper::apps

@@ -6,7 +6,7 @@
 #include "print.h"
 #include "shared/photometry.h"
 
-namespace vesper {
+namespace vesper::apps {
 namespace {
 
 constexpr double kPercents[] = {1, 5, 25, 50, 75, 95, 99, 99.9};
@@ -73,4 +73,4 @@ std::string json_of(const LuminanceStatistics& s) {
            ", \"non_finite_pixels\": " + std::to_string(s.non_finite) + "}";
 }
 
-}  // namespace vesper
+}  // namespace vesper::apps

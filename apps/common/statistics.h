@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace vesper {
+namespace vesper::apps {
 
 /// Statistics of the finite pixels, cd/m^2.
 struct LuminanceStatistics {
@@ -26,4 +26,4 @@ std::string text_of(const LuminanceStatistics& statistics, const std::string& he
 /// As a JSON object.
 std::string json_of(const LuminanceStatistics& statistics);
 
-}  // namespace vesper
+}  // namespace vesper::apps

@@ -10,50 +10,54 @@
 #include "scene/display_file.h"
 #include "tone_log.h"
 
-namespace vesper {
+namespace vesper::apps {
 namespace {
+
+using render::Glare;
 
 struct NamedGlare {
     const char* name;
     Glare glare;
-    ScatterSettings::Model model = ScatterSettings::Model::Cie;
+    gpu_scene::ScatterSettings::Model model = gpu_scene::ScatterSettings::Model::Cie;
 };
 constexpr NamedGlare kGlares[]{{"none", Glare::None},
-                               {"cie", Glare::Scatter, ScatterSettings::Model::Cie},
-                               {"temporal", Glare::Scatter, ScatterSettings::Model::Temporal},
-                               {"spencer", Glare::Scatter, ScatterSettings::Model::Spencer},
-                               {"ward", Glare::Scatter, ScatterSettings::Model::Ward},
+                               {"cie", Glare::Scatter, gpu_scene::ScatterSettings::Model::Cie},
+                               {"temporal", Glare::Scatter, gpu_scene::ScatterSettings::Model::Temporal},
+                               {"spencer", Glare::Scatter, gpu_scene::ScatterSettings::Model::Spencer},
+                               {"ward", Glare::Scatter, gpu_scene::ScatterSettings::Model::Ward},
                                {"ldr", Glare::Ldr}};
 const std::map<std::string, uint32_t> kGamuts{
     {"luminance", shared::kGamutLuminance}, {"chromaticity", shared::kGamutChromaticity}, {"clip", shared::kGamutClip}};
-const std::map<std::string, SpencerState> kPupils{
-    {"photopic", SpencerState::Photopic}, {"mesopic", SpencerState::Mesopic}, {"scotopic", SpencerState::Scotopic}};
+const std::map<std::string, vision::SpencerState> kPupils{{"photopic", vision::SpencerState::Photopic},
+                                                          {"mesopic", vision::SpencerState::Mesopic},
+                                                          {"scotopic", vision::SpencerState::Scotopic}};
 
-Display display_of(const ToneArguments& arguments) {
-    Display display = arguments.display.empty() ? known_displays().front().display : find_display(arguments.display);
-    const bool table = display.eotf == Eotf::Table;
+vision::Display display_of(const ToneArguments& arguments) {
+    vision::Display display =
+        arguments.display.empty() ? vision::known_displays().front().display : scene::find_display(arguments.display);
+    const bool table = display.eotf == vision::Eotf::Table;
     if (table && (arguments.peak || arguments.black))
         throw Error("--display " + arguments.display +
                     ": --display-peak and --display-black cannot change a measured table");
-    if (display.eotf != Eotf::Gamma && arguments.gamma)
+    if (display.eotf != vision::Eotf::Gamma && arguments.gamma)
         throw Error("--display " + arguments.display + ": --display-gamma: the display has no gamma");
     display.peak = arguments.peak.value_or(display.peak);
     display.black = arguments.black.value_or(display.black);
     display.gamma = arguments.gamma.value_or(display.gamma);
     display.ambient = arguments.ambient.value_or(display.ambient);
     display.reflection = arguments.reflection.value_or(display.reflection);
-    check_display(display);
+    vision::check_display(display);
     return display;
 }
 
 /// Adds the settings of an operator to a command.
 struct OperatorOptions {
     Command& command;
-    void operator()(const OperatorOption& option, float& value) const {
+    void operator()(const render::OperatorOption& option, float& value) const {
         Option added = command.add_option(option.name, value, option.help).check(between(option.low, option.high));
         if (option.shows_default) added.shows_default();
     }
-    void operator()(const OperatorOption& option, bool& value) const {
+    void operator()(const render::OperatorOption& option, bool& value) const {
         command.add_flag(option.name, value, option.help);
     }
 };
@@ -95,8 +99,8 @@ void add_tone_options(Command command, ToneArguments& a) {
     a.tone.operators.each([&](auto& settings) { settings.options(OperatorOptions{command}); });
     command.help_group();
     command.add_option("--display", a.display,
-                       "NAME (" + known_display_names() +
-                           ") or PROFILE.json (docs/display.md); default: " + known_displays().front().name);
+                       "NAME (" + vision::known_display_names() +
+                           ") or PROFILE.json (docs/display.md); default: " + vision::known_displays().front().name);
     command.help_group("Display");
     command
         .add_option(
@@ -116,8 +120,8 @@ void add_tone_options(Command command, ToneArguments& a) {
     command.help_group();
 }
 
-ToneChainSettings tone_settings(const ToneArguments& arguments) {
-    ToneChainSettings settings;
+render::ToneChainSettings tone_settings(const ToneArguments& arguments) {
+    render::ToneChainSettings settings;
     const NamedGlare& glare = *std::find_if(std::begin(kGlares), std::end(kGlares),
                                             [&](const NamedGlare& one) { return arguments.glare == one.name; });
     settings.glare = glare.glare;
@@ -134,7 +138,7 @@ ToneChainSettings tone_settings(const ToneArguments& arguments) {
     if (!(arguments.histogram_high >= 1.01 * arguments.histogram_low))
         throw Error("--histogram-high must be more than --histogram-low");
     settings.tone.operators.check();
-    if (settings.glare == Glare::Scatter && settings.tone_operator == Operator::Ldr)
+    if (settings.glare == Glare::Scatter && settings.tone_operator == render::Operator::Ldr)
         throw Error("--glare " + arguments.glare + ": the ldr operator has no luminances to scatter");
     settings.display = display_of(arguments);
     return settings;
@@ -154,25 +158,25 @@ const std::vector<std::string>& gamut_names() {
     return names;
 }
 
-std::string name_of(ScatterSettings::Model wanted) {
+std::string name_of(gpu_scene::ScatterSettings::Model wanted) {
     return std::find_if(std::begin(kGlares), std::end(kGlares),
                         [&](const NamedGlare& one) { return one.glare == Glare::Scatter && one.model == wanted; })
         ->name;
 }
 
-std::string name_of(Operator wanted) { return std::string(operator_info(wanted).name); }
+std::string name_of(render::Operator wanted) { return std::string(render::operator_info(wanted).name); }
 
 std::string digits(double value) { return format("%.9g", value); }
 
-Header describe_tone(const ToneChainSettings& settings, const ToneMapped& shown) {
-    Header header{{"vesper:operator", name_of(settings.tone_operator)},
-                  {"vesper:adaptationLuminance", digits(double(shown.curve.adaptation))},
-                  {"vesper:eyeSeconds", digits(double(shown.eye.seconds))},
-                  {"vesper:fovealLevel", std::to_string(shown.foveal_level)},
-                  {"vesper:displayLow", digits(double(settings.display.low()))},
-                  {"vesper:displayHigh", digits(double(settings.display.high()))},
-                  {"vesper:coneSigma", digits(double(shown.curve.cone_sigma))},
-                  {"vesper:rodSigma", digits(double(shown.curve.rod_sigma))}};
+io::Header describe_tone(const render::ToneChainSettings& settings, const render::ToneMapped& shown) {
+    io::Header header{{"vesper:operator", name_of(settings.tone_operator)},
+                      {"vesper:adaptationLuminance", digits(double(shown.curve.adaptation))},
+                      {"vesper:eyeSeconds", digits(double(shown.eye.seconds))},
+                      {"vesper:fovealLevel", std::to_string(shown.foveal_level)},
+                      {"vesper:displayLow", digits(double(settings.display.low()))},
+                      {"vesper:displayHigh", digits(double(settings.display.high()))},
+                      {"vesper:coneSigma", digits(double(shown.curve.cone_sigma))},
+                      {"vesper:rodSigma", digits(double(shown.curve.rod_sigma))}};
     for (const auto& [name, value] : named_state(shown.eye)) header.emplace_back("vesper:eye:" + name, digits(value));
     const auto list = [](const auto& values, size_t count) {
         std::string text;
@@ -190,14 +194,15 @@ Header describe_tone(const ToneChainSettings& settings, const ToneMapped& shown)
 namespace {
 
 /// A gamma of 2.2 in Rec. 709 passes for sRGB, as viewers take it.
-PngColour png_colour_of(const Display& display) {
-    PngColour colour;
-    for (const auto& [primaries, code] : {std::pair(kRec709, 1), std::pair(kRec2020, 9), std::pair(kDisplayP3, 12)})
+io::PngColour png_colour_of(const vision::Display& display) {
+    io::PngColour colour;
+    for (const auto& [primaries, code] :
+         {std::pair(io::kRec709, 1), std::pair(io::kRec2020, 9), std::pair(io::kDisplayP3, 12)})
         if (display.primaries == primaries) colour.primaries = uint8_t(code);
-    const bool square = display.eotf == Eotf::Gamma && display.gamma == 2.2f;
-    if (display.eotf == Eotf::Pq) colour.transfer = 16;
-    if (display.eotf == Eotf::Srgb || (square && colour.primaries == kPngSrgb.primaries))
-        colour.transfer = kPngSrgb.transfer;
+    const bool square = display.eotf == vision::Eotf::Gamma && display.gamma == 2.2f;
+    if (display.eotf == vision::Eotf::Pq) colour.transfer = 16;
+    if (display.eotf == vision::Eotf::Srgb || (square && colour.primaries == io::kPngSrgb.primaries))
+        colour.transfer = io::kPngSrgb.transfer;
     else if (square)
         colour.transfer = 4;
     return colour;
@@ -205,13 +210,14 @@ PngColour png_colour_of(const Display& display) {
 
 }  // namespace
 
-void write_codes(const std::string& file, const ToneMapped& shown, const Display& display, const Header& texts) {
+void write_codes(const std::string& file, const render::ToneMapped& shown, const vision::Display& display,
+                 const io::Header& texts) {
     const auto [width, height] = shown.extent;
-    const PngColour colour = png_colour_of(display);
-    if (display.bits == 8) return write_png(file, width, height, shown.display, colour, texts);
+    const io::PngColour colour = png_colour_of(display);
+    if (display.bits == 8) return io::write_png(file, width, height, shown.display, colour, texts);
     std::vector<uint32_t> words(shown.display.size() / 4);
     std::memcpy(words.data(), shown.display.data(), words.size() * 4);
-    write_png_10bit(file, width, height, words, colour, texts);
+    io::write_png_10bit(file, width, height, words, colour, texts);
 }
 
-}  // namespace vesper
+}  // namespace vesper::apps

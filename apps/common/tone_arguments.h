@@ -10,37 +10,38 @@
 #include "io/image_file.h"
 #include "render/tone_chain.h"
 
-namespace vesper {
+namespace vesper::apps {
 
 /// Options of the way from luminance to display codes.
 struct ToneArguments {
     EyeArguments eye;
     std::string glare = "none", pupil = "photopic", display, gamut = "luminance";
-    double iris = ScatteringEye{}.pigmentation;
-    uint32_t eye_seed = ApertureSettings{}.seed;
+    double iris = vision::ScatteringEye{}.pigmentation;
+    uint32_t eye_seed = vision::ApertureSettings{}.seed;
     bool lashes = false;
     std::optional<float> peak, black, gamma, ambient, reflection;  ///< in place of the display's
     double histogram_low = 1e-4, histogram_high = 1e6;             ///< cd/m^2
-    HistogramSettings histogram;
-    ToneSettings tone;
+    render::HistogramSettings histogram;
+    render::ToneSettings tone;
 };
 void add_tone_options(Command, ToneArguments&);
 /// What they say; throws Error if they contradict each other.
-ToneChainSettings tone_settings(const ToneArguments&);
+render::ToneChainSettings tone_settings(const ToneArguments&);
 
 /// The name an operator has on the command line.
-std::string name_of(Operator);
-std::string name_of(ScatterSettings::Model);
+std::string name_of(render::Operator);
+std::string name_of(gpu_scene::ScatterSettings::Model);
 /// What --glare takes.
 const std::vector<std::string>& glare_names();
 /// What --gamut takes.
 const std::vector<std::string>& gamut_names();
 /// What a picture's header should say of how it is shown.
-Header describe_tone(const ToneChainSettings&, const ToneMapped&);
+io::Header describe_tone(const render::ToneChainSettings&, const render::ToneMapped&);
 /// Nine digits, as in headers.
 std::string digits(double value);
 
 /// Writes the codes of a tone-mapped picture: 8 bits a channel, or 16 for a display of 10. Throws Error.
-void write_codes(const std::string& file, const ToneMapped&, const Display&, const Header& texts = {});
+void write_codes(const std::string& file, const render::ToneMapped&, const vision::Display&,
+                 const io::Header& texts = {});
 
-}  // namespace vesper
+}  // namespace vesper::apps

@@ -12,7 +12,7 @@
 #include "photometry/table.h"
 #include "print.h"
 
-namespace vesper {
+namespace vesper::apps {
 namespace {
 
 // The floats of EyeState before the nodes of the curve, in order.
@@ -52,10 +52,11 @@ std::vector<float> floats_of(const shared::EyeState& eye) {
 
 }  // namespace
 
-std::vector<double> curve_samples(const shared::ToneCurve& curve, Operator tone_operator, const Display& display) {
+std::vector<double> curve_samples(const shared::ToneCurve& curve, render::Operator tone_operator,
+                                  const vision::Display& display) {
     std::vector<double> shown;
     for (int i = 0; i < kSamples; ++i)
-        shown.push_back(shown_luminance(tone_operator, curve, std::pow(10.0, sample_log10(i)), display));
+        shown.push_back(render::shown_luminance(tone_operator, curve, std::pow(10.0, sample_log10(i)), display));
     return shown;
 }
 
@@ -75,8 +76,8 @@ std::string log_heading() {
     return line + glare_columns() + "\n";
 }
 
-std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve, Operator tone_operator,
-                     const Display& display, const GlareReport& glare) {
+std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve,
+                     render::Operator tone_operator, const vision::Display& display, const vision::GlareReport& glare) {
     std::string line =
         format("%u,%.17g,%.9g,%s", index, frame.seconds, double(frame.step), frame.tone_operator.c_str());
     for (float value : floats_of(frame.eye)) line += format(",%.9g", double(value));
@@ -89,14 +90,14 @@ std::string log_line(unsigned index, const LoggedFrame& frame, const shared::Ton
 
 std::vector<LoggedFrame> read_log(const std::string& file) {
     constexpr size_t kName = 3;  // the column that is no number
-    const std::vector<uint8_t> bytes = read_file(file, kMostLogBytes);
-    LineReader lines(bytes, one_line(file));
+    const std::vector<uint8_t> bytes = io::read_file(file, kMostLogBytes);
+    photometry::LineReader lines(bytes, one_line(file));
     const std::string heading(lines.next().value_or(""));
     if (heading + "\n" != log_heading()) lines.fail("these are not the columns of a log of this version");
     const size_t columns = size_t(std::count(heading.begin(), heading.end(), ',')) + 1;
     std::vector<LoggedFrame> frames;
     while (const auto line = lines.next()) {
-        const auto fields = fields_of(*line, ',', columns);
+        const auto fields = photometry::fields_of(*line, ',', columns);
         if (fields.size() != columns) lines.fail("has not " + std::to_string(columns) + " values");
         LoggedFrame frame;
         std::vector<double> values(columns);
@@ -104,7 +105,7 @@ std::vector<LoggedFrame> read_log(const std::string& file) {
             if (i == kName) continue;
             const auto value = fields[i] == "inf" && i > kName + kFloats
                                    ? std::optional(0.0)
-                                   : number_of(fields[i], false);  // a threshold increment
+                                   : photometry::number_of(fields[i], false);  // a threshold increment
             if (!value || std::abs(*value) > double(FLT_MAX))
                 lines.fail("a number is expected in column " + std::to_string(i + 1));
             values[i] = *value;
@@ -121,4 +122,4 @@ std::vector<LoggedFrame> read_log(const std::string& file) {
     return frames;
 }
 
-}  // namespace vesper
+}  // namespace vesper::apps

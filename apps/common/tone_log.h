@@ -7,7 +7,7 @@
 #include "render/tone_chain.h"
 #include "vision/glare_report.h"
 
-namespace vesper {
+namespace vesper::apps {
 
 /// One line: a frame, what the eye remembers after it, and its tone curve.
 struct LoggedFrame {
@@ -19,15 +19,16 @@ struct LoggedFrame {
 
 /// Lines of a log. The first names the columns; numbers are written so that they read back to the last bit.
 std::string log_heading();
-std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve, Operator tone_operator,
-                     const Display& display, const GlareReport& glare);
+std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve,
+                     render::Operator tone_operator, const vision::Display& display, const vision::GlareReport& glare);
 
 /// Reads a log. Throws Error, naming file and line.
 std::vector<LoggedFrame> read_log(const std::string& file);
 
 /// Luminances of the display, cd/m^2, for scene luminances of 10^-4 to 10^6 cd/m^2 in tenths of a decade.
-std::vector<double> curve_samples(const shared::ToneCurve& curve, Operator tone_operator, const Display& display);
+std::vector<double> curve_samples(const shared::ToneCurve& curve, render::Operator tone_operator,
+                                  const vision::Display& display);
 /// The state of the eye in words and numbers, for headers.
 std::vector<std::pair<std::string, double>> named_state(const shared::EyeState& eye);
 
-}  // namespace vesper
+}  // namespace vesper::apps

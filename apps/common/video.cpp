@@ -20,13 +20,13 @@
 
 extern char** environ;
 
-namespace vesper {
+namespace vesper::apps {
 namespace {
 
 constexpr int kFilm = 3;  // the descriptor of the film in ffmpeg
 
-std::vector<std::string> command_line(uint32_t width, uint32_t height, double fps, const Display& display) {
-    const bool wide = display.bits == 10, pq = display.eotf == Eotf::Pq;
+std::vector<std::string> command_line(uint32_t width, uint32_t height, double fps, const vision::Display& display) {
+    const bool wide = display.bits == 10, pq = display.eotf == vision::Eotf::Pq;
     std::vector<std::string> words{"ffmpeg",
                                    "-hide_banner",
                                    "-loglevel",
@@ -52,9 +52,9 @@ std::vector<std::string> command_line(uint32_t width, uint32_t height, double fp
     add({"-vf", filter.c_str(), "-c:v", wide ? "libx265" : "libx264", "-crf", "14", "-preset", "medium", "-pix_fmt",
          wide ? "yuv420p10le" : "yuv420p"});
     if (wide) add({"-x265-params", "log-level=error", "-tag:v", "hvc1"});
-    add({"-color_primaries", display.primaries == kRec2020     ? "bt2020"
-                             : display.primaries == kDisplayP3 ? "smpte432"
-                                                               : "bt709"});
+    add({"-color_primaries", display.primaries == io::kRec2020     ? "bt2020"
+                             : display.primaries == io::kDisplayP3 ? "smpte432"
+                                                                   : "bt709"});
     add({"-color_trc", pq ? "smpte2084" : "iec61966-2-1", "-colorspace", pq ? "bt2020nc" : "bt709", "-color_range",
          "tv"});
     const std::string film = "file:/proc/self/fd/" + std::to_string(kFilm);  // it is opened twice, for +faststart
@@ -64,7 +64,7 @@ std::vector<std::string> command_line(uint32_t width, uint32_t height, double fp
 
 }  // namespace
 
-Video::Video(std::string file, uint32_t width, uint32_t height, double fps, const Display& display)
+Video::Video(std::string file, uint32_t width, uint32_t height, double fps, const vision::Display& display)
     : file_(std::move(file)),
       film_(file_),
       log_(::memfd_create("ffmpeg", MFD_CLOEXEC)),
@@ -73,13 +73,13 @@ Video::Video(std::string file, uint32_t width, uint32_t height, double fps, cons
     std::signal(SIGPIPE, SIG_IGN);  // an ffmpeg that gives up is an error to report, not to die of
 
     int ends[2];
-    if (!log_.is_open() || ::pipe2(ends, O_CLOEXEC) != 0) fail(file_, "no pipe to ffmpeg", errno);
-    const Descriptor frames(ends[0]);
-    pipe_ = Descriptor(ends[1]);
+    if (!log_.is_open() || ::pipe2(ends, O_CLOEXEC) != 0) io::fail(file_, "no pipe to ffmpeg", errno);
+    const io::Descriptor frames(ends[0]);
+    pipe_ = io::Descriptor(ends[1]);
     // Copies above the numbers that ffmpeg will see, so that none of those is replaced before it is copied.
-    const auto copied = [](int number) { return Descriptor(::fcntl(number, F_DUPFD_CLOEXEC, kFilm + 1)); };
-    const Descriptor in = copied(frames.number()), out = copied(film_.descriptor().number()),
-                     log = copied(log_.number());
+    const auto copied = [](int number) { return io::Descriptor(::fcntl(number, F_DUPFD_CLOEXEC, kFilm + 1)); };
+    const io::Descriptor in = copied(frames.number()), out = copied(film_.descriptor().number()),
+                         log = copied(log_.number());
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, in.number(), STDIN_FILENO);
@@ -134,4 +134,4 @@ void Video::finish() {
     film_.commit();
 }
 
-}  // namespace vesper
+}  // namespace vesper::apps

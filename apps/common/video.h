@@ -10,14 +10,14 @@
 #include "io/new_file.h"
 #include "vision/display.h"
 
-namespace vesper {
+namespace vesper::apps {
 
 /// Pipes frames to the program `ffmpeg`, which encodes them into a NewFile by its descriptor: it is given no name of a
 /// file. finish() puts the film in place; without it nothing is left behind. No shell is involved.
 class Video {
 public:
     /// Throws Error if there is no ffmpeg, or the size cannot be a film's.
-    Video(std::string file, uint32_t width, uint32_t height, double frames_per_second, const Display& display);
+    Video(std::string file, uint32_t width, uint32_t height, double frames_per_second, const vision::Display& display);
     ~Video();
     Video(const Video&) = delete;
     Video& operator=(const Video&) = delete;
@@ -32,10 +32,10 @@ private:
     int wait();
 
     std::string file_;
-    NewFile film_;
-    Descriptor log_, pipe_;
+    io::NewFile film_;
+    io::Descriptor log_, pipe_;
     size_t frame_bytes_;
     pid_t process_ = -1;
 };
 
-}  // namespace vesper
+}  // namespace vesper::apps

@@ -20,7 +20,7 @@
 #include "start.h"
 #include "tone_arguments.h"
 
-namespace vesper {
+namespace vesper::bench {
 namespace {
 
 struct BenchArguments {
@@ -28,11 +28,11 @@ struct BenchArguments {
     std::vector<uint32_t> lamps{kOwnLamps}, channels{1};
     uint32_t triangles = 10000;
     RunPlan run{.settings = {.frames = 48, .laps = 3, .warm_up = 4}, .render = {}, .camera = {}, .device = {}};
-    ToneArguments tone;
+    apps::ToneArguments tone;
     std::string json, picture, growth, tables;
     std::vector<std::string> compared;
     bool no_start = false;
-    Command command;
+    apps::Command command;
 };
 
 /// One run of those that the arguments ask for.
@@ -65,17 +65,17 @@ std::vector<std::string> luminaires_of(const BenchArguments& a, const std::strin
 /// Every combination of what was listed.
 std::vector<Planned> planned_runs(const BenchArguments& a) {
     std::vector<Planned> runs;
-    ToneArguments tone = a.tone;
+    apps::ToneArguments tone = a.tone;
     const std::vector<std::string> operators = a.operators.empty() ? std::vector{tone.eye.tone_operator} : a.operators;
     const std::vector<std::string> glares = a.glares.empty() ? std::vector{tone.glare} : a.glares;
     const auto plan = [&](Planned run, const std::string& size, uint32_t channels, const std::string& glare,
                           const std::string& op) {
         tone.eye.tone_operator = op, tone.glare = glare;
-        static_cast<ToneChainSettings&>(run.plan.render) = tone_settings(tone);
+        static_cast<render::ToneChainSettings&>(run.plan.render) = apps::tone_settings(tone);
         RunSettings& s = run.plan.settings;
         s.scene = short_name(run.scene) + (run.luminaire.empty() ? "" : "(" + run.luminaire + ")");
-        s.tone_operator = name_of(run.plan.render.tone_operator), s.glare = glare, s.channels = channels;
-        s.width = parse_size(size).width, s.height = parse_size(size).height;
+        s.tone_operator = apps::name_of(run.plan.render.tone_operator), s.glare = glare, s.channels = channels;
+        s.width = apps::parse_size(size).width, s.height = apps::parse_size(size).height;
         s.threshold = double(run.plan.render.clusters.threshold);
         runs.push_back(std::move(run));
     };
@@ -92,26 +92,26 @@ std::vector<Planned> planned_runs(const BenchArguments& a) {
 
 void check_files(const BenchArguments& a) {
     for (const std::string& scene : a.scenes)
-        if (scene != "street") announce_read(scene);
+        if (scene != "street") io::announce_read(scene);
     for (const std::string& luminaire : a.luminaires)
-        if (luminaire != "point" && luminaire != "none") announce_read(luminaire);
+        if (luminaire != "point" && luminaire != "none") io::announce_read(luminaire);
     if (!a.luminaires.empty() && std::find(a.scenes.begin(), a.scenes.end(), "street") == a.scenes.end())
         throw Error("--luminaire: lamps of --scene street alone can be exchanged");
     if (!a.growth.empty() && !std::filesystem::is_directory(a.growth)) {
-        announce_write("--matrix", a.growth);
+        io::announce_write("--matrix", a.growth);
         std::error_code failed;
         if (!std::filesystem::create_directory(a.growth, failed))
             throw Error("--matrix " + one_line(a.growth) + ": cannot be made a folder");
     }
-    announce_write("--json", a.json);
-    announce_write("--picture", a.picture);
+    io::announce_write("--json", a.json);
+    io::announce_write("--picture", a.picture);
     if (!a.picture.empty() && !a.picture.ends_with(".png"))
         throw Error("--picture " + one_line(a.picture) + ": a .png file is expected");
 }
 
 std::string command_line(const BenchArguments& a) {
     std::string text;
-    for (const Option& option : a.command.options())
+    for (const apps::Option& option : a.command.options())
         if (option.count())
             for (const std::string& value : option.results())
                 text += (text.empty() ? "" : " ") + option.name() + "=" + value;
@@ -119,7 +119,7 @@ std::string command_line(const BenchArguments& a) {
 }
 
 BenchResult machine_of(const BenchArguments& a) {
-    const Device device({.select = a.run.device});
+    const gpu::Device device({.select = a.run.device});
     return {.version = VESPER_VERSION,
             .command = command_line(a),
             .device = device.name(),
@@ -154,40 +154,40 @@ void run(BenchArguments& a) {
     const auto title = [&](const RunResult& measured) {
         return headline(result, measured) + (planned.size() > 1 ? measured.settings.details() : "");
     };
-    Frame last;
+    render::Frame last;
     for (size_t i = 0; i < planned.size(); ++i) {
         const RunSettings& s = planned[i].plan.settings;
         RunResult measured;
         {
-            Progress progress(s.title(), s.frames * s.laps);
+            apps::Progress progress(s.title(), s.frames * s.laps);
             measured = measure(
                 planned[i].plan, load(i), [&] { progress.step(); }, &last);
         }
         measured.starts = starts;
         result.runs.push_back(std::move(measured));
-        if (!a.json.empty()) write_text(a.json, json_of(result));  // kept should a later run fail
-        print_text(title(result.runs.back()) + "\n");
+        if (!a.json.empty()) apps::write_text(a.json, json_of(result));  // kept should a later run fail
+        apps::print_text(title(result.runs.back()) + "\n");
         std::fflush(stdout);
     }
     for (const RunResult& measured : result.runs)
-        print_text("\n" + (planned.size() > 1 ? title(measured) + "\n" : "") + text_of(result, measured));
-    if (!a.picture.empty()) write_codes(a.picture, last, planned.back().plan.render.display);
+        apps::print_text("\n" + (planned.size() > 1 ? title(measured) + "\n" : "") + text_of(result, measured));
+    if (!a.picture.empty()) apps::write_codes(a.picture, last, planned.back().plan.render.display);
     if (!a.growth.empty())
-        for (const std::string& file : save_growth(a.growth, result)) print("%s\n", file.c_str());
+        for (const std::string& file : save_growth(a.growth, result)) apps::print("%s\n", file.c_str());
 }
 
 void work(BenchArguments& a) {
     if (!a.compared.empty())
-        print_text(comparison(read_result(a.compared.at(0)), read_result(a.compared.at(1))));
+        apps::print_text(comparison(read_result(a.compared.at(0)), read_result(a.compared.at(1))));
     else if (!a.tables.empty())
-        print_text(markdown_of(read_result(a.tables)));
+        apps::print_text(markdown_of(read_result(a.tables)));
     else
         run(a);
 }
 
 }  // namespace
 
-void add_bench(Command program) {
+void add_bench(apps::Command program) {
     const auto a = std::make_shared<BenchArguments>();
     RunSettings& s = a->run.settings;
     a->command = program;
@@ -204,50 +204,51 @@ void add_bench(Command program) {
             "--lamps", a->lamps,
             "Of the street: how many (default 256); of others: those nearest the camera at the start (default: all)")
         .separated_by(',')
-        .check(range(0u, kMaxLamps));
+        .check(apps::range(0u, scene::kMaxLamps));
     program
         .add_option("--luminaire", a->luminaires,
                     "Of the street, in place of its spots of 1,500 cd: point (1,500 cd), none, or a file of a "
                     "distribution (.ies, .ldt, .csv, .exr), scaled to the flux that the point sends down")
         .separated_by(',');
     program.add_option("--triangles", a->triangles, "Of the street: at least so many")
-        .check(range(0u, 100'000'000u))
+        .check(apps::range(0u, 100'000'000u))
         .shows_default();
     program.add_option("--channels", a->channels, "Views in every frame, side by side")
         .separated_by(',')
-        .check(range(1u, 16u))
+        .check(apps::range(1u, 16u))
         .shows_default();
     program.add_option("--frames", s.frames, "Of a lap: the path of the scene's camera in equal steps")
-        .check(range(1u, 100000u))
+        .check(apps::range(1u, 100000u))
         .shows_default();
-    program.add_option("--laps", s.laps, "How often the path is driven").check(range(1u, 1000u)).shows_default();
+    program.add_option("--laps", s.laps, "How often the path is driven").check(apps::range(1u, 1000u)).shows_default();
     program.add_option("--warm-up", s.warm_up, "Frames from all along the path before the first lap, not counted")
-        .check(range(0u, 10000u))
+        .check(apps::range(0u, 10000u))
         .shows_default();
     program
         .add_option("--threshold", a->run.render.clusters.threshold,
                     "Illuminance below which a lamp counts as dark, lx")
-        .check(between(1e-9, 1e3))
+        .check(apps::between(1e-9, 1e3))
         .shows_default();
     program.add_option("--device", a->run.device,
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
-    Option json = program.add_option("--json", a->json, "Write everything that was measured to a file");
-    Option picture = program.add_option("--picture", a->picture, "Write the last frame to a .png file");
+    apps::Option json = program.add_option("--json", a->json, "Write everything that was measured to a file");
+    apps::Option picture = program.add_option("--picture", a->picture, "Write the last frame to a .png file");
     program.add_flag("--no-start", a->no_start, "Do not time starts with a cold and a warm cache of shaders");
-    Option matrix = program.add_option("--matrix", a->growth,
-                                       "Drive the street with 64 to 4096 lamps at several sizes with several "
-                                       "operators, and draw how time grows into a folder");
-    Option compare = program.add_option("--compare", a->compared, "A.json B.json: print what B takes relative to A")
-                         .values(2)
-                         .excludes(matrix)
-                         .excludes(json)
-                         .excludes(picture);
+    apps::Option matrix = program.add_option("--matrix", a->growth,
+                                             "Drive the street with 64 to 4096 lamps at several sizes with several "
+                                             "operators, and draw how time grows into a folder");
+    apps::Option compare =
+        program.add_option("--compare", a->compared, "A.json B.json: print what B takes relative to A")
+            .values(2)
+            .excludes(matrix)
+            .excludes(json)
+            .excludes(picture);
     program.add_option("--tables", a->tables, "FILE.json: print what was measured as tables of Markdown")
         .excludes(matrix)
         .excludes(compare)
         .excludes(json)
         .excludes(picture);
-    add_tone_options(program, a->tone);
+    apps::add_tone_options(program, a->tone);
     program.option("--operator").takes_list(a->operators);
     program.option("--glare").takes_list(a->glares);
     program.footer(
@@ -260,4 +261,4 @@ void add_bench(Command program) {
     program.callback([a] { work(*a); });
 }
 
-}  // namespace vesper
+}  // namespace vesper::bench

@@ -3,8 +3,8 @@
 
 #include "command_line.h"
 
-namespace vesper {
+namespace vesper::bench {
 
-void add_bench(Command program);
+void add_bench(apps::Command program);
 
-}  // namespace vesper
+}  // namespace vesper::bench

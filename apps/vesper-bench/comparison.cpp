@@ -7,8 +7,10 @@
 #include "print.h"
 #include "result.h"
 
-namespace vesper {
+namespace vesper::bench {
 namespace {
+
+using apps::format;
 
 bool alike(const RunSettings& a, const RunSettings& b) {
     return a.scene == b.scene && a.tone_operator == b.tone_operator && a.glare == b.glare && a.width == b.width &&
@@ -19,14 +21,15 @@ bool alike(const RunSettings& a, const RunSettings& b) {
 // `laps`: whether there were several of either; one says nothing about the next.
 std::string row(const std::string& name, const Spread& a, const Spread& b, bool laps) {
     const Ratio r = ratio(a, b);
-    const std::string numbers = "  " + column(name, 36) + format(" %9.2f %9.2f", a.median, b.median);
+    const std::string numbers = "  " + apps::column(name, 36) + format(" %9.2f %9.2f", a.median, b.median);
     if (!laps && r.median > 0) return numbers + format("  %6.3f\n", r.median);
     return numbers + (r.median > 0 ? format("  %6.3f  (%.3f to %.3f)\n", r.median, r.low, r.high) : "       -\n");
 }
 
 // Of what was measured once.
 std::string row(const std::string& name, double a, double b) {
-    return "  " + column(name, 36) + format(" %9.2f %9.2f", a, b) + (a > 0 ? format("  %6.3f\n", b / a) : "       -\n");
+    return "  " + apps::column(name, 36) + format(" %9.2f %9.2f", a, b) +
+           (a > 0 ? format("  %6.3f\n", b / a) : "       -\n");
 }
 
 std::string compare_runs(const RunResult& a, const RunResult& b) {
@@ -34,7 +37,7 @@ std::string compare_runs(const RunResult& a, const RunResult& b) {
     const bool laps = a.settings.laps > 1 || b.settings.laps > 1;
     std::string text = a.settings.title() + a.settings.details();
     if (!alike(a.settings, b.settings)) text += "\nwith " + b.settings.title() + b.settings.details();
-    text += "\n  " + column("", 36) + "         A         B   B / A  (as laps differ)\n" +
+    text += "\n  " + apps::column("", 36) + "         A         B   B / A  (as laps differ)\n" +
             row("frame, ms", a.frame, b.frame, laps) + row("frame, 99 %, ms", a.p99, b.p99);
     for (size_t i = 0; i < kHostParts.size(); ++i)
         text += row(std::string("host: ") + kHostParts[i] + ", ms", a.host[i], b.host[i], laps);
@@ -82,4 +85,4 @@ std::string comparison(const BenchResult& a, const BenchResult& b) {
     return text;
 }
 
-}  // namespace vesper
+}  // namespace vesper::bench

@@ -5,8 +5,10 @@
 #include "line_plot.h"
 #include "result.h"
 
-namespace vesper {
+namespace vesper::bench {
 namespace {
+
+using apps::PlotLine;
 
 constexpr size_t kColours = 8;  // of a plot
 
@@ -69,9 +71,9 @@ std::vector<PlotLine> pass_lines(const BenchResult& result) {
 
 std::vector<std::string> save_growth(const std::string& folder, const BenchResult& result) {
     std::vector<std::string> files;
-    const auto save = [&](const std::string& name, const LinePlot& plot) {
+    const auto save = [&](const std::string& name, const apps::LinePlot& plot) {
         files.push_back(folder + "/" + name);
-        save_plot(files.back(), plot);
+        apps::save_plot(files.back(), plot);
     };
     const std::string on = " on " + result.device;
     const auto channels = [](const RunSettings& s) {
@@ -106,4 +108,4 @@ std::vector<std::string> save_growth(const std::string& folder, const BenchResul
     return files;
 }
 
-}  // namespace vesper
+}  // namespace vesper::bench

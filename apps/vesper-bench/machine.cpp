@@ -12,7 +12,7 @@
 #include "base/stopwatch.h"
 #include "gpu/memory.h"
 
-namespace vesper {
+namespace vesper::bench {
 namespace {
 
 constexpr int kTries = 5;
@@ -52,11 +52,11 @@ double host_copy_bandwidth(uint64_t bytes) {
     return best;
 }
 
-double device_copy_bandwidth(const Device& device, uint64_t bytes) {
-    Arena arena(device);
-    OwnedBuffer buffers[2];
-    for (OwnedBuffer& buffer : buffers) {
-        buffer = make_buffer(device, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+double device_copy_bandwidth(const gpu::Device& device, uint64_t bytes) {
+    gpu::Arena arena(device);
+    gpu::OwnedBuffer buffers[2];
+    for (gpu::OwnedBuffer& buffer : buffers) {
+        buffer = gpu::make_buffer(device, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
         arena.bind(buffer.get());
     }
     const auto copy = [&](uint32_t times) {
@@ -85,7 +85,7 @@ double device_copy_bandwidth(const Device& device, uint64_t bytes) {
     return best;
 }
 
-double copy_bandwidth(const Device& device) {
+double copy_bandwidth(const gpu::Device& device) {
     return device.is_cpu() ? host_copy_bandwidth() : device_copy_bandwidth(device);
 }
 
@@ -99,4 +99,4 @@ uint64_t peak_host_bytes() {
 
 void forget_peak_host_bytes() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
-}  // namespace vesper
+}  // namespace vesper::bench

@@ -6,7 +6,7 @@
 
 #include "gpu/device.h"
 
-namespace vesper {
+namespace vesper::bench {
 
 /// The host's processor, as it names itself.
 std::string processor_name();
@@ -15,14 +15,14 @@ constexpr uint64_t kCopiedBytes = 256ull << 20;  ///< larger than any cache
 
 /// Bytes read and written per second while memory is copied, the best of several times: by the device's own command, or
 /// by all threads of the host.
-double device_copy_bandwidth(const Device& device, uint64_t bytes = kCopiedBytes);
+double device_copy_bandwidth(const gpu::Device& device, uint64_t bytes = kCopiedBytes);
 double host_copy_bandwidth(uint64_t bytes = kCopiedBytes);
 /// That of the device. Where it is the processor, that of the host, since the command there uses one thread.
-double copy_bandwidth(const Device& device);
+double copy_bandwidth(const gpu::Device& device);
 
 /// Most memory of this process that was resident at once, bytes, since it was last forgotten (where the system can
 /// forget).
 uint64_t peak_host_bytes();
 void forget_peak_host_bytes();
 
-}  // namespace vesper
+}  // namespace vesper::bench

@@ -3,8 +3,8 @@
 #include "command_line.h"
 
 int main(int argc, char** argv) {
-    vesper::Program program{"Measures how fast Vesper is on this machine (docs/benchmark.md).", "vesper-bench"};
+    vesper::apps::Program program{"Measures how fast Vesper is on this machine (docs/benchmark.md).", "vesper-bench"};
     program.version(VESPER_VERSION);
-    vesper::add_bench(program);
+    vesper::bench::add_bench(program);
     return program.run(argc, argv);
 }

@@ -8,7 +8,7 @@
 #include "base/stopwatch.h"
 #include "machine.h"
 
-namespace vesper {
+namespace vesper::bench {
 namespace {
 
 constexpr double kStanding = 10;  // s
@@ -30,11 +30,11 @@ struct RunSamples {
         for (Samples& part : host) part.next_lap();
         for (PassSamples& pass : passes) pass.ms.next_lap(), pass.bytes_read.next_lap(), pass.bytes_written.next_lap();
     }
-    void add(double ms, const std::array<double, kHostParts.size()>& parts, const std::vector<Timing>& timings) {
+    void add(double ms, const std::array<double, kHostParts.size()>& parts, const std::vector<graph::Timing>& timings) {
         frame.add(ms);
         total_ms += ms;
         for (size_t i = 0; i < parts.size(); ++i) host[i].add(parts[i]);
-        for (const Timing& timing : timings) {
+        for (const graph::Timing& timing : timings) {
             auto found = std::find_if(passes.begin(), passes.end(),
                                       [&](const PassSamples& pass) { return pass.name == timing.pass; });
             if (found == passes.end()) found = passes.insert(passes.end(), {timing.pass, {}, {}, {}});
@@ -47,38 +47,38 @@ struct RunSamples {
 /// The renderer on its way.
 class Drive {
 public:
-    Drive(const RunPlan& plan, const Scene& scene, Device& device)
+    Drive(const RunPlan& plan, const scene::Scene& scene, gpu::Device& device)
         : plan_(plan),
           scene_(scene),
-          seconds_(animation_length(scene) > 0 ? animation_length(scene) : kStanding),
+          seconds_(scene::animation_length(scene) > 0 ? scene::animation_length(scene) : kStanding),
           renderer_(device, scene) {}
 
     /// Renders every channel at a part [0, 1) of the path, `step` s after the frame before.
     void frame(double part, double step, RunSamples* samples) {
         Stopwatch whole, watch;
-        const SceneFrame moment{world_transforms(scene_, part * seconds_)};
-        const std::vector<View> views =
-            channel_views(camera_view(scene_, moment, plan_.camera, plan_.extent()), plan_.settings.channels);
+        const gpu_scene::SceneFrame moment{scene::world_transforms(scene_, part * seconds_)};
+        const std::vector<gpu_scene::View> views = channel_views(
+            gpu_scene::camera_view(scene_, moment, plan_.camera, plan_.extent()), plan_.settings.channels);
         std::array<double, kHostParts.size()> host{watch.lap()};
-        std::vector<Timing> timings;
-        for (const View& view : views) {
+        std::vector<graph::Timing> timings;
+        for (const gpu_scene::View& view : views) {
             last_ = renderer_.render(plan_.render, view, moment, float(step / double(views.size())), {});
-            const HostTimes& times = last_.host_times;
+            const graph::HostTimes& times = last_.host_times;
             const double parts[]{times.declare, times.plan, times.record, times.submit, times.wait};
             for (size_t i = 0; i < std::size(parts); ++i) host[1 + i] += parts[i];
             host.back() += watch.lap() - (times.declare + times.plan + times.record + times.submit + times.wait);
-            for (const Timing& timing : last_.timings) add(timings, timing);
+            for (const graph::Timing& timing : last_.timings) add(timings, timing);
         }
         if (samples) samples->add(whole.milliseconds(), host, timings);
     }
     double seconds() const { return seconds_; }
-    Renderer& renderer() { return renderer_; }
-    Frame& last() { return last_; }
+    render::Renderer& renderer() { return renderer_; }
+    render::Frame& last() { return last_; }
 
 private:
     // Channels are counted together.
-    static void add(std::vector<Timing>& all, const Timing& timing) {
-        for (Timing& known : all)
+    static void add(std::vector<graph::Timing>& all, const graph::Timing& timing) {
+        for (graph::Timing& known : all)
             if (known.pass == timing.pass) {
                 known.milliseconds += timing.milliseconds, known.bytes_read += timing.bytes_read,
                     known.bytes_written += timing.bytes_written;
@@ -88,10 +88,10 @@ private:
     }
 
     const RunPlan& plan_;
-    const Scene& scene_;
+    const scene::Scene& scene_;
     double seconds_;
-    Renderer renderer_;
-    Frame last_;
+    render::Renderer renderer_;
+    render::Frame last_;
 };
 
 void summarize(const RunSamples& samples, RunResult& result) {
@@ -108,9 +108,9 @@ void summarize(const RunSamples& samples, RunResult& result) {
 
 }  // namespace
 
-std::vector<View> channel_views(const View& camera, uint32_t channels) {
+std::vector<gpu_scene::View> channel_views(const gpu_scene::View& camera, uint32_t channels) {
     const float width = std::atan(camera.tangent_high.x) - std::atan(camera.tangent_low.x);  // rad
-    std::vector<View> views(channels, camera);
+    std::vector<gpu_scene::View> views(channels, camera);
     for (uint32_t i = 0; i < channels; ++i) {
         const float turn = (float(i) - 0.5f * float(channels - 1)) * width;  // to the right
         views[i].world_to_view = glm::rotate(glm::dmat4(1), double(turn), glm::dvec3(0, 1, 0)) * camera.world_to_view;
@@ -118,12 +118,13 @@ std::vector<View> channel_views(const View& camera, uint32_t channels) {
     return views;
 }
 
-RunResult measure(const RunPlan& plan, const Scene& scene, const std::function<void()>& frame_done, Frame* last) {
+RunResult measure(const RunPlan& plan, const scene::Scene& scene, const std::function<void()>& frame_done,
+                  render::Frame* last) {
     forget_peak_host_bytes();
     RunResult result;
     result.settings = plan.settings;
     RunSettings& settings = result.settings;
-    Device device({.select = plan.device});
+    gpu::Device device({.select = plan.device});
     Drive drive(plan, scene, device);
 
     const Stopwatch watch;
@@ -150,11 +151,11 @@ RunResult measure(const RunPlan& plan, const Scene& scene, const std::function<v
     return result;
 }
 
-void first_frame(const RunPlan& plan, const Scene& scene, const std::function<void()>& frame_done) {
-    Device device({.select = plan.device});
+void first_frame(const RunPlan& plan, const scene::Scene& scene, const std::function<void()>& frame_done) {
+    gpu::Device device({.select = plan.device});
     Drive drive(plan, scene, device);
     drive.frame(0, 0, nullptr);
     frame_done();
 }
 
-}  // namespace vesper
+}  // namespace vesper::bench

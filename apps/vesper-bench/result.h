@@ -8,7 +8,7 @@
 
 #include "samples.h"
 
-namespace vesper {
+namespace vesper::bench {
 
 /// What was run. Numbers are counts unless stated.
 struct RunSettings {
@@ -86,4 +86,4 @@ std::string comparison(const BenchResult& a, const BenchResult& b);
 /// names.
 std::vector<std::string> save_growth(const std::string& folder, const BenchResult&);
 
-}  // namespace vesper
+}  // namespace vesper::bench

@@ -7,8 +7,10 @@
 #include "result.h"
 #include "scene/json_value.h"
 
-namespace vesper {
+namespace vesper::bench {
 namespace {
+
+using scene::JsonValue;
 
 constexpr const char* kSchema = "vesper-bench 1";
 constexpr uint64_t kMaxFile = 64ull << 20;
@@ -121,7 +123,7 @@ std::string json_of(const BenchResult& result) {
 }
 
 BenchResult read_result(const std::string& file) {
-    const JsonFile json = parse_json(read_file(file, kMaxFile), file);
+    const scene::JsonFile json = scene::parse_json(io::read_file(file, kMaxFile), file);
     const JsonValue root(json);
     const JsonValue schema = root.at("schema");
     if (schema.text() != kSchema) schema.fail("is \"" + words(schema) + "\"; this program reads \"" + kSchema + "\"");
@@ -136,4 +138,4 @@ BenchResult read_result(const std::string& file) {
     return result;
 }
 
-}  // namespace vesper
+}  // namespace vesper::bench

@@ -3,8 +3,10 @@
 #include "print.h"
 #include "result.h"
 
-namespace vesper {
+namespace vesper::bench {
 namespace {
+
+using apps::format;
 
 constexpr double kMiB = 1 << 20;
 
@@ -74,15 +76,16 @@ std::string text_of(const BenchResult& result, const RunResult& run) {
                    run.first_frame_ms);
     if (!run.starts.empty()) text += "start     to the first frame: " + start_text(run) + "\n";
     if (run.passes.empty()) return text + "\nthe device has no timestamps: nothing is known of passes\n";
-    text += "\n" + column("pass", 28) + "      ms            laps   of sum       MiB    GB/s  of copying\n";
+    text += "\n" + apps::column("pass", 28) + "      ms            laps   of sum       MiB    GB/s  of copying\n";
     const double sum = run.passes_ms();
     for (const PassResult& pass : run.passes)
-        text += column(pass.name, 28) + format(" %7.2f %15s %8s %9.1f %7.1f %11s\n", pass.ms.median,
-                                               format("%.2f-%.2f", pass.ms.low, pass.ms.high).c_str(),
-                                               percent(sum > 0 ? pass.ms.median / sum : 0).c_str(), pass.bytes() / kMiB,
-                                               pass.ms.median > 0 ? pass.bytes() / pass.ms.median * 1e-6 : 0.0,
-                                               percent(result.copy_fraction(pass)).c_str());
-    text += column("sum", 28) + format(" %7.2f\n", sum);
+        text += apps::column(pass.name, 28) + format(" %7.2f %15s %8s %9.1f %7.1f %11s\n", pass.ms.median,
+                                                     format("%.2f-%.2f", pass.ms.low, pass.ms.high).c_str(),
+                                                     percent(sum > 0 ? pass.ms.median / sum : 0).c_str(),
+                                                     pass.bytes() / kMiB,
+                                                     pass.ms.median > 0 ? pass.bytes() / pass.ms.median * 1e-6 : 0.0,
+                                                     percent(result.copy_fraction(pass)).c_str());
+    text += apps::column("sum", 28) + format(" %7.2f\n", sum);
     return text + format("copying moves %.1f GB/s, read and written\n", result.copy_bandwidth * 1e-9);
 }
 
@@ -119,4 +122,4 @@ std::string markdown_of(const BenchResult& result) {
     return text;
 }
 
-}  // namespace vesper
+}  // namespace vesper::bench

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace vesper {
+namespace vesper::bench {
 namespace {
 
 double median(std::vector<double> values) {
@@ -49,4 +49,4 @@ Ratio ratio(const Spread& a, const Spread& b) {
     return {b.median / a.median, b.low / a.high, b.high / a.low};
 }
 
-}  // namespace vesper
+}  // namespace vesper::bench

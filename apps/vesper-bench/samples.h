@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-namespace vesper {
+namespace vesper::bench {
 
 /// Between order statistics linearly (Hyndman and Fan 1996, definition 7; R's default), of values in ascending order.
 /// `percent` in [0, 100]. 0 of nothing.
@@ -38,4 +38,4 @@ struct Ratio {
 /// Of quantities above 0; all zeros otherwise.
 Ratio ratio(const Spread& a, const Spread& b);
 
-}  // namespace vesper
+}  // namespace vesper::bench

@@ -12,7 +12,7 @@
 #include "scene/convert.h"
 #include "street.h"
 
-namespace vesper {
+namespace vesper::bench {
 namespace {
 
 namespace fs = std::filesystem;
@@ -41,10 +41,11 @@ std::string Scenes::folder(const std::string& name) const {
 void Scenes::prepare(const std::string& name) {
     if (name == "street" || files_.contains(name)) return;
     if (name == "rivoli" || name == "rivoli-measured") {
-        const fs::path data = own_data() / "rivoli";
+        const fs::path data = apps::own_data() / "rivoli";
         files_[name] = folder_ + "/" + name + ".glb";
-        convert(data / "rivoli.gltf",
-                data / (name == "rivoli" ? "rivoli.photometry.json" : "rivoli.measured.photometry.json"), files_[name]);
+        scene::convert(data / "rivoli.gltf",
+                       data / (name == "rivoli" ? "rivoli.photometry.json" : "rivoli.measured.photometry.json"),
+                       files_[name]);
     } else if (name.ends_with(".gltf") || name.ends_with(".glb")) {
         files_[name] = name;
     } else {
@@ -53,26 +54,26 @@ void Scenes::prepare(const std::string& name) {
     }
 }
 
-Scene Scenes::load(const std::string& name, uint32_t lamps, uint64_t triangles, const std::string& luminaire,
-                   const std::string& camera) const {
+scene::Scene Scenes::load(const std::string& name, uint32_t lamps, uint64_t triangles, const std::string& luminaire,
+                          const std::string& camera) const {
     if (name == "street") return lamp_street(lamps != kOwnLamps ? lamps : kStreetLamps, triangles, luminaire);
-    Scene scene = read_gltf(files_.at(name)).scene;
-    const View view = camera_view(scene, {world_transforms(scene, 0)}, camera, {1, 1});
+    scene::Scene scene = scene::read_gltf(files_.at(name)).scene;
+    const gpu_scene::View view = gpu_scene::camera_view(scene, {scene::world_transforms(scene, 0)}, camera, {1, 1});
     if (lamps != kOwnLamps) keep_nearest_lamps(scene, glm::vec3(glm::inverse(view.world_to_view)[3]), lamps);
     return scene;
 }
 
-void keep_nearest_lamps(Scene& scene, glm::vec3 eye, uint32_t count) {
-    const std::vector<glm::dmat4> world = world_transforms(scene, 0);
+void keep_nearest_lamps(scene::Scene& scene, glm::vec3 eye, uint32_t count) {
+    const std::vector<glm::dmat4> world = scene::world_transforms(scene, 0);
     std::vector<uint32_t> lamps;
     for (uint32_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].lamp != kNone) lamps.push_back(i);
+        if (scene.nodes[i].lamp != scene::kNone) lamps.push_back(i);
     if (lamps.size() < count)
         throw Error("--lamps " + std::to_string(count) + ": the scene has " + std::to_string(lamps.size()));
     std::stable_sort(lamps.begin(), lamps.end(), [&](uint32_t a, uint32_t b) {
         return glm::distance(glm::vec3(world[a][3]), eye) < glm::distance(glm::vec3(world[b][3]), eye);
     });
-    for (const uint32_t node : std::span(lamps).subspan(count)) scene.nodes[node].lamp = kNone;
+    for (const uint32_t node : std::span(lamps).subspan(count)) scene.nodes[node].lamp = scene::kNone;
 }
 
-}  // namespace vesper
+}  // namespace vesper::bench

@@ -7,7 +7,7 @@
 
 #include "scene/scene.h"
 
-namespace vesper {
+namespace vesper::bench {
 
 inline constexpr uint32_t kOwnLamps = ~0u;  ///< as many as a scene has
 
@@ -25,8 +25,8 @@ public:
     /// Reads or generates one that was prepared, from its file on. `lamps`: of the street, how many, 256 if kOwnLamps;
     /// of others, those nearest the camera at the start of its path, all if kOwnLamps. `triangles`: of the street, at
     /// least; `luminaire`: of the street (street.h). Throws Error.
-    Scene load(const std::string& name, uint32_t lamps, uint64_t triangles, const std::string& luminaire,
-               const std::string& camera) const;
+    scene::Scene load(const std::string& name, uint32_t lamps, uint64_t triangles, const std::string& luminaire,
+                      const std::string& camera) const;
 
     /// An empty folder of that name beside the files.
     std::string folder(const std::string& name) const;
@@ -38,6 +38,6 @@ private:
 
 /// Takes the light from all lamps but the `count` nearest to `eye` at the start; the first of equals stay. Throws Error
 /// if there are fewer.
-void keep_nearest_lamps(Scene& scene, glm::vec3 eye, uint32_t count);
+void keep_nearest_lamps(scene::Scene& scene, glm::vec3 eye, uint32_t count);
 
-}  // namespace vesper
+}  // namespace vesper::bench

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/stopwatch.h"
 
-namespace vesper {
+namespace vesper::bench {
 namespace {
 
 using Work = std::function<void(const std::function<void()>&)>;
@@ -59,4 +59,4 @@ std::vector<Start> time_starts(const std::string& folder, const Work& work) {
     return starts;
 }
 
-}  // namespace vesper
+}  // namespace vesper::bench

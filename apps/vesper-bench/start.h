@@ -7,7 +7,7 @@
 
 #include "result.h"
 
-namespace vesper {
+namespace vesper::bench {
 
 /// Runs `work` in two fresh processes, one after the other, whose drivers keep their shaders in `folder`: empty for the
 /// first (cold), as that left it for the second (warm). `work` calls what it is given as soon as its first frame is
@@ -15,4 +15,4 @@ namespace vesper {
 std::vector<Start> time_starts(const std::string& folder,
                                const std::function<void(const std::function<void()>&)>& work);
 
-}  // namespace vesper
+}  // namespace vesper::bench

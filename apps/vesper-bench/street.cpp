@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace vesper {
+namespace vesper::bench {
 namespace {
 
 constexpr float kSpacing = 12, kHeight = 6.5f, kHalfWidth = 7, kWall = 15, kShortest = 400;  // m
@@ -14,8 +14,9 @@ constexpr float kCandela = 1500;                                                
 constexpr float kSpeed = 50 / 3.6f, kSeconds = 10;                                           // m/s, s
 
 /// A rectangle from `corner` along two edges, its front where their cross product points.
-Mesh patch(const std::string& name, glm::vec3 corner, glm::vec3 u, glm::vec3 v, uint32_t across, uint32_t along) {
-    Primitive p;
+scene::Mesh patch(const std::string& name, glm::vec3 corner, glm::vec3 u, glm::vec3 v, uint32_t across,
+                  uint32_t along) {
+    scene::Primitive p;
     const glm::vec3 normal = glm::normalize(glm::cross(u, v));
     for (uint32_t j = 0; j <= along; ++j)
         for (uint32_t i = 0; i <= across; ++i) {
@@ -33,24 +34,25 @@ Mesh patch(const std::string& name, glm::vec3 corner, glm::vec3 u, glm::vec3 v, 
 }
 
 /// What the lamps of the street are (street.h). Measured ones go into the scene's distributions.
-Lamp luminaire_of(const std::string& name, Scene& scene) {
-    Lamp lamp{.name = "lamp", .kind = Lamp::Kind::Point, .intensity = kCandela};
+scene::Lamp luminaire_of(const std::string& name, scene::Scene& scene) {
+    scene::Lamp lamp{.name = "lamp", .kind = scene::Lamp::Kind::Point, .intensity = kCandela};
     if (name == "point") return lamp;
     if (name.empty()) {
-        lamp.kind = Lamp::Kind::Spot, lamp.inner_cone = 0.8f, lamp.outer_cone = 80 * std::numbers::pi_v<float> / 180;
+        lamp.kind = scene::Lamp::Kind::Spot, lamp.inner_cone = 0.8f,
+        lamp.outer_cone = 80 * std::numbers::pi_v<float> / 180;
         return lamp;
     }
-    scene.distributions.push_back(read_distribution(name));
-    const double flux = luminous_flux(scene.distributions.back());
+    scene.distributions.push_back(photometry::read_distribution(name));
+    const double flux = photometry::luminous_flux(scene.distributions.back());
     if (!(flux > 1e-6)) throw Error(name + ": no light");
-    lamp.kind = Lamp::Kind::Measured, lamp.distribution = 0,
+    lamp.kind = scene::Lamp::Kind::Measured, lamp.distribution = 0,
     lamp.intensity = float(2 * std::numbers::pi * double(kCandela) / flux);
     return lamp;
 }
 
 }  // namespace
 
-Scene lamp_street(uint32_t lamps, uint64_t triangles, const std::string& luminaire) {
+scene::Scene lamp_street(uint32_t lamps, uint64_t triangles, const std::string& luminaire) {
     // Cut into pieces of one spacing, so that they can be culled; the first lies behind the eye.
     const uint32_t pieces = 1 + uint32_t(std::ceil(std::max(kShortest, float((lamps + 1) / 2) * kSpacing) / kSpacing));
     const uint64_t cells =
@@ -58,7 +60,7 @@ Scene lamp_street(uint32_t lamps, uint64_t triangles, const std::string& luminai
     const uint32_t across = uint32_t(std::max(1.0, std::floor(std::sqrt(double(cells)))));
     const uint32_t along = uint32_t((cells + across - 1) / across);
 
-    Scene scene;
+    scene::Scene scene;
     scene.name = "street";
     scene.materials.push_back({.name = "grey", .base_colour = {0.2f, 0.2f, 0.2f, 1}});
     const float w = kHalfWidth;
@@ -83,10 +85,10 @@ Scene lamp_street(uint32_t lamps, uint64_t triangles, const std::string& luminai
     scene.cameras.push_back({.name = "driver"});
     scene.nodes.push_back({.name = "driver", .translation = eye, .camera = 0});
     scene.channels.push_back({.node = uint32_t(scene.nodes.size() - 1),
-                              .path = Channel::Path::Translation,
+                              .path = scene::Channel::Path::Translation,
                               .times = {0, kSeconds},
                               .values = {glm::vec4(eye, 0), glm::vec4(eye - glm::vec3(0, 0, kSpeed * kSeconds), 0)}});
     return scene;
 }
 
-}  // namespace vesper
+}  // namespace vesper::bench

@@ -3,13 +3,13 @@
 
 #include "scene/scene.h"
 
-namespace vesper {
+namespace vesper::bench {
 
 /// A straight road, 14 m wide, between walls of 15 m, of at least so many triangles. Lamps stand in pairs, one pair
 /// every 12 m, 6.5 m high: more lamps make a longer street (of at least 400 m). They shine with 1,500 cd within 80
 /// degrees of straight down; or as `luminaire` says: "point", 1,500 cd all around; "none", not at all; or as a
 /// distribution's file, aimed down, scaled to the flux that the point sends downwards, 9,425 lm. The eye, 1.2 m above
 /// the road, drives along it at 50 km/h for 10 s. Throws Error, of files.
-Scene lamp_street(uint32_t lamps, uint64_t triangles, const std::string& luminaire = "");
+scene::Scene lamp_street(uint32_t lamps, uint64_t triangles, const std::string& luminaire = "");
 
-}  // namespace vesper
+}  // namespace vesper::bench

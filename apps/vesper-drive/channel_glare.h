@@ -10,31 +10,32 @@
 #include "render/tone_mapper.h"
 #include "vision/light_elsewhere.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 /// Scatters the light of several pictures in the one eye that sees them, so that the veil of what one of them shows
 /// goes on in the others. Its memory of where light falls is made anew when pictures or eye change; with each pair of
 /// pictures it takes some megabytes of the host.
 class ChannelGlare {
 public:
-    explicit ChannelGlare(Device& device) : device_(device) {}
+    explicit ChannelGlare(gpu::Device& device) : device_(device) {}
 
     /// A view with as many more pixels on every side as its glare needs.
-    static View guarded(const View&);
+    static gpu_scene::View guarded(const gpu_scene::View&);
 
     /// Makes of the retinas of guarded views, which nothing was scattered in, what is seen where they are shown and
     /// what falls on the retina there. `turns`: of each, from its view frame to that of the eye. `eye`: what the last
     /// frame left; nothing: there was none.
-    void scatter(const RenderSettings&, std::span<const View> guarded, std::span<const glm::dmat3> turns,
-                 const std::optional<shared::EyeState>& eye, float seconds, std::vector<Frame>& frames);
+    void scatter(const render::RenderSettings&, std::span<const gpu_scene::View> guarded,
+                 std::span<const glm::dmat3> turns, const std::optional<shared::EyeState>& eye, float seconds,
+                 std::vector<render::Frame>& frames);
 
 private:
-    Device& device_;
-    ScatterSettings settings_;
-    std::vector<EyePicture> pictures_;
-    std::vector<LightSums> sums_;
-    std::vector<LightElsewhere> elsewhere_;
-    std::unique_ptr<ToneMapper> mapper_;  // for as many views
+    gpu::Device& device_;
+    gpu_scene::ScatterSettings settings_;
+    std::vector<vision::EyePicture> pictures_;
+    std::vector<vision::LightSums> sums_;
+    std::vector<vision::LightElsewhere> elsewhere_;
+    std::unique_ptr<render::ToneMapper> mapper_;  // for as many views
 };
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -12,13 +12,13 @@
 #include "io/read_file.h"
 #include "scene/json_value.h"
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
 
 constexpr size_t kMost = 32;
 constexpr uint64_t kMostPixels = 1ull << 27;  // of all: sixteen times 3840 x 2160
 
-ScreenChannel channel_of(const JsonValue& value) {
+ScreenChannel channel_of(const scene::JsonValue& value) {
     value.allow_only(
         {"name", "size_px", "yaw_deg", "pitch_deg", "roll_deg", "left_deg", "right_deg", "bottom_deg", "top_deg"});
     ScreenChannel c;
@@ -43,7 +43,8 @@ glm::dmat4 turned(const ScreenChannel& c) {
 }
 
 // What `picture` tells of each channel, side by side. What is not finite has no vote.
-std::vector<float> side_by_side(const ChannelMosaic& wall, VkExtent2D extent, std::vector<float> Frame::*picture) {
+std::vector<float> side_by_side(const ChannelMosaic& wall, VkExtent2D extent,
+                                std::vector<float> render::Frame::*picture) {
     std::vector<float> pixels(size_t(extent.width) * extent.height * 4, std::numeric_limits<float>::quiet_NaN());
     for (size_t i = 0; i < wall.channels.size(); ++i) {
         const auto [width, height] = wall.channels[i].extent;
@@ -57,13 +58,13 @@ std::vector<float> side_by_side(const ChannelMosaic& wall, VkExtent2D extent, st
 }  // namespace
 
 Channels read_channels(const std::filesystem::path& file) {
-    const JsonFile text = parse_json(read_file(file, 1u << 20), file.string());
-    const JsonValue root(text);
+    const scene::JsonFile text = scene::parse_json(io::read_file(file, 1u << 20), file.string());
+    const scene::JsonValue root(text);
     root.allow_only({"$schema", "version", "gaze", "channels"});
     if (root.at("version").integer() != 1)
         root.at("version").fail("this version of Vesper reads channels of version 1");
     Channels channels;
-    for (const JsonValue& value : root.at("channels").elements()) {
+    for (const scene::JsonValue& value : root.at("channels").elements()) {
         ScreenChannel c = channel_of(value);
         if (std::any_of(channels.screens.begin(), channels.screens.end(),
                         [&](const ScreenChannel& other) { return other.name == c.name; }))
@@ -84,8 +85,8 @@ Channels read_channels(const std::filesystem::path& file) {
     return channels;
 }
 
-View channel_view(const ScreenChannel& c, const View& driver) {
-    View view = driver;
+gpu_scene::View channel_view(const ScreenChannel& c, const gpu_scene::View& driver) {
+    gpu_scene::View view = driver;
     view.extent = c.extent;
     view.world_to_view = glm::inverse(turned(c)) * driver.world_to_view;
     view.tangent_low = {std::tan(c.left), std::tan(c.bottom)};
@@ -93,19 +94,20 @@ View channel_view(const ScreenChannel& c, const View& driver) {
     return view;
 }
 
-Frame looked_at(ChannelMosaic& wall, const Channels& channels) {
+render::Frame looked_at(ChannelMosaic& wall, const Channels& channels) {
     double device = 0;
-    for (const Frame& channel : wall.channels)
-        for (const Timing& timing : channel.timings) device += timing.milliseconds;
-    Frame frame = std::move(wall.channels[channels.gaze]);
+    for (const render::Frame& channel : wall.channels)
+        for (const graph::Timing& timing : channel.timings) device += timing.milliseconds;
+    render::Frame frame = std::move(wall.channels[channels.gaze]);
     frame.curve = wall.shown.curve, frame.eye = wall.shown.eye, frame.histogram = wall.shown.histogram;
     frame.timings = wall.shown.timings;
     frame.timings.push_back({.pass = "channels", .milliseconds = device});
     return frame;
 }
 
-ChannelMosaic ChannelRenderer::render(Renderer& renderer, const Channels& channels, const RenderSettings& settings,
-                                      const View& driver, const SceneFrame& frame, float seconds, Outputs outputs) {
+ChannelMosaic ChannelRenderer::render(render::Renderer& renderer, const Channels& channels,
+                                      const render::RenderSettings& settings, const gpu_scene::View& driver,
+                                      const gpu_scene::SceneFrame& frame, float seconds, render::Outputs outputs) {
     ChannelMosaic wall;
     VkExtent2D extent{0, 0};
     for (const ScreenChannel& c : channels.screens) {
@@ -113,14 +115,14 @@ ChannelMosaic ChannelRenderer::render(Renderer& renderer, const Channels& channe
         extent = {extent.width + c.extent.width, std::max(extent.height, c.extent.height)};
     }
     // Light that the eye scatters from one screen to others is known when there are pictures of all.
-    const bool scatters = settings.glare == Glare::Scatter && settings.tone_operator != Operator::Ldr,
+    const bool scatters = settings.glare == render::Glare::Scatter && settings.tone_operator != render::Operator::Ldr,
                together = scatters && channels.screens.size() > 1;
-    RenderSettings drawn = settings;
-    if (together) drawn.glare = Glare::None;
-    std::vector<View> views;
+    render::RenderSettings drawn = settings;
+    if (together) drawn.glare = render::Glare::None;
+    std::vector<gpu_scene::View> views;
     std::vector<glm::dmat3> turns;
     for (const ScreenChannel& c : channels.screens) {
-        const View view = channel_view(c, driver);
+        const gpu_scene::View view = channel_view(c, driver);
         views.push_back(together ? ChannelGlare::guarded(view) : view);
         turns.emplace_back(turned(c));
         wall.channels.push_back(renderer.render(drawn, views.back(), frame, 0,
@@ -128,10 +130,11 @@ ChannelMosaic ChannelRenderer::render(Renderer& renderer, const Channels& channe
         if (!scatters) wall.channels.back().scene = std::exchange(wall.channels.back().retina, {});
     }
     if (together) glare_.scatter(settings, views, turns, eye_, seconds, wall.channels);
-    const std::vector<float> pixels = side_by_side(wall, extent, scatters ? &Frame::retina : &Frame::scene);
+    const std::vector<float> pixels =
+        side_by_side(wall, extent, scatters ? &render::Frame::retina : &render::Frame::scene);
 
-    ToneChainSettings shown = settings;
-    if (shown.glare == Glare::Scatter) shown.glare = Glare::None;  // it is in them
+    render::ToneChainSettings shown = settings;
+    if (shown.glare == render::Glare::Scatter) shown.glare = render::Glare::None;  // it is in them
     const ScreenChannel& looked_at = channels.screens[channels.gaze];
     const glm::vec2 size(looked_at.extent.width, looked_at.extent.height), corner(wall.columns[channels.gaze], 0);
     shown.tone.gaze = (corner + settings.tone.gaze * size) / glm::vec2(extent.width, extent.height);
@@ -143,9 +146,9 @@ ChannelMosaic ChannelRenderer::render(Renderer& renderer, const Channels& channe
     wall.shown = mapper_.map(
         shown, {.extent = extent, .values = pixels, .channels = 4, .vertical_fov = 2 * std::atan(tangent / 2)}, seconds,
         outputs);
-    if (wants_scene && scatters) wall.shown.scene = side_by_side(wall, extent, &Frame::scene);
+    if (wants_scene && scatters) wall.shown.scene = side_by_side(wall, extent, &render::Frame::scene);
     eye_ = wall.shown.eye;
     return wall;
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

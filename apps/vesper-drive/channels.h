@@ -10,7 +10,7 @@
 #include "render/renderer.h"
 #include "render/tone_mapper.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 /// One screen, or one projector.
 struct ScreenChannel {
@@ -29,34 +29,34 @@ struct Channels {
 Channels read_channels(const std::filesystem::path&);
 
 /// What a channel of the driver's view sees.
-View channel_view(const ScreenChannel&, const View& driver);
+gpu_scene::View channel_view(const ScreenChannel&, const gpu_scene::View& driver);
 
 /// All channels of a moment, side by side, tops aligned; what lies below the shorter ones is black.
 struct ChannelMosaic {
-    ToneMapped shown;               ///< the picture of all of them; `scene`: before anything is scattered in the eye
+    render::ToneMapped shown;       ///< the picture of all of them; `scene`: before anything is scattered in the eye
     std::vector<uint32_t> columns;  ///< where each begins
-    std::vector<Frame> channels;    ///< each with its lamps and times; of `retina` and `scene` the first is empty where
-                                    ///< nothing is scattered
+    std::vector<render::Frame> channels;  ///< each with its lamps and times; of `retina` and `scene` the first is empty
+                                          ///< where nothing is scattered
 };
 
 /// The channel that is looked at, with the eye, curve and times of the whole: what is logged.
-Frame looked_at(ChannelMosaic&, const Channels&);
+render::Frame looked_at(ChannelMosaic&, const Channels&);
 
 /// Renders channels one after the other, scatters the light of all of them in the one eye, then adapts and shows them
 /// as one picture: one histogram, one eye, one tone curve.
 class ChannelRenderer {
 public:
-    explicit ChannelRenderer(Device& device) : glare_(device), mapper_(device) {}
+    explicit ChannelRenderer(gpu::Device& device) : glare_(device), mapper_(device) {}
 
-    ChannelMosaic render(Renderer&, const Channels&, const RenderSettings&, const View& driver, const SceneFrame&,
-                         float seconds, Outputs);
+    ChannelMosaic render(render::Renderer&, const Channels&, const render::RenderSettings&,
+                         const gpu_scene::View& driver, const gpu_scene::SceneFrame&, float seconds, render::Outputs);
     void reset_adaptation() { eye_.reset(), mapper_.reset_adaptation(); }
     void set_eye(const shared::EyeState& eye) { eye_ = eye, mapper_.set_eye(eye); }
 
 private:
     ChannelGlare glare_;
-    ToneMapper mapper_;
+    render::ToneMapper mapper_;
     std::optional<shared::EyeState> eye_;  // what the last frame left
 };
 
-}  // namespace vesper
+}  // namespace vesper::drive

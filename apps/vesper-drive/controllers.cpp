@@ -10,18 +10,18 @@
 #include "io/read_file.h"
 #include "scene/json_value.h"
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
 
 constexpr size_t kMostAxes = 64, kMostButtons = 256, kMostMappings = 256;
 constexpr uint64_t kMaxControllerBytes = 1 << 20;
 
 /// The member that is an end of an axis.
-double end_of(const JsonValue& value, const char* key, double fallback) {
+double end_of(const scene::JsonValue& value, const char* key, double fallback) {
     return value.number_or(key, fallback, -1, 1);
 }
 
-PedalAxis read_pedal(const JsonValue& value) {
+PedalAxis read_pedal(const scene::JsonValue& value) {
     value.allow_only({"axis", "rest", "full"});
     const PedalAxis pedal{size_t(value.at("axis").integer(kMostAxes - 1)), end_of(value, "rest", -1),
                           end_of(value, "full", 1)};
@@ -29,7 +29,7 @@ PedalAxis read_pedal(const JsonValue& value) {
     return pedal;
 }
 
-SteeringAxis read_steering(const JsonValue& value) {
+SteeringAxis read_steering(const scene::JsonValue& value) {
     value.allow_only({"axis", "left", "right", "dead", "exponent"});
     const SteeringAxis steering{size_t(value.at("axis").integer(kMostAxes - 1)), end_of(value, "left", -1),
                                 end_of(value, "right", 1), value.number_or("dead", 0, 0, 0.9),
@@ -38,7 +38,7 @@ SteeringAxis read_steering(const JsonValue& value) {
     return steering;
 }
 
-ControllerMapping read_mapping(const JsonValue& value) {
+ControllerMapping read_mapping(const scene::JsonValue& value) {
     value.allow_only({"match", "gamepad", "steering", "throttle", "brake", "buttons"});
     ControllerMapping mapping{.match = value.at("match").text(),
                               .gamepad = value.boolean_or("gamepad", false),
@@ -49,7 +49,7 @@ ControllerMapping read_mapping(const JsonValue& value) {
     if (const auto steering = value.find("steering")) mapping.steering = read_steering(*steering);
     if (const auto throttle = value.find("throttle")) mapping.throttle = read_pedal(*throttle);
     if (const auto brake = value.find("brake")) mapping.brake = read_pedal(*brake);
-    for (const JsonValue& button : value.elements_of("buttons")) {
+    for (const scene::JsonValue& button : value.elements_of("buttons")) {
         button.allow_only({"button", "does"});
         const auto number = size_t(button.at("button").integer(kMostButtons - 1));
         const auto action = action_named(button.at("does").text());
@@ -102,13 +102,13 @@ const ControllerMapping& gamepad_mapping() {
 }
 
 std::vector<ControllerMapping> read_controllers(const std::filesystem::path& file) {
-    const JsonFile json = parse_json(read_file(file, kMaxControllerBytes), file.string());
-    const JsonValue root(json);
+    const scene::JsonFile json = scene::parse_json(io::read_file(file, kMaxControllerBytes), file.string());
+    const scene::JsonValue root(json);
     root.allow_only({"controllers"});
     std::vector<ControllerMapping> mappings;
     const auto elements = root.at("controllers").elements();
     if (elements.size() > kMostMappings) root.at("controllers").fail("more than " + std::to_string(kMostMappings));
-    for (const JsonValue& element : elements) mappings.push_back(read_mapping(element));
+    for (const scene::JsonValue& element : elements) mappings.push_back(read_mapping(element));
     return mappings;
 }
 
@@ -142,4 +142,4 @@ std::vector<ControllerState> plugged_in() {
     return all;
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -10,7 +10,7 @@
 
 #include "keys.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 /// One axis as something from `rest` (nothing) to `full` (all of it); both between -1 and 1.
 struct PedalAxis {
@@ -55,4 +55,4 @@ struct ControllerState {
 };
 std::vector<ControllerState> plugged_in();
 
-}  // namespace vesper
+}  // namespace vesper::drive

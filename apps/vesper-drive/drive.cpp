@@ -9,11 +9,11 @@
 #include "picture_arguments.h"
 #include "windowed.h"
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
 
 // Options that say nothing where the others are as they are, and why.
-void refuse_idle(const Command& program, const DriveArguments& a) {
+void refuse_idle(const apps::Command& program, const DriveArguments& a) {
     const bool logs = !a.log.empty(), films = !a.video.empty(), replays = !a.replay.empty();
     const auto camera = a.settings.find("camera");
     struct Rule {
@@ -43,21 +43,21 @@ void refuse_idle(const Command& program, const DriveArguments& a) {
             if (rule.here && program.count(option)) throw Error(std::string(option) + ": " + rule.why);
 }
 
-void check(const Command& program, DriveArguments& a) {
+void check(const apps::Command& program, DriveArguments& a) {
     refuse_idle(program, a);
-    if (a.scene.empty() && a.replay.empty()) a.scene = (own_data() / "rivoli/rivoli.world.json").string();
+    if (a.scene.empty() && a.replay.empty()) a.scene = (apps::own_data() / "rivoli/rivoli.world.json").string();
     for (const std::string& file : {a.run, a.scenario, a.scene, a.replay, a.channels, a.controllers})
-        announce_read(file);
-    for (const auto& [option, file] : growing_outputs(a)) announce_write(option, file);
+        io::announce_read(file);
+    for (const auto& [option, file] : growing_outputs(a)) io::announce_write(option, file);
 }
 
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> growing_outputs(const DriveArguments& a) {
     return {{"--record", a.record},
-            {"--record", GrowingFile::part_of(a.record)},
+            {"--record", io::GrowingFile::part_of(a.record)},
             {"--log", a.log},
-            {"--log", GrowingFile::part_of(a.log)}};
+            {"--log", io::GrowingFile::part_of(a.log)}};
 }
 
 DriveStart start_of(const DriveArguments& a, const DriveStart& recorded) {
@@ -68,7 +68,7 @@ DriveStart start_of(const DriveArguments& a, const DriveStart& recorded) {
     return start;
 }
 
-void add_drive(Command program) {
+void add_drive(apps::Command program) {
     const auto a = std::make_shared<DriveArguments>();
     program.add_option(
         "scene", a->scene,
@@ -84,7 +84,7 @@ void add_drive(Command program) {
     program.add_flag("--headless", a->headless, "Without a window");
     program.add_flag("--autopilot", a->autopilot, "The car keeps to its lane and to the distance by itself");
     program.add_option("--seconds", a->seconds, "Headless: how long to drive, s")
-        .check(between(0.0, 86400.0))
+        .check(apps::between(0.0, 86400.0))
         .shows_default();
     program.add_option("--record", a->record, "Write the drive to a file that --replay takes");
     program.add_option("--replay", a->replay,
@@ -94,7 +94,7 @@ void add_drive(Command program) {
                        "Films are made by ffmpeg; the others are one file a frame");
     program.help_group("Films and logs");
     program.add_option("--fps", a->fps, "Headless: frames a second (default: those that were recorded, or 30)")
-        .check(between(1.0, 1000.0));
+        .check(apps::between(1.0, 1000.0));
     program.add_option("--log", a->log, "Write one row per frame to a CSV file: pose, eye, luminances, glare, times");
     program.add_option(
         "--probe", a->probes,
@@ -120,15 +120,15 @@ void add_drive(Command program) {
     program.add_option("--fullscreen", a->full_screen, "Fill a monitor, counted from 0")
         .values(0, 1)
         .shows_default("0")
-        .check(not_negative());
+        .check(apps::not_negative());
     program.add_option("--vsync", a->vsync, "wait for the refresh; latest: the newest picture at each; off: at once")
-        .check(one_of({"wait", "latest", "off"}))
+        .check(apps::one_of({"wait", "latest", "off"}))
         .shows_default();
     program.add_option("--limit", a->limit, "Pictures a second at most (default: as many as there can be)")
-        .check(between(1.0, 1000.0));
+        .check(apps::between(1.0, 1000.0));
     program
         .add_option("--scaling", a->scaling, "Pictures of another size than the window: fit it, or repeat whole pixels")
-        .check(one_of({"fit", "whole"}))
+        .check(apps::one_of({"fit", "whole"}))
         .shows_default();
     program.add_option("--controllers", a->controllers,
                        "What axes and buttons of wheels and gamepads mean (docs/simulator.md)");
@@ -151,4 +151,4 @@ void add_drive(Command program) {
     });
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -10,7 +10,7 @@
 #include "drive_file.h"
 #include "settings.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 /// What the command line says; windows and the headless program take from it what concerns them.
 struct DriveArguments {
@@ -30,7 +30,7 @@ struct DriveArguments {
     bool size_given = false;  ///< pictures are of `size`, not of the window's
 };
 
-void add_drive(Command program);
+void add_drive(apps::Command program);
 
 /// How the drive begins that the command line asks for: where it names a recording, as that does, with the settings
 /// given beside it.
@@ -42,4 +42,4 @@ std::vector<std::pair<std::string, std::string>> growing_outputs(const DriveArgu
 /// Drives or replays without a window.
 void run_headless(const DriveArguments&);
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace vesper {
+namespace vesper::drive {
 
 using Kind = DriveEvent::Kind;
 
@@ -46,4 +46,4 @@ void DriveEvents::Iterator::read() {
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

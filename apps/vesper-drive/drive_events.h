@@ -13,7 +13,7 @@
 
 #include "traffic/driver.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 struct DriveEvent {
     enum class Kind : uint8_t { Step, Frame, Set, Restart };
@@ -68,4 +68,4 @@ private:
     std::vector<Change> changes_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::drive

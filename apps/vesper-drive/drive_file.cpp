@@ -15,7 +15,7 @@
 #include "scene/json_text.h"
 #include "scene/json_value.h"
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
 
 using nlohmann::json;
@@ -26,13 +26,13 @@ constexpr const char* kBeams[]{"off", "low", "high"};
 constexpr const char* kIndicators[]{"none", "left", "right", "both"};
 
 template <size_t N>
-size_t choice(const JsonValue& value, const char* const (&names)[N]) {
+size_t choice(const scene::JsonValue& value, const char* const (&names)[N]) {
     for (size_t i = 0; i < N; ++i)
         if (value.text() == names[i]) return i;
     value.fail("is not known");
 }
 
-traffic::DriverInput read_input(const JsonValue& step, const traffic::DriverInput& before) {
+traffic::DriverInput read_input(const scene::JsonValue& step, const traffic::DriverInput& before) {
     step.allow_only({"steering", "throttle", "brake", "reverse", "beam", "indicator", "autopilot"});
     traffic::DriverInput input = before;
     input.steering = step.number_or("steering", before.steering, -1, 1);
@@ -62,13 +62,14 @@ std::string input_text(const traffic::DriverInput& input, const traffic::DriverI
 std::string step_text(const DriveEvent& event, const traffic::DriverInput& before) {
     const glm::dvec4 pose = event.pose.value_or(glm::dvec4(0));
     return "{\"step\":" + input_text(event.input, before) +
-           format(",\"pose\":[%.17g,%.17g,%.17g,%.17g]}", pose.x, pose.y, pose.z, pose.w);
+           apps::format(",\"pose\":[%.17g,%.17g,%.17g,%.17g]}", pose.x, pose.y, pose.z, pose.w);
 }
 
 // A path as seen from a folder; what came with the program by a name that holds wherever either is moved.
 std::string seen_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
     if (file.empty()) return "";
-    if (const std::string own = own_data_name(file); !own.empty() && own_data_name(folder).empty()) return own;
+    if (const std::string own = apps::own_data_name(file); !own.empty() && apps::own_data_name(folder).empty())
+        return own;
     std::error_code failed;
     const std::filesystem::path near =
         std::filesystem::proximate(std::filesystem::absolute(file, failed), folder, failed);
@@ -90,17 +91,17 @@ std::string heading(const DriveStart& start, const std::filesystem::path& folder
 }
 
 // The file that a path of a drive means, empty if it names none.
-std::filesystem::path seen_path(const JsonValue& root, const char* key, const std::filesystem::path& folder) {
+std::filesystem::path seen_path(const scene::JsonValue& root, const char* key, const std::filesystem::path& folder) {
     const std::string named = root.text_or(key, "");
     try {
-        if (const auto own = own_data_file(named)) return *own;
+        if (const auto own = apps::own_data_file(named)) return *own;
     } catch (const Error& error) {
         root.at(key).fail(error.what());
     }
     return named.empty() ? "" : folder / named;  // which an absolute one replaces
 }
 
-DriveSettings::Values read_values(const JsonValue& object) {
+DriveSettings::Values read_values(const scene::JsonValue& object) {
     if (!object.json().is_object()) object.fail("must be an object");
     DriveSettings::Values values;
     for (const auto& [name, value] : object.json().items()) values[name] = object.at(name.c_str()).text();
@@ -108,7 +109,7 @@ DriveSettings::Values read_values(const JsonValue& object) {
 }
 
 // What an event of a file says, added to a drive. `input`: of the step before.
-void read_event(const JsonValue& event, uint64_t place, traffic::DriverInput& input, DriveEvents& events) {
+void read_event(const scene::JsonValue& event, uint64_t place, traffic::DriverInput& input, DriveEvents& events) {
     event.allow_only({"step", "pose", "frame", "set", "restart"});
     if (event.find("pose") && !event.find("step")) event.fail("has a pose without a step");
     if (event.json().size() != (event.find("pose") ? 2 : 1)) event.fail("is more than one step, frame, set or restart");
@@ -147,8 +148,8 @@ class DriveParser {
 public:
     DriveParser(std::string name, Drive& drive) : name_(std::move(name)), drive_(drive) {}
 
-    JsonFile parse(std::span<const uint8_t> text) {
-        check_json_text(text, name_, UINT64_MAX);  // take() has bounds of its own
+    scene::JsonFile parse(std::span<const uint8_t> text) {
+        scene::check_json_text(text, name_, UINT64_MAX);  // take() has bounds of its own
         try {
             std::ignore = json::parse(text.begin(), text.end(), [this](int depth, json::parse_event_t at, json& value) {
                 return take(depth, at, value);
@@ -179,8 +180,8 @@ private:
         const bool ends = at == Event::value || at == Event::object_end || at == Event::array_end;
         if (depth == 1 && ends) rest_[key_] = std::move(value);
         if (depth != 2 || !ends || key_ != "events") return true;
-        const JsonFile event(name_, std::move(value), "/events/" + std::to_string(place_));
-        read_event(JsonValue(event), place_++, input_, drive_.events);
+        const scene::JsonFile event(name_, std::move(value), "/events/" + std::to_string(place_));
+        read_event(scene::JsonValue(event), place_++, input_, drive_.events);
         values_ = 0;
         return false;
     }
@@ -198,8 +199,8 @@ private:
 
 Drive read_drive(const std::filesystem::path& file) {
     Drive drive{.file = file, .start = {}, .events = {}};
-    const JsonFile text = DriveParser(one_line(file.string()), drive).parse(read_file(file, kMaxDriveBytes));
-    const JsonValue root(text);
+    const scene::JsonFile text = DriveParser(one_line(file.string()), drive).parse(io::read_file(file, kMaxDriveBytes));
+    const scene::JsonValue root(text);
     root.allow_only(
         {"vesper_drive", "scene", "run", "scenario", "seed", "time_step_s", "size_px", "settings", "events"});
     if (root.at("vesper_drive").integer() != 1)
@@ -310,7 +311,7 @@ std::string DriveRecorder::line(const DriveEvent& event) {
 void DriveRecorder::open(const std::filesystem::path& file, std::optional<glm::uvec2> size) {
     constexpr size_t kAtOnce = 1 << 20;  // bytes
     close();
-    file_ = std::make_unique<GrowingFile>(file);
+    file_ = std::make_unique<io::GrowingFile>(file);
     first_ = true, last_ = {}, start_.size = size;
     std::error_code failed;
     std::string text = heading(start_, std::filesystem::absolute(file, failed).parent_path());
@@ -337,4 +338,4 @@ void DriveRecorder::close() {
     file->complete();
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -10,7 +10,7 @@
 #include "io/growing_file.h"
 #include "settings.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 /// How a drive begins.
 struct DriveStart {
@@ -61,7 +61,7 @@ private:
     DriveEvents events_;
     bool first_ = true;          // the next line
     traffic::DriverInput last_;  // of the lines so far
-    std::unique_ptr<GrowingFile> file_;
+    std::unique_ptr<io::GrowingFile> file_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::drive

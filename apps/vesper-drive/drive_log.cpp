@@ -13,8 +13,10 @@
 #include "statistics.h"
 #include "tone_arguments.h"
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
+
+using apps::format;
 
 // A name as part of a field: what parts fields is left out.
 std::string csv_name(std::string name) {
@@ -25,7 +27,7 @@ std::string csv_name(std::string name) {
 
 constexpr double kPercents[]{1, 5, 25, 50, 75, 95, 99, 99.9};  // as luminance_statistics has them
 
-double luminance_at(const Frame& frame, glm::dvec2 place) {
+double luminance_at(const render::Frame& frame, glm::dvec2 place) {
     const auto part = [](double p, uint32_t size) { return size_t(std::clamp(p * size, 0.0, double(size - 1))); };
     const float* p =
         &frame.scene[4 * (part(place.y, frame.extent.height) * frame.extent.width + part(place.x, frame.extent.width))];
@@ -38,7 +40,7 @@ std::string heading(const std::vector<LogProbe>& probes) {
         "steering,touched,contacts,adaptation,cone_sigma,cone_pigment,cone_fast,cone_slow,log_average,minimum,maximum,"
         "mean";
     for (const double percent : kPercents) line += format(",p%g", percent);
-    line += glare_columns();
+    line += apps::glare_columns();
     for (size_t i = 0; i < probes.size(); ++i) line += format(",probe%zu", i);
     return line + ",lamps,openings,lost_lights,scrubbed_pixels,device_ms,frame_ms\n";
 }
@@ -74,14 +76,14 @@ void DriveLog::add(const traffic::Contact& contact) {
     contacts_ += (contacts_.empty() ? "" : ";") + csv_name(contact.node) + format("@%.3g", contact.speed);
 }
 
-void DriveLog::add(const Session& session, const View& view, const Frame& frame) {
+void DriveLog::add(const Session& session, const gpu_scene::View& view, const render::Frame& frame) {
     const traffic::World& world = session.world();
     const traffic::Actor& me = session.actors().front();
     const traffic::VehicleState& car = world.driver();
     const traffic::DriverInput& input = session.input();
-    const RenderSettings& settings = session.settings().render();
+    const render::RenderSettings& settings = session.settings().render();
     std::string line = format("%u,%llu,%.6f,%.9g,%s", rows_++, static_cast<unsigned long long>(world.steps()),
-                              world.seconds(), session.eye_step(), name_of(settings.tone_operator).c_str());
+                              world.seconds(), session.eye_step(), apps::name_of(settings.tone_operator).c_str());
     for (const double value :
          {me.position.x, me.position.y, me.position.z, me.yaw, me.pitch, me.speed, car.acceleration, car.angle})
         line += format(",%.9g", value);
@@ -95,18 +97,18 @@ void DriveLog::add(const Session& session, const View& view, const Frame& frame)
         const std::string columns = heading(probes_).substr(heading({}).find(",minimum"));
         line += std::string(size_t(std::count(columns.begin(), columns.end(), ',')) - 6, ',');
     } else {
-        const LuminanceStatistics s = luminance_statistics(frame.scene);
+        const apps::LuminanceStatistics s = apps::luminance_statistics(frame.scene);
         for (const double value : {s.minimum, s.maximum, s.mean}) line += format(",%.6g", value);
         for (size_t i = 0; i < std::size(kPercents); ++i)
             line += i < s.percentiles.size() ? format(",%.6g", s.percentiles[i].second) : ",";
-        line += glare_values(glare_of({}, settings, frame, angles_of(view), frame.outside));
+        line += apps::glare_values(apps::glare_of({}, settings, frame, gpu_scene::angles_of(view), frame.outside));
         for (const LogProbe& probe : probes_) line += format(",%.6g", luminance_at(frame, probe.place));
     }
     double device = 0;
-    for (const Timing& timing : frame.timings) device += timing.milliseconds;
+    for (const graph::Timing& timing : frame.timings) device += timing.milliseconds;
     // Every lamp counts: froxels whose lists overflow look at all of them.
     file_.append(line + format(",%u,%u,0,%u,%.3f,%.3f\n", frame.lamps, frame.luminaires, frame.histogram.non_finite,
                                device, frame.milliseconds));
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -7,7 +7,7 @@
 #include "io/growing_file.h"
 #include "session.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 /// Where luminance is read: parts of the picture from its top left, and the column's name.
 struct LogProbe {
@@ -25,14 +25,14 @@ public:
     /// What the next row says was met.
     void add(const traffic::Contact&);
     /// `frame` must have its luminances; without them (the ldr operator) the columns that need them are empty.
-    void add(const Session&, const View&, const Frame& frame);
+    void add(const Session&, const gpu_scene::View&, const render::Frame& frame);
     void complete() { file_.complete(); }
 
 private:
-    GrowingFile file_;
+    io::GrowingFile file_;
     std::vector<LogProbe> probes_;
     unsigned rows_ = 0;
     std::string contacts_;  // since the last row, as the next has them
 };
 
-}  // namespace vesper
+}  // namespace vesper::drive

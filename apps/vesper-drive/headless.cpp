@@ -22,7 +22,7 @@
 #include "tone_arguments.h"
 #include "video.h"
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
 
 constexpr double kUsualRate = 30;  // frames a second
@@ -79,11 +79,11 @@ public:
             exr_ = a.video.ends_with(".exr");
             if (!film_ && !exr_ && !a.video.ends_with(".png"))
                 throw Error("--video " + one_line(a.video) + ": .mp4, .png or .exr is expected");
-            if (!film_) names_ = numbered_name("--video", a.video);
+            if (!film_) names_ = apps::numbered_name("--video", a.video);
             if (!film_ && !names_)
                 throw Error("--video " + one_line(a.video) +
                             ": one file a frame needs a number in the name, such as %05d");
-            announce_write("--video", film_ ? a.video : names_->at(0));
+            io::announce_write("--video", film_ ? a.video : names_->at(0));
         }
     }
     bool wanted() const { return film_ || names_ || !arguments_.log.empty(); }
@@ -91,8 +91,8 @@ public:
     /// first.
     void check(const DriveSettings& settings) {
         if (!first_) first_ = settings.render().display;
-        const Display &display = settings.render().display, &before = *first_;
-        if (exr_ && settings.render().tone_operator == Operator::Ldr)
+        const vision::Display &display = settings.render().display, &before = *first_;
+        if (exr_ && settings.render().tone_operator == render::Operator::Ldr)
             throw Error("--video " + one_line(arguments_.video) + ": the ldr operator has no luminances to write");
         if (film_ &&
             (display.bits != before.bits || display.eotf != before.eotf || display.primaries != before.primaries))
@@ -107,21 +107,21 @@ public:
     void add(const traffic::Contact& contact) {
         if (log_) log_->add(contact);
     }
-    Outputs outputs(const Session& session) const {
-        const bool ldr = session.settings().render().tone_operator == Operator::Ldr;
+    render::Outputs outputs(const Session& session) const {
+        const bool ldr = session.settings().render().tone_operator == render::Operator::Ldr;
         return {.display = film_ || (names_ && !exr_), .scene = exr_ || (log_ && !ldr)};
     }
     /// `shown`: the picture; `logged`: what the log says of it, seen by `view`.
-    void take(unsigned index, const Session& session, const View& view, const ToneMapped& shown, const Frame& logged,
-              double fps) {
-        const Display& display = session.settings().render().display;
+    void take(unsigned index, const Session& session, const gpu_scene::View& view, const render::ToneMapped& shown,
+              const render::Frame& logged, double fps) {
+        const vision::Display& display = session.settings().render().display;
         if (film_ && !video_)
-            video_ = std::make_unique<Video>(arguments_.video, extent_.width, extent_.height, fps, display);
+            video_ = std::make_unique<apps::Video>(arguments_.video, extent_.width, extent_.height, fps, display);
         if (video_) video_->add(shown.display);
-        if (names_ && !exr_) write_codes(names_->at(index), shown, display);
+        if (names_ && !exr_) apps::write_codes(names_->at(index), shown, display);
         if (names_ && exr_)
-            write_exr(names_->at(index), extent_.width, extent_.height, shown.scene,
-                      header(session, shown, logged.lamps));
+            io::write_exr(names_->at(index), extent_.width, extent_.height, shown.scene,
+                          header(session, shown, logged.lamps));
         if (log_) log_->add(session, view, logged);
     }
     void finish() {
@@ -137,24 +137,24 @@ private:
             for (size_t i = 1; i < frames; ++i) numbers.insert(unsigned(i));
         } else {
             for (const auto& [option, other] : growing_outputs(arguments_))
-                if (const auto number = number_in(*names_, other)) numbers.insert(*number);
-            for (const NumberedFile& there : existing_files(*names_)) numbers.insert(there.number);
+                if (const auto number = apps::number_in(*names_, other)) numbers.insert(*number);
+            for (const apps::NumberedFile& there : apps::existing_files(*names_)) numbers.insert(there.number);
         }
         for (const unsigned number : numbers)
-            if (number > 0 && number < frames) announce_write("--video", names_->at(number));
+            if (number > 0 && number < frames) io::announce_write("--video", names_->at(number));
     }
-    Header header(const Session& session, const ToneMapped& frame, uint32_t lamps) const {
+    io::Header header(const Session& session, const render::ToneMapped& frame, uint32_t lamps) const {
         std::string options;  // settings other than the defaults
         for (const auto& [name, value] : session.settings().values())
-            options += (options.empty() ? "" : " ") + in_shell("--" + name) + " " + in_shell(value);
-        const std::string scene = session.scenery().scene().name, own = own_data_name(scene);
-        Header made{{"vesper:version", VESPER_VERSION},
-                    {"vesper:scene", own.empty() ? scene : own},
-                    {"vesper:unit", "cd/m^2, linear Rec. 709 RGB"},
-                    {"vesper:options", options},
-                    {"vesper:seconds", digits(session.world().seconds())},
-                    {"vesper:lights", std::to_string(lamps)}};
-        const Header tone = describe_tone(session.settings().render(), frame);
+            options += (options.empty() ? "" : " ") + apps::in_shell("--" + name) + " " + apps::in_shell(value);
+        const std::string scene = session.scenery().scene().name, own = apps::own_data_name(scene);
+        io::Header made{{"vesper:version", VESPER_VERSION},
+                        {"vesper:scene", own.empty() ? scene : own},
+                        {"vesper:unit", "cd/m^2, linear Rec. 709 RGB"},
+                        {"vesper:options", options},
+                        {"vesper:seconds", apps::digits(session.world().seconds())},
+                        {"vesper:lights", std::to_string(lamps)}};
+        const io::Header tone = apps::describe_tone(session.settings().render(), frame);
         made.insert(made.end(), tone.begin(), tone.end());
         return made;
     }
@@ -163,16 +163,16 @@ private:
     VkExtent2D extent_;
     std::vector<LogProbe> probes_;
     bool film_ = false, exr_ = false;
-    std::optional<Display> first_;
-    std::optional<NumberedName> names_;
-    std::unique_ptr<Video> video_;
+    std::optional<vision::Display> first_;
+    std::optional<apps::NumberedName> names_;
+    std::unique_ptr<apps::Video> video_;
     std::optional<DriveLog> log_;
 };
 
 // One picture of all channels; the log is of the one that is looked at.
 void take_wall(Outlet& outlet, unsigned index, Session& session, const Channels& channels, double fps) {
     ChannelMosaic wall = session.render(channels, outlet.outputs(session));
-    const Frame logged = looked_at(wall, channels);
+    const render::Frame logged = looked_at(wall, channels);
     outlet.take(index, session, channel_view(channels.screens[channels.gaze], session.view({1, 1})), wall.shown, logged,
                 fps);
 }
@@ -194,10 +194,10 @@ void run_headless(const DriveArguments& a) {
     if (replays) drive = read_drive(a.replay);
     const VkExtent2D extent = channels                            ? extent_of(*channels)
                               : drive.start.size && !a.size_given ? VkExtent2D{drive.start.size->x, drive.start.size->y}
-                                                                  : parse_size(a.size);
+                                                                  : apps::parse_size(a.size);
     Outlet outlet(a, extent);
     const DriveStart options = start_of(a, drive.start);
-    if (!drive.complete) print_note(one_line(a.replay) + " breaks off; what there is of it is driven");
+    if (!drive.complete) apps::print_note(one_line(a.replay) + " breaks off; what there is of it is driven");
     const DriveEvent step{
         .kind = DriveEvent::Kind::Step, .input = {.autopilot = a.autopilot}, .pose = {}, .name = {}, .value = {}};
     for (long left = replays ? 0 : std::lround(a.seconds / options.time_step); left > 0; --left)
@@ -207,38 +207,39 @@ void run_headless(const DriveArguments& a) {
         drive.events = evenly(drive.events, options.time_step, a.fps > 0 ? a.fps : kUsualRate);
     const double most = 1 / options.time_step;
     if (a.fps > most * 1.001)
-        throw Error(format("--fps %g: the world goes on in steps of %.6g s, so there are at most %.6g frames a second",
-                           a.fps, options.time_step, most));
+        throw Error(
+            apps::format("--fps %g: the world goes on in steps of %.6g s, so there are at most %.6g frames a second",
+                         a.fps, options.time_step, most));
     const auto [fps, even] = own_frames ? rate_of(drive.events, options.time_step)
                                         : std::pair(std::min(a.fps > 0 ? a.fps : kUsualRate, most), true);
     if (!even && a.video.ends_with(".mp4"))
-        print_note(
-            format("frames were not recorded at an even rate: the film shows them at %.4g a second, and not in real "
-                   "time (--fps %.4g takes frames at an even rate)",
-                   fps, std::min(kUsualRate, most)));
+        apps::print_note(apps::format(
+            "frames were not recorded at an even rate: the film shows them at %.4g a second, and not in real "
+            "time (--fps %.4g takes frames at an even rate)",
+            fps, std::min(kUsualRate, most)));
     Scenery scenery(options.scene, options.run, options.scenario);
     check_settings(
         drive, a.settings, [&](const DriveSettings& settings) { scenery.check(settings); },
         [&](const DriveSettings& settings) { outlet.check(settings); });
     if (!outlet.wanted() && a.record.empty()) throw Error("nothing to do: give --video, --log or --record");
-    Device device({.select = a.device});
+    gpu::Device device({.select = a.device});
     Session session(device, options, std::move(scenery));
     Playback playback(std::move(drive.events), a.settings);
     outlet.open(playback.frames());
     session.on_contact = [&](const traffic::Contact& contact) { outlet.add(contact); };
-    print_notes(session.scenery().notes());
+    apps::print_notes(session.scenery().notes());
     if (!a.record.empty())
         session.record(a.record, outlet.wanted() && !channels ? std::optional(glm::uvec2(extent.width, extent.height))
                                                               : std::nullopt);
-    Progress progress(replays ? "replaying" : "driving", unsigned(std::max<size_t>(1, playback.frames())));
+    apps::Progress progress(replays ? "replaying" : "driving", unsigned(std::max<size_t>(1, playback.frames())));
     unsigned index = 0;
     while (const auto kind = playback.next(session)) {
         if (kind != DriveEvent::Kind::Frame || !outlet.wanted()) continue;
         if (channels) {
             take_wall(outlet, index++, session, *channels, fps);
         } else {
-            const View view = session.view(extent);
-            const Frame frame = session.render(view, outlet.outputs(session));
+            const gpu_scene::View view = session.view(extent);
+            const render::Frame frame = session.render(view, outlet.outputs(session));
             outlet.take(index++, session, view, frame, frame, fps);
         }
         progress.step();
@@ -246,8 +247,9 @@ void run_headless(const DriveArguments& a) {
     outlet.finish();
     session.stop_recording();
     if (playback.strayed())
-        print_note(one_line(a.replay) +
-                   ": the car goes another way than it did when this was recorded, with another version or compiler");
+        apps::print_note(
+            one_line(a.replay) +
+            ": the car goes another way than it did when this was recorded, with another version or compiler");
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

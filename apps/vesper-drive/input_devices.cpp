@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
 
 // A key is all or nothing: from straight on to the full lock takes 0.7 s at rest. At speed less lock is of use: 0.15 of
@@ -101,4 +101,4 @@ traffic::DriverInput InputDevices::next(const HeldInput& held, double speed, dou
     return input_;
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

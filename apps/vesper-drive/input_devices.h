@@ -9,7 +9,7 @@
 #include "controllers.h"
 #include "traffic/driver.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 /// Keys that are held.
 struct HeldInput {
@@ -58,4 +58,4 @@ private:
     std::string notice_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::drive

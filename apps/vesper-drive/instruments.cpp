@@ -12,7 +12,7 @@
 #include "render/passes/operators.h"
 #include "tone_arguments.h"
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
 
 constexpr double kPastSeconds = 60;
@@ -67,7 +67,7 @@ bool Instruments::leave() {
     return true;
 }
 
-void Instruments::remember(const Session& session, const Frame& frame) {
+void Instruments::remember(const Session& session, const render::Frame& frame) {
     const double now = session.world().seconds();
     if (!past_.empty() && past_.back().seconds >= now) past_.pop_back();
     past_.push_back({now, double(frame.curve.adaptation), double(frame.curve.log_average),
@@ -75,16 +75,16 @@ void Instruments::remember(const Session& session, const Frame& frame) {
     while (past_.front().seconds < now - kPastSeconds) past_.pop_front();
 }
 
-std::span<const uint8_t> Instruments::coloured(const Frame& frame, uint64_t number) {
+std::span<const uint8_t> Instruments::coloured(const render::Frame& frame, uint64_t number) {
     if (frame.scene.empty()) return {};
     const bool same_scale = !fit_scale_ && coloured_scale_.low == scale_.low && coloured_scale_.high == scale_.high;
     if (number == coloured_number_ && same_scale) return coloured_;
-    ValuePicture picture{frame.extent.width, frame.extent.height, {}};
+    apps::ValuePicture picture{frame.extent.width, frame.extent.height, {}};
     picture.values.reserve(frame.scene.size() / 4);
     for (size_t i = 0; i < frame.scene.size(); i += 4)
         picture.values.push_back(float(luminance({frame.scene[i], frame.scene[i + 1], frame.scene[i + 2]})));
-    if (std::exchange(fit_scale_, false)) scale_ = scale_of(picture.values);
-    coloured_ = false_colours(picture, scale_);
+    if (std::exchange(fit_scale_, false)) scale_ = apps::scale_of(picture.values);
+    coloured_ = apps::false_colours(picture, scale_);
     coloured_number_ = number, coloured_scale_ = scale_;
     return coloured_;
 }
@@ -120,7 +120,7 @@ bool Instruments::begin(Panel panel, const char* title, glm::vec2 place, glm::ve
 }
 
 void Instruments::draw_status(const FrameState& now) const {
-    const RenderSettings& settings = now.session.settings().render();
+    const render::RenderSettings& settings = now.session.settings().render();
     const traffic::VehicleState& me = now.session.world().driver();
     const traffic::DriverInput& input = now.hands.last();
     const auto& values = now.session.settings().values();
@@ -138,10 +138,10 @@ void Instruments::draw_status(const FrameState& now) const {
         ImGui::Text("%3.0f km/h  %s%s%s", std::abs(me.speed) * 3.6, beam, input.reverse ? "  reverse" : "",
                     input.autopilot ? "  autopilot" : "");
         ImGui::TextUnformatted(
-            format(
+            apps::format(
                 "%s  |  glare %s  |  display %s  |  observer of %.0f  |  adapted to %.3g cd/m²  |  %.1f pictures/s%s%s",
-                name_of(settings.tone_operator).c_str(), value_or("glare", "none").c_str(),
-                value_or("display", known_displays().front().name).c_str(), settings.tone.observer.age,
+                apps::name_of(settings.tone_operator).c_str(), value_or("glare", "none").c_str(),
+                value_or("display", vision::known_displays().front().name).c_str(), settings.tone.observer.age,
                 double(now.frame.curve.adaptation), now.shown_per_second, now.paused ? "  |  paused" : "",
                 has_keyboard() ? "  |  keys for instruments (Esc)" : "")
                 .c_str());
@@ -195,14 +195,14 @@ void Instruments::draw_keys() {
 void Instruments::draw_performance(const FrameState& now) {
     if (begin(kPerformance, "Performance (F3)", {-8, 8}, {380, 420})) {
         double total = 0;
-        for (const Timing& timing : now.frame.timings) total += timing.milliseconds;
+        for (const graph::Timing& timing : now.frame.timings) total += timing.milliseconds;
         ImGui::TextWrapped("%.1f pictures/s shown, %s", now.shown_per_second, now.screen.describe().c_str());
         ImGui::TextWrapped("frame %.2f ms, passes %.2f ms, %u x %u px", now.frame.milliseconds, total,
                            now.frame.extent.width, now.frame.extent.height);
         ImGui::Text("%u lamps, %u seen, %u froxels overflowed", now.frame.lamps, now.frame.luminaires,
                     now.frame.clusters.overflowed);
         ImGui::Separator();
-        for (const Timing& timing : now.frame.timings) {
+        for (const graph::Timing& timing : now.frame.timings) {
             ImGui::ProgressBar(total > 0 ? float(timing.milliseconds / total) : 0, {60, 0}, "");
             ImGui::SameLine();
             ImGui::Text("%7.3f ms  %s", timing.milliseconds, timing.pass.c_str());
@@ -230,4 +230,4 @@ void Instruments::draw_controllers(const FrameState& now) {
     ImGui::End();
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -14,14 +14,14 @@
 
 #include "false_colour.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 /// What is shown at the moment.
 struct FrameState {
     const Session& session;
     const Screen& screen;
-    const Frame& frame;  ///< the last one that was rendered
-    const View& view;    ///< of the channel under the mouse, or of all of it
+    const render::Frame& frame;   ///< the last one that was rendered
+    const gpu_scene::View& view;  ///< of the channel under the mouse, or of all of it
     const InputDevices& hands;
     std::optional<glm::uvec2> pixel, view_pixel;  ///< of the frame and of that view, under the mouse
     double shown_per_second = 0;                  ///< pictures
@@ -40,7 +40,7 @@ public:
     /// all that is visible, and is none of theirs where nothing is.
     bool press(Action);
     /// Keeps what is drawn over time.
-    void remember(const Session&, const Frame&);
+    void remember(const Session&, const render::Frame&);
     void forget() { past_.clear(); }
 
     /// Whether something needs the luminances of the next frame.
@@ -50,7 +50,7 @@ public:
     bool shows_false_colour() const { return false_colour_; }
     /// The luminance of a frame as colours, codes of 8 bits; nothing if it has no luminances. `number` tells frames
     /// apart.
-    std::span<const uint8_t> coloured(const Frame&, uint64_t number);
+    std::span<const uint8_t> coloured(const render::Frame&, uint64_t number);
 
     /// Declares everything that is visible; gives what was changed.
     std::vector<Change> draw(const FrameState&);
@@ -90,12 +90,12 @@ private:
     bool clean_ = false, focus_ = false, false_colour_ = false;
     glm::vec2 window_{0};   // px, when they were last drawn
     bool arrange_ = false;  // all panels go where they belong, in a window of another size
-    ColourScale scale_{0.01, 1000};
+    apps::ColourScale scale_{0.01, 1000};
     bool fit_scale_ = true;
     std::vector<uint8_t> coloured_;
     uint64_t coloured_number_ = ~0ull;
-    ColourScale coloured_scale_;
+    apps::ColourScale coloured_scale_;
     std::deque<Past> past_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::drive

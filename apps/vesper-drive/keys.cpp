@@ -6,7 +6,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
 
 constexpr int kShift = GLFW_MOD_SHIFT, kControl = GLFW_MOD_CONTROL;
@@ -107,4 +107,4 @@ std::optional<Action> action_named(std::string_view name) {
     return found->action;
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-namespace vesper {
+namespace vesper::drive {
 
 /// What happens at the press of a key or button. Steering and pedals are held instead: see controls.h.
 enum class Action : uint8_t {
@@ -76,4 +76,4 @@ struct HeldKeys {
 };
 std::span<const HeldKeys> held_keys();
 
-}  // namespace vesper
+}  // namespace vesper::drive

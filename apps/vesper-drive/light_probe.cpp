@@ -5,7 +5,7 @@
 
 #include "scene/lamp.h"
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
 
 using glm::dvec3;
@@ -15,7 +15,7 @@ struct Ray {
 };
 
 /// Where a ray enters a box, as a factor of its direction; nothing if it passes by.
-bool meets(const Bounds& box, const Ray& ray, double nearest) {
+bool meets(const scene::Bounds& box, const Ray& ray, double nearest) {
     double enter = 0, leave = nearest;
     for (int i = 0; i < 3; ++i) {
         const double a = (double(box.low[i]) - ray.origin[i]) / ray.direction[i],
@@ -38,8 +38,8 @@ double distance_to(const dvec3& a, const dvec3& b, const dvec3& c, const Ray& ra
 
 }  // namespace
 
-std::optional<SurfacePoint> surface_at(const Scene& scene, const SceneFrame& frame, const View& view,
-                                       glm::uvec2 pixel) {
+std::optional<SurfacePoint> surface_at(const scene::Scene& scene, const gpu_scene::SceneFrame& frame,
+                                       const gpu_scene::View& view, glm::uvec2 pixel) {
     const glm::dmat4 view_to_world = glm::inverse(view.world_to_view);
     const glm::vec2 tangents = view.ray_scale() * (glm::vec2(pixel) + 0.5f) + view.ray_offset();
     const Ray world{dvec3(view_to_world[3]),
@@ -47,10 +47,10 @@ std::optional<SurfacePoint> surface_at(const Scene& scene, const SceneFrame& fra
     double nearest = HUGE_VAL;
     SurfacePoint found;
     for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
-        if (scene.nodes[n].mesh == kNone) continue;
+        if (scene.nodes[n].mesh == scene::kNone) continue;
         const glm::dmat4 to_world(frame.world[n]), to_mesh = glm::inverse(to_world);
         const Ray ray{dvec3(to_mesh * glm::dvec4(world.origin, 1)), dvec3(to_mesh * glm::dvec4(world.direction, 0))};
-        for (const Primitive& part : scene.meshes[scene.nodes[n].mesh].primitives) {
+        for (const scene::Primitive& part : scene.meshes[scene.nodes[n].mesh].primitives) {
             if (!meets(part.bounds, ray, nearest)) continue;
             const bool both = scene.materials[part.material].double_sided;
             for (size_t i = 0; i + 2 < part.indices.size(); i += 3) {
@@ -72,15 +72,15 @@ std::optional<SurfacePoint> surface_at(const Scene& scene, const SceneFrame& fra
     return found;
 }
 
-double lamp_illuminance(const Scene& scene, const SceneFrame& frame, const SurfacePoint& point) {
+double lamp_illuminance(const scene::Scene& scene, const gpu_scene::SceneFrame& frame, const SurfacePoint& point) {
     double sum = 0;
     for (uint32_t n = 0; n < scene.nodes.size(); ++n) {
-        if (scene.nodes[n].lamp == kNone) continue;
-        const Lamp& lamp = scene.lamps[scene.nodes[n].lamp];
+        if (scene.nodes[n].lamp == scene::kNone) continue;
+        const scene::Lamp& lamp = scene.lamps[scene.nodes[n].lamp];
         const glm::dmat4 m(frame.world[n]);
         const auto unit = [&](int column) { return glm::normalize(dvec3(m[column])); };
         const double dimming = double(frame.dimming_of(n));
-        if (lamp.kind == Lamp::Kind::Directional) {
+        if (lamp.kind == scene::Lamp::Kind::Directional) {
             sum += dimming * double(lamp.intensity) * std::max(glm::dot(unit(2), point.normal), 0.0);
             continue;
         }
@@ -89,9 +89,9 @@ double lamp_illuminance(const Scene& scene, const SceneFrame& frame, const Surfa
         const double cosine = glm::dot(to_lamp, point.normal) / std::sqrt(squared);
         if (!(cosine > 0) || !(dimming > 0)) continue;
         const dvec3 from_lamp(-glm::dot(to_lamp, unit(0)), -glm::dot(to_lamp, unit(1)), -glm::dot(to_lamp, unit(2)));
-        sum += dimming * luminous_intensity(lamp, scene.distributions, from_lamp) * cosine / squared;
+        sum += dimming * scene::luminous_intensity(lamp, scene.distributions, from_lamp) * cosine / squared;
     }
     return sum;
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -3,8 +3,9 @@
 #include "drive.h"
 
 int main(int argc, char** argv) {
-    vesper::Program program{"Drive at night, see and record what the eye does (docs/simulator.md).", "vesper-drive"};
+    vesper::apps::Program program{"Drive at night, see and record what the eye does (docs/simulator.md).",
+                                  "vesper-drive"};
     program.version(VESPER_VERSION);
-    vesper::add_drive(program);
+    vesper::drive::add_drive(program);
     return program.run(argc, argv);
 }

@@ -1,6 +1,6 @@
 #include "panel_layout.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 PanelPlace panel_place(glm::vec2 place, glm::vec2 size, glm::vec2 window) {
     constexpr glm::vec2 kRoom(924, 648), kLeast(200, 120);  // what two columns of panels need; what one can be read in
@@ -14,4 +14,4 @@ PanelPlace panel_place(glm::vec2 place, glm::vec2 size, glm::vec2 window) {
     return {glm::clamp(corner, glm::vec2(0), room - made), made};
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-namespace vesper {
+namespace vesper::drive {
 
 constexpr float kStatusHeight = 76;  ///< px at the lower edge that panels leave to the line of what is driven and seen
 
@@ -16,4 +16,4 @@ struct PanelPlace {
 /// scrolled to.
 PanelPlace panel_place(glm::vec2 place, glm::vec2 size, glm::vec2 window);
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -11,19 +11,19 @@
 #include "print.h"
 #include "render/passes/operators.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 // Votes of luminances, and what the operator makes of each: both over the same axis, on which the range of the display
 // lies too.
 void Instruments::draw_light(const FrameState& now) {
     if (begin(kLight, "Light (F4)", {8, 8}, {520, 300})) {
-        const RenderSettings& settings = now.session.settings().render();
-        const HistogramSettings& bins = settings.histogram;
+        const render::RenderSettings& settings = now.session.settings().render();
+        const render::HistogramSettings& bins = settings.histogram;
         const double low = std::pow(10, double(bins.log10_low)), high = std::pow(10, double(bins.log10_high));
-        const Display& display = settings.display;
+        const vision::Display& display = settings.display;
         const ImVec2 room = ImGui::GetContentRegionAvail();
-        const std::string legend = format("bars: votes; grey band: the display's own range, %.3g to %.4g cd/m²",
-                                          double(display.low()), double(display.high()));
+        const std::string legend = apps::format("bars: votes; grey band: the display's own range, %.3g to %.4g cd/m²",
+                                                double(display.low()), double(display.high()));
         const float below =
             ImGui::CalcTextSize(legend.c_str(), nullptr, false, room.x).y + ImGui::GetStyle().ItemSpacing.y;
         const PanelPlot plot("light", {room.x, std::max(room.y - below, 60.0f)}, {low, high, true, "scene, cd/m²"},
@@ -39,11 +39,12 @@ void Instruments::draw_light(const FrameState& now) {
                 plot.bar(edge(i), edge(i + 1), double(display.low()) * std::pow(range, double(first[i]) / most),
                          colours::kBars);
 
-        if (settings.tone_operator != Operator::Ldr) {
+        if (settings.tone_operator != render::Operator::Ldr) {
             std::vector<glm::dvec2> curve;
             for (int i = 0; i <= 200; ++i) {
                 const double scene = low * std::pow(high / low, i / 200.0);
-                curve.emplace_back(scene, shown_luminance(settings.tone_operator, now.frame.curve, scene, display));
+                curve.emplace_back(scene,
+                                   render::shown_luminance(settings.tone_operator, now.frame.curve, scene, display));
             }
             plot.line(curve, colours::kCurve, 2);
         }
@@ -97,22 +98,22 @@ void Instruments::draw_eye() {
 
 void Instruments::draw_probe(const FrameState& now) {
     if (begin(kProbe, "Probe (F8)", {-8, 440}, {380, 200}, ImGuiWindowFlags_HorizontalScrollbar)) {
-        const Frame& frame = now.frame;
+        const render::Frame& frame = now.frame;
         if (!now.pixel) {
             ImGui::TextDisabled("point at something in the picture");
-        } else if (now.session.settings().render().tone_operator == Operator::Ldr) {
+        } else if (now.session.settings().render().tone_operator == render::Operator::Ldr) {
             ImGui::TextDisabled("the ldr operator knows no luminance");
         } else if (!frame.scene.empty()) {
             const float* rgb = &frame.scene[(size_t(now.pixel->y) * frame.extent.width + now.pixel->x) * 4];
             const double here = luminance({rgb[0], rgb[1], rgb[2]});
-            const RenderSettings& settings = now.session.settings().render();
+            const render::RenderSettings& settings = now.session.settings().render();
             ImGui::Text("pixel %u, %u", now.pixel->x, now.pixel->y);
             ImGui::Text("luminance %.4g cd/m²", here);
             ImGui::Text("red, green, blue %.3g, %.3g, %.3g cd/m²", double(rgb[0]), double(rgb[1]), double(rgb[2]));
             ImGui::Text("shown as about %.4g cd/m²",
-                        shown_luminance(settings.tone_operator, frame.curve, here, settings.display));
-            const Scene& scene = now.session.scenery().scene();
-            const SceneFrame moment = now.session.moment();
+                        render::shown_luminance(settings.tone_operator, frame.curve, here, settings.display));
+            const scene::Scene& scene = now.session.scenery().scene();
+            const gpu_scene::SceneFrame moment = now.session.moment();
             if (const auto point =
                     now.view_pixel ? surface_at(scene, moment, now.view, *now.view_pixel) : std::nullopt) {
                 const double lamps = lamp_illuminance(scene, moment, *point);
@@ -138,14 +139,14 @@ void Instruments::draw_scale() {
         const float width = ImGui::GetContentRegionAvail().x;
         ImDrawList* list = ImGui::GetWindowDrawList();
         for (float x = 0; x < width; ++x) {
-            const CanvasColour c = map_colour(double(x / (width - 1)));
+            const apps::CanvasColour c = apps::map_colour(double(x / (width - 1)));
             list->AddRectFilled({at.x + x, at.y}, {at.x + x + 1, at.y + 16},
                                 ImGui::ColorConvertFloat4ToU32({float(c.r), float(c.g), float(c.b), 1}));
         }
         float free = -1;
-        for (const double tick : log_ticks(scale_.low, scale_.high)) {
+        for (const double tick : apps::log_ticks(scale_.low, scale_.high)) {
             const float x = float(scale_.position(tick)) * width;
-            const std::string label = tick_label(tick);
+            const std::string label = apps::tick_label(tick);
             const float half = ImGui::CalcTextSize(label.c_str()).x / 2;
             list->AddLine({at.x + x, at.y + 16}, {at.x + x, at.y + 20}, colours::kText);
             const float left = std::clamp(x - half, 0.0f, width - 2 * half);
@@ -166,4 +167,4 @@ void Instruments::draw_scale() {
     ImGui::End();
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -10,8 +10,10 @@
 #include "tone_arguments.h"
 #include "vision/display.h"
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
+
+using apps::format;
 
 /// Declares switches of the settings that somebody sees, and notes what is changed. Values are those of DriveSettings.
 class Switches {
@@ -52,26 +54,26 @@ private:
 void Instruments::draw_switches(const FrameState& now, std::vector<Change>& changes) {
     if (begin(kSwitches, "Switches (F6)", {-8, 8}, {430, 560})) {
         const DriveSettings& settings = now.session.settings();
-        const RenderSettings& render = settings.render();
-        const ToneSettings& tone = render.tone;
+        const render::RenderSettings& render = settings.render();
+        const render::ToneSettings& tone = render.tone;
         Switches to(settings, changes);
         ImGui::PushItemWidth(210);
 
         std::vector<std::string> names;
-        for (const OperatorInfo& info : operators()) names.emplace_back(info.name);
-        to.choice("operator", "operator", name_of(render.tone_operator), names);
-        ImGui::TextWrapped("%s", std::string(operator_info(render.tone_operator).summary).c_str());
+        for (const render::OperatorInfo& info : render::operators()) names.emplace_back(info.name);
+        to.choice("operator", "operator", apps::name_of(render.tone_operator), names);
+        ImGui::TextWrapped("%s", std::string(render::operator_info(render.tone_operator).summary).c_str());
 
-        to.choice("glare", "glare", to.text("glare", "none"), glare_names());
-        if (render.glare == Glare::Scatter)
+        to.choice("glare", "glare", to.text("glare", "none"), apps::glare_names());
+        if (render.glare == render::Glare::Scatter)
             to.slider("iris", "iris", float(render.scatter.eye.pigmentation), 0, 1.5f, "%.2f (0 dark, 1.2 light blue)");
 
         names.clear();
-        for (const NamedDisplay& known : known_displays())
+        for (const vision::NamedDisplay& known : vision::known_displays())
             if (now.screen.shows(known.display)) names.emplace_back(known.name);
-        to.choice("display", "display", to.text("display", known_displays().front().name), names);
-        to.choice("bright colours keep", "gamut", to.text("gamut", "luminance"), gamut_names());
-        if (render.display.eotf != Eotf::Table) {
+        to.choice("display", "display", to.text("display", vision::known_displays().front().name), names);
+        to.choice("bright colours keep", "gamut", to.text("gamut", "luminance"), apps::gamut_names());
+        if (render.display.eotf != vision::Eotf::Table) {
             to.slider("peak", "display-peak", render.display.peak, 1, 4000, "%.0f cd/m²", true);
             to.slider("black", "display-black", render.display.black, 0.001f, 2, "%.3f cd/m²", true);
         }
@@ -126,4 +128,4 @@ void Instruments::draw_lamps(const FrameState& now, std::vector<Change>& changes
     ImGui::End();
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

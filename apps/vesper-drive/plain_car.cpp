@@ -8,7 +8,7 @@
 #include "photometry/standard_lamps.h"
 #include "scene/colour.h"
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
 
 constexpr float kRadiansPerDegreeF = float(kRadiansPerDegree);
@@ -16,7 +16,7 @@ constexpr float kHalogen = 3800;  // K
 const glm::vec3 kRed(1, 0.02f, 0.01f), kAmber(1, 0.38f, 0);
 
 // An axis-aligned box, each face with its own normal.
-void add_box(Primitive& p, glm::vec3 low, glm::vec3 high) {
+void add_box(scene::Primitive& p, glm::vec3 low, glm::vec3 high) {
     for (int axis = 0; axis < 3; ++axis)
         for (int side = 0; side < 2; ++side) {
             glm::vec3 normal(0), u(0), v(0), corner = side ? high : low;
@@ -36,34 +36,34 @@ void add_box(Primitive& p, glm::vec3 low, glm::vec3 high) {
 
 glm::vec3 of_luminance_one(glm::vec3 c) { return c / (0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b); }
 
-uint32_t lamp_of(Scene& scene, const Lamp& lamp) {
+uint32_t lamp_of(scene::Scene& scene, const scene::Lamp& lamp) {
     const auto known = std::find_if(scene.lamps.begin(), scene.lamps.end(),
-                                    [&](const Lamp& l) { return l.name == lamp.name && l.opening.area() > 0; });
+                                    [&](const scene::Lamp& l) { return l.name == lamp.name && l.opening.area() > 0; });
     if (known != scene.lamps.end()) return uint32_t(known - scene.lamps.begin());
     scene.lamps.push_back(lamp);
     return uint32_t(scene.lamps.size() - 1);
 }
 
-uint32_t beam(Scene& scene, const std::string& name, const std::string& file) {
-    Lamp lamp{.name = name,
-              .kind = Lamp::Kind::Measured,
-              .intensity = 1,
-              .colour = colour_of_temperature(kHalogen),
-              .opening = {.length = 0.265, .width = 0.14}};
+uint32_t beam(scene::Scene& scene, const std::string& name, const std::string& file) {
+    scene::Lamp lamp{.name = name,
+                     .kind = scene::Lamp::Kind::Measured,
+                     .intensity = 1,
+                     .colour = scene::colour_of_temperature(kHalogen),
+                     .opening = {.length = 0.265, .width = 0.14}};
     const auto known = std::find_if(scene.distributions.begin(), scene.distributions.end(),
-                                    [&](const Distribution& d) { return d.name == name; });
+                                    [&](const photometry::Distribution& d) { return d.name == name; });
     lamp.distribution = uint32_t(known - scene.distributions.begin());
     if (known == scene.distributions.end()) {
-        scene.distributions.push_back(standard_lamp(file));
+        scene.distributions.push_back(photometry::standard_lamp(file));
         scene.distributions.back().name = name;
     }
     return lamp_of(scene, lamp);
 }
 
-uint32_t signal(Scene& scene, const std::string& name, float candela, float outer, glm::vec3 colour, double width,
-                double height) {
+uint32_t signal(scene::Scene& scene, const std::string& name, float candela, float outer, glm::vec3 colour,
+                double width, double height) {
     return lamp_of(scene, {.name = name,
-                           .kind = Lamp::Kind::Spot,
+                           .kind = scene::Lamp::Kind::Spot,
                            .intensity = candela,
                            .colour = of_luminance_one(colour),
                            .inner_cone = 10 * kRadiansPerDegreeF,
@@ -82,11 +82,11 @@ traffic::LampRoles plain_lamps() {
             {"right front indicator", "right rear indicator"}};
 }
 
-void add_plain_body(Scene& scene, uint32_t root, const PlainBody& body) {
+void add_plain_body(scene::Scene& scene, uint32_t root, const PlainBody& body) {
     const std::string name = scene.nodes[root].name;
     const glm::vec3 half = glm::vec3(body.size.y, body.size.z, body.size.x) / 2.0f;  // right, up, back
     const glm::vec3 middle(-body.centre.y, body.centre.z, -body.centre.x);
-    Primitive p;
+    scene::Primitive p;
     p.material = uint32_t(scene.materials.size());
     scene.materials.push_back(
         {.name = name, .base_colour = glm::vec4(body.reflectance, 1), .roughness = body.lamps ? 0.4f : 1.0f});
@@ -106,7 +106,7 @@ void add_plain_body(Scene& scene, uint32_t root, const PlainBody& body) {
     const glm::quat back = glm::angleAxis(std::numbers::pi_v<float>, glm::vec3(0, 1, 0));
     const auto hang = [&](uint32_t lamp, float side, float height, bool front) {
         // Measured lamps are known by their node's name.
-        Node node{.name = scene.lamps[lamp].name, .parent = root, .lamp = lamp};
+        scene::Node node{.name = scene.lamps[lamp].name, .parent = root, .lamp = lamp};
         node.translation = {middle.x + side * 0.75f * half.x, height,
                             middle.z + (front ? -half.z - 0.02f : half.z + 0.02f)};
         if (!front) node.rotation = back;
@@ -126,4 +126,4 @@ void add_plain_body(Scene& scene, uint32_t root, const PlainBody& body) {
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

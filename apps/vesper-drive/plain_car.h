@@ -6,7 +6,7 @@
 #include "scene/scene.h"
 #include "traffic/world_file.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 /// A box of this size, its middle at `centre` (ahead, left, up; m) from the node's origin on the ground.
 struct PlainBody {
@@ -21,6 +21,6 @@ traffic::LampRoles plain_lamps();
 
 /// Gives a node the body and, at its corners, low and high beams (standard_lamp), tail and brake lamps and indicators.
 /// The candela are those of UN Regulations 6 and 7, as data/rivoli has them.
-void add_plain_body(Scene&, uint32_t node, const PlainBody&);
+void add_plain_body(scene::Scene&, uint32_t node, const PlainBody&);
 
-}  // namespace vesper
+}  // namespace vesper::drive

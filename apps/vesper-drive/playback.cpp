@@ -1,6 +1,6 @@
 #include "playback.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 std::optional<DriveEvent::Kind> Playback::next(Session& session) {
     if (next_ == events_.end()) return std::nullopt;
@@ -31,4 +31,4 @@ void Playback::rewind(Session& session) {
     next_ = events_.begin(), strayed_ = false;
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

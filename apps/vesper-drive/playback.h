@@ -3,7 +3,7 @@
 
 #include "session.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 /// What windows and the headless program drive by when nobody holds the wheel: a recording, or steps made for the
 /// purpose. What was given beside a recording (`kept`) wins over what it sets.
@@ -30,4 +30,4 @@ private:
     bool strayed_ = false;
 };
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -6,7 +6,7 @@
 
 #include "canvas.h"
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
 
 constexpr float kLeft = 44, kRight = 8, kBelow = 34;
@@ -17,7 +17,7 @@ double part(const PanelPlot::Axis& axis, double value) {
 }
 
 std::vector<double> ticks(const PanelPlot::Axis& axis, int count) {
-    return axis.logarithmic ? log_ticks(axis.low, axis.high) : linear_ticks(axis.low, axis.high, count);
+    return axis.logarithmic ? apps::log_ticks(axis.low, axis.high) : apps::linear_ticks(axis.low, axis.high, count);
 }
 
 ImVec2 im(glm::vec2 v) { return {v.x, v.y}; }
@@ -43,7 +43,7 @@ void PanelPlot::tick_labels() const {
     for (const double tick : ticks(x_, 6)) {
         const glm::vec2 foot = at(tick, y_.low);
         list_->AddLine(im(foot), im({foot.x, corner_.y}), colours::kGrid);
-        const std::string label = tick_label(tick);
+        const std::string label = apps::tick_label(tick);
         const float width = ImGui::CalcTextSize(label.c_str()).x;
         if (foot.x - width / 2 < free) continue;
         const float left = std::min(foot.x - width / 2, corner_.x + size_.x + kRight - width);
@@ -54,7 +54,7 @@ void PanelPlot::tick_labels() const {
     for (const double tick : ticks(y_, 5)) {
         const glm::vec2 side = at(x_.low, tick);
         list_->AddLine(im(side), im({side.x + size_.x, side.y}), colours::kGrid);
-        const std::string label = tick_label(tick);
+        const std::string label = apps::tick_label(tick);
         const ImVec2 room = ImGui::CalcTextSize(label.c_str());
         if (side.y + room.y / 2 > lowest) continue;
         list_->AddText({side.x - room.x - 4, side.y - room.y / 2}, colours::kFaint, label.c_str());
@@ -92,4 +92,4 @@ void PanelPlot::band(double x0, double x1, ImU32 colour) const {
 
 void PanelPlot::level(double y, ImU32 colour) const { list_->AddLine(im(at(x_.low, y)), im(at(x_.high, y)), colour); }
 
-}  // namespace vesper
+}  // namespace vesper::drive

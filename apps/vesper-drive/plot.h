@@ -7,7 +7,7 @@
 #include <imgui.h>
 #include <glm/glm.hpp>
 
-namespace vesper {
+namespace vesper::drive {
 
 /// A diagram in the window of Dear ImGui that is being declared, with room for labels on its left and below.
 class PanelPlot {
@@ -43,4 +43,4 @@ constexpr ImU32 kAdaptation = IM_COL32(120, 230, 130, 255), kAverage = IM_COL32(
 constexpr ImU32 kDisplay = IM_COL32(255, 255, 255, 26), kAlarm = IM_COL32(255, 90, 80, 255);
 }  // namespace colours
 
-}  // namespace vesper
+}  // namespace vesper::drive

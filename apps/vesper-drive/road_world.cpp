@@ -14,7 +14,7 @@
 #include "roads/lit_roads.h"
 #include "roads/opendrive.h"
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
 
 constexpr size_t kMostCourses = 64, kTraffic = 8;
@@ -31,7 +31,7 @@ std::optional<traffic::Course> course_of(const roads::LaneGraph& graph, const st
     for (const uint32_t index : way) {
         const roads::Lane& lane = graph.lanes()[index];
         for (const roads::LanePose& pose : lane.poses) {
-            const double limit = allowed_speed(lane, pose, limits.empty() ? 0 : limits.back());
+            const double limit = roads::allowed_speed(lane, pose, limits.empty() ? 0 : limits.back());
             if (points.empty() ||
                 std::hypot(pose.position.x - points.back().x, pose.position.z - points.back().z) > 0.2)
                 points.push_back(pose.position), limits.push_back(limit);
@@ -71,7 +71,7 @@ std::vector<traffic::Course> courses_of(const roads::LaneGraph& graph) {
 }
 
 traffic::VehicleLamps lamps_at(const roads::RunEntity& e, double time) {
-    const auto lit = [&](roads::RunLamp lamp) { return lamp_at(e, lamp, time).level > 0.5; };
+    const auto lit = [&](roads::RunLamp lamp) { return roads::lamp_at(e, lamp, time).level > 0.5; };
     const bool low = lit(roads::RunLamp::LowBeam), high = lit(roads::RunLamp::HighBeam);
     return {.low = low,
             .high = high,
@@ -109,7 +109,7 @@ traffic::RecordedMover recording_of(const roads::RunEntity& e, const std::string
     return r;
 }
 
-std::string add_body(Scene& scene, const std::string& name, const PlainBody& body) {
+std::string add_body(scene::Scene& scene, const std::string& name, const PlainBody& body) {
     scene.nodes.push_back({.name = name});
     add_plain_body(scene, uint32_t(scene.nodes.size() - 1), body);
     return name;
@@ -117,14 +117,15 @@ std::string add_body(Scene& scene, const std::string& name, const PlainBody& bod
 
 // The driver's car of the road's scene stands on the middle of its front axle, that of a world on its own middle.
 void add_drivers_car(RoadWorld& made, const traffic::VehicleParameters& vehicle) {
-    Scene& scene = made.scene;
+    scene::Scene& scene = made.scene;
     for (uint32_t i = 0; i < scene.nodes.size(); ++i) {
         if (scene.nodes[i].name != "car_ego") continue;
         made.world.world.driver_node = scene.nodes[i].name;
-        for (Node& node : scene.nodes) {
+        for (scene::Node& node : scene.nodes) {
             if (node.parent != i) continue;
             node.translation.z -= float((vehicle.front_axle + vehicle.rear_axle) / 2);
-            if (node.camera != kNone && scene.cameras[node.camera].name == "driver") made.world.camera = "driver";
+            if (node.camera != scene::kNone && scene.cameras[node.camera].name == "driver")
+                made.world.camera = "driver";
         }
         return add_plain_body(scene, i,
                               {.size = {vehicle.length, vehicle.width, 1.5},
@@ -192,8 +193,8 @@ RoadWorld road_world(const std::filesystem::path& roads, const std::filesystem::
     if (!run.empty())
         recorded = roads::read_esmini_run(run, scenario.empty() ? std::nullopt : std::optional(scenario), &network);
     const bool switched = recorded && !recorded->signals.empty();
-    roads::LitRoads lit =
-        in_file(roads.string(), [&] { return lit_roads(network, {.headlamps = false, .every_lens = switched}); });
+    roads::LitRoads lit = io::in_file(
+        roads.string(), [&] { return roads::lit_roads(network, {.headlamps = false, .every_lens = switched}); });
     RoadWorld made{.scene = std::move(lit.scene), .world = {}, .lenses = {}, .notes = std::move(lit.notes)};
     made.world.scene = roads;
     made.world.roles = plain_lamps();
@@ -209,9 +210,9 @@ RoadWorld road_world(const std::filesystem::path& roads, const std::filesystem::
     world.driver_s = 3;
     if (recorded) check_place(made, *recorded, run, network, graph);
     if (switched) made.lenses = lenses_of(made.scene, network, *recorded, made.notes);
-    for (Node& node : made.scene.nodes) {
+    for (scene::Node& node : made.scene.nodes) {
         // Lamps go by what they are; by day those of the road are off, and signals are not.
-        if (node.lamp != kNone) {
+        if (node.lamp != scene::kNone) {
             node.name = made.scene.lamps[node.lamp].name;
             if (node.name != "street lamp" &&
                 std::find(made.world.by_day.begin(), made.world.by_day.end(), node.name) == made.world.by_day.end())
@@ -227,4 +228,4 @@ RoadWorld road_world(const std::filesystem::path& roads, const std::filesystem::
     return made;
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -9,10 +9,10 @@
 #include "signal_lens.h"
 #include "traffic/world_file.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 struct RoadWorld {
-    Scene scene;
+    scene::Scene scene;
     traffic::WorldFile world;
     std::vector<SignalLens> lenses;
     std::vector<std::string> notes;
@@ -24,4 +24,4 @@ struct RoadWorld {
 RoadWorld road_world(const std::filesystem::path& roads, const std::filesystem::path& run,
                      const std::filesystem::path& scenario);
 
-}  // namespace vesper
+}  // namespace vesper::drive

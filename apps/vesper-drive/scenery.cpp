@@ -21,9 +21,10 @@
 #include "scene_notes.h"
 #include "traffic/daylight.h"
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
 
+using scene::kNone;
 namespace fs = std::filesystem;
 
 constexpr double kEyeHeight = 1.2;  // m, of a driver
@@ -39,12 +40,12 @@ struct Scratch {
     }
 };
 
-LoadedScene load(const fs::path& scene, const fs::path& photometry) {
-    if (photometry.empty()) return read_gltf(scene);
+scene::LoadedScene load(const fs::path& scene, const fs::path& photometry) {
+    if (photometry.empty()) return scene::read_gltf(scene);
     const Scratch scratch;
     const fs::path made = scratch.folder / "scene.gltf";
-    convert(scene, photometry, made);
-    return read_gltf(made);
+    scene::convert(scene, photometry, made);
+    return scene::read_gltf(made);
 }
 
 // Without what a node's scale does.
@@ -63,18 +64,18 @@ glm::dmat4 pose_of(const traffic::Actor& a) {
     return glm::rotate(m, -a.roll, glm::dvec3(0, 0, 1));  // left side up
 }
 
-uint32_t first_camera(const Scene& scene) {
+uint32_t first_camera(const scene::Scene& scene) {
     for (uint32_t i = 0; i < scene.nodes.size(); ++i)
         if (scene.nodes[i].camera != kNone) return i;
     return kNone;
 }
 
 // A scene alone: straight on from where the camera on that node stands, if there is one.
-traffic::WorldFile plain_world(const Scene& scene, uint32_t camera) {
+traffic::WorldFile plain_world(const scene::Scene& scene, uint32_t camera) {
     traffic::WorldFile file;
     glm::dvec3 eye(0, kEyeHeight, 0), ahead(0, 0, -1);
     if (camera != kNone) {
-        const glm::dmat4 stands = world_transforms(scene, 0)[camera];
+        const glm::dmat4 stands = scene::world_transforms(scene, 0)[camera];
         eye = glm::dvec3(stands[3]), ahead = -glm::dvec3(stands[2]);
     }
     ahead.y = 0;
@@ -84,9 +85,9 @@ traffic::WorldFile plain_world(const Scene& scene, uint32_t camera) {
     return file;
 }
 
-const std::string& lamp_name(const Scene& scene, uint32_t node) {
-    const Lamp& lamp = scene.lamps[scene.nodes[node].lamp];
-    return lamp.kind == Lamp::Kind::Measured || lamp.name.empty() ? scene.nodes[node].name : lamp.name;
+const std::string& lamp_name(const scene::Scene& scene, uint32_t node) {
+    const scene::Lamp& lamp = scene.lamps[scene.nodes[node].lamp];
+    return lamp.kind == scene::Lamp::Kind::Measured || lamp.name.empty() ? scene.nodes[node].name : lamp.name;
 }
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
@@ -107,16 +108,16 @@ Scenery::Scenery(const fs::path& file, const fs::path& run, const fs::path& scen
         adopt(roads.world);
     } else if (extension == ".json") {
         traffic::WorldFile world = traffic::read_world(file);
-        LoadedScene loaded = load(world.scene, world.photometry);
-        notes_ = notes_of(loaded, world.scene.string()), scene_ = std::move(loaded.scene);
+        scene::LoadedScene loaded = load(world.scene, world.photometry);
+        notes_ = apps::notes_of(loaded, world.scene.string()), scene_ = std::move(loaded.scene);
         scene_.name = world.scene.string();
         adopt(world);
         const std::string at = one_line(file.string()) + ": ";
         for (const auto& [role, names] : traffic::kLampRoles) require_lamps(world.roles.*names, at + "/lamps/" + role);
         require_lamps(world.by_day, at + "/lit_by_day");
     } else if (extension == ".gltf" || extension == ".glb") {
-        LoadedScene loaded = load(file, {});
-        notes_ = notes_of(loaded, file.string()), scene_ = std::move(loaded.scene);
+        scene::LoadedScene loaded = load(file, {});
+        notes_ = apps::notes_of(loaded, file.string()), scene_ = std::move(loaded.scene);
         scene_.name = file.string();
         const uint32_t camera = first_camera(scene_);
         traffic::WorldFile plain = plain_world(scene_, camera);
@@ -128,10 +129,10 @@ Scenery::Scenery(const fs::path& file, const fs::path& run, const fs::path& scen
 
 void Scenery::adopt(traffic::WorldFile& file, uint32_t eye) {
     scene_.channels.clear();
-    rest_ = world_transforms(scene_, 0);
+    rest_ = scene::world_transforms(scene_, 0);
     night_ = {scene_.ambient_illuminance * scene_.ambient_colour, scene_.sky_luminance * scene_.sky_colour};
     camera_ = file.camera;
-    if (!camera_.empty() && !contains(camera_names(scene_), camera_))
+    if (!camera_.empty() && !contains(gpu_scene::camera_names(scene_), camera_))
         throw Error(one_line(scene_.name) + ": there is no camera " + one_line(camera_) + " for the driver");
     tunnels_ = file.tunnels;
     world_ = std::make_shared<const traffic::WorldDescription>(std::move(file.world));
@@ -189,10 +190,11 @@ void Scenery::find_lamps(const traffic::LampRoles& roles, const std::vector<std:
 std::vector<LampGroup> Scenery::lamp_groups() const {
     std::map<std::string, LampGroup> groups;
     for (const SwitchedLamp& switched : lamps_) {
-        const Lamp& lamp = scene_.lamps[scene_.nodes[switched.node].lamp];
-        if (lamp.kind == Lamp::Kind::Directional) continue;  // has no intensity
-        const double largest =
-            lamp.kind == Lamp::Kind::Measured ? largest_intensity(scene_.distributions[lamp.distribution]) : 1;
+        const scene::Lamp& lamp = scene_.lamps[scene_.nodes[switched.node].lamp];
+        if (lamp.kind == scene::Lamp::Kind::Directional) continue;  // has no intensity
+        const double largest = lamp.kind == scene::Lamp::Kind::Measured
+                                   ? photometry::largest_intensity(scene_.distributions[lamp.distribution])
+                                   : 1;
         LampGroup& group = groups[switched.name];
         group.name = switched.name;
         ++group.lamps, group.candela = std::max(group.candela, double(lamp.intensity) * largest);
@@ -239,9 +241,10 @@ bool Scenery::shines(const SwitchedLamp& lamp, const std::vector<traffic::Actor>
     }
 }
 
-SceneFrame Scenery::frame(const std::vector<traffic::Actor>& actors, double seconds,
-                          const DriveSettings& settings) const {
-    SceneFrame made{.world = rest_, .dimming = std::vector<float>(scene_.nodes.size(), 1), .ambient = night_};
+gpu_scene::SceneFrame Scenery::frame(const std::vector<traffic::Actor>& actors, double seconds,
+                                     const DriveSettings& settings) const {
+    gpu_scene::SceneFrame made{
+        .world = rest_, .dimming = std::vector<float>(scene_.nodes.size(), 1), .ambient = night_};
     std::vector<glm::dmat4> poses;
     for (const traffic::Actor& actor : actors) poses.push_back(pose_of(actor));
     for (const Rider& r : riders_) made.world[r.node] = poses[r.actor] * r.offset;
@@ -250,7 +253,7 @@ SceneFrame Scenery::frame(const std::vector<traffic::Actor>& actors, double seco
     if (settings.sun()) {
         outside = traffic::kOvercast * traffic::daylight_illuminance(*settings.sun());
         const glm::vec3 light =
-            float(outside) * glm::vec3(colour_of_temperature(traffic::daylight_temperature(*settings.sun())));
+            float(outside) * glm::vec3(scene::colour_of_temperature(traffic::daylight_temperature(*settings.sun())));
         made.ambient->illuminance += light;
         made.ambient->sky += light / std::numbers::pi_v<float>;
         made.tunnels = tunnels_;
@@ -265,14 +268,14 @@ SceneFrame Scenery::frame(const std::vector<traffic::Actor>& actors, double seco
     return made;
 }
 
-View Scenery::view(const SceneFrame& frame, const std::vector<traffic::Actor>& actors, const DriveSettings& settings,
-                   VkExtent2D extent) const {
+gpu_scene::View Scenery::view(const gpu_scene::SceneFrame& frame, const std::vector<traffic::Actor>& actors,
+                              const DriveSettings& settings, VkExtent2D extent) const {
     constexpr double kFov = 40 * kRadiansPerDegree;
     const double asked = settings.vertical_fov() * std::numbers::pi / 180, fov = asked > 0 ? asked : kFov;
     const traffic::Actor& me = actors.front();
     const glm::dvec3 ahead(-std::sin(me.yaw), 0, -std::cos(me.yaw)), up(0, 1, 0);
     const auto look = [&](glm::dvec3 eye, glm::dvec3 at) {
-        return View::symmetric(extent, float(fov), glm::mat4(glm::lookAt(eye, at, up)));
+        return gpu_scene::View::symmetric(extent, float(fov), glm::mat4(glm::lookAt(eye, at, up)));
     };
     switch (settings.camera()) {
         case CameraKind::Chase:
@@ -283,18 +286,18 @@ View Scenery::view(const SceneFrame& frame, const std::vector<traffic::Actor>& a
             const FreeCamera& c = settings.free_camera();
             const glm::dmat4 m = glm::rotate(glm::rotate(glm::translate(glm::dmat4(1), c.position), c.yaw, up), c.pitch,
                                              glm::dvec3(1, 0, 0));
-            return View::symmetric(extent, float(fov), glm::mat4(glm::inverse(m)));
+            return gpu_scene::View::symmetric(extent, float(fov), glm::mat4(glm::inverse(m)));
         }
         case CameraKind::Driver:
             break;
     }
     if (camera_.empty()) {
         const glm::dmat4 eye = glm::translate(pose_of(me), glm::dvec3(0, kEyeHeight, 0));
-        return View::symmetric(extent, float(fov), glm::mat4(glm::inverse(eye)));
+        return gpu_scene::View::symmetric(extent, float(fov), glm::mat4(glm::inverse(eye)));
     }
-    View view = camera_view(scene_, frame, camera_, extent);
-    if (asked > 0) view = View::symmetric(extent, float(asked), view.world_to_view, view.near);
+    gpu_scene::View view = gpu_scene::camera_view(scene_, frame, camera_, extent);
+    if (asked > 0) view = gpu_scene::View::symmetric(extent, float(asked), view.world_to_view, view.near);
     return view;
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -11,7 +11,7 @@
 #include "signal_lens.h"
 #include "traffic/world_file.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 /// Lamps of one name.
 struct LampGroup {
@@ -29,7 +29,7 @@ public:
     explicit Scenery(const std::filesystem::path& file, const std::filesystem::path& run = {},
                      const std::filesystem::path& scenario = {});
 
-    const Scene& scene() const { return scene_; }
+    const scene::Scene& scene() const { return scene_; }
     const std::shared_ptr<const traffic::WorldDescription>& world() const { return world_; }
     const std::vector<std::string>& notes() const { return notes_; }
     /// The lamps there are by name, as "lamp:NAME" settings have them, sorted.
@@ -39,9 +39,10 @@ public:
     const DriveSettings& check(const DriveSettings&) const;
 
     /// Where everything stands and how it is lit, with the actors of a World of `world()` after so many seconds.
-    SceneFrame frame(const std::vector<traffic::Actor>&, double seconds, const DriveSettings&) const;
+    gpu_scene::SceneFrame frame(const std::vector<traffic::Actor>&, double seconds, const DriveSettings&) const;
     /// What the camera of the settings sees of that frame.
-    View view(const SceneFrame&, const std::vector<traffic::Actor>&, const DriveSettings&, VkExtent2D) const;
+    gpu_scene::View view(const gpu_scene::SceneFrame&, const std::vector<traffic::Actor>&, const DriveSettings&,
+                         VkExtent2D) const;
 
 private:
     enum Role : uint8_t { kFixed, kLow, kHigh, kTail, kBrake, kLeft, kRight };  // in the order of kLampRoles
@@ -55,14 +56,14 @@ private:
     };
     /// Takes its world; names stay. `eye`: a node that goes with the driver's car from where it stands, with all that
     /// is below it.
-    void adopt(traffic::WorldFile&, uint32_t eye = kNone);
+    void adopt(traffic::WorldFile&, uint32_t eye = scene::kNone);
     /// Throws Error, which begins with `place`, where no lamp of the scene has that name.
     void require_lamp(const std::string& name, const std::string& place) const;
     void require_lamps(const std::vector<std::string>& names, const std::string& place) const;
     void find_lamps(const traffic::LampRoles&, const std::vector<std::string>& by_day);
     bool shines(const SwitchedLamp&, const std::vector<traffic::Actor>&, bool bright) const;
 
-    Scene scene_;
+    scene::Scene scene_;
     std::shared_ptr<const traffic::WorldDescription> world_;
     std::vector<std::string> notes_;
     std::vector<glm::dmat4> rest_;  // of each node, in the world
@@ -74,8 +75,8 @@ private:
     std::vector<SwitchedLamp> lamps_;
     std::vector<SignalLens> lenses_;
     std::string camera_;  // of the driver's eye; empty: none
-    AmbientLight night_;
-    std::vector<Tunnel> tunnels_;
+    gpu_scene::AmbientLight night_;
+    std::vector<scene::Tunnel> tunnels_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -10,19 +10,19 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
 
 constexpr const char* kFont = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr float kLetters = 14;  // px, times the scale of the desktop
 
-WindowCodes codes_of(const Display& display) {
-    if (display.bits == 8) return WindowCodes::Sdr8;
-    return display.eotf == Eotf::Pq ? WindowCodes::Hdr10 : WindowCodes::Sdr10;
+window::WindowCodes codes_of(const vision::Display& display) {
+    if (display.bits == 8) return window::WindowCodes::Sdr8;
+    return display.eotf == vision::Eotf::Pq ? window::WindowCodes::Hdr10 : window::WindowCodes::Sdr10;
 }
 
-Overlay overlay_of(const ImDrawData& data) {
-    Overlay overlay;
+window::Overlay overlay_of(const ImDrawData& data) {
+    window::Overlay overlay;
     const glm::vec2 origin(data.DisplayPos.x, data.DisplayPos.y),
         scale(data.FramebufferScale.x, data.FramebufferScale.y);
     for (int i = 0; i < data.CmdListsCount; ++i) {
@@ -87,7 +87,7 @@ struct Screen::Instruments {
     }
 };
 
-Screen::Screen(Window& window, Device& device)
+Screen::Screen(Window& window, gpu::Device& device)
     : window_(window),
       instruments_(std::make_unique<Instruments>(window.handle())),
       swapchain_(device, [&window](VkInstance instance) { return window.make_surface(instance); }),
@@ -95,7 +95,7 @@ Screen::Screen(Window& window, Device& device)
 
 Screen::~Screen() = default;
 
-bool Screen::shows(const Display& display) const { return swapchain_.offers(codes_of(display)); }
+bool Screen::shows(const vision::Display& display) const { return swapchain_.offers(codes_of(display)); }
 
 void Screen::begin_instruments(bool keyboard) {
     ImGuiIO& io = ImGui::GetIO();
@@ -107,29 +107,29 @@ void Screen::begin_instruments(bool keyboard) {
     ImGui::NewFrame();
 }
 
-bool Screen::show(const Picture& picture, const Display& display, const ScreenSettings& settings) {
+bool Screen::show(const window::Picture& picture, const vision::Display& display, const ScreenSettings& settings) {
     ImGui::Render();
-    const Overlay overlay = overlay_of(*ImGui::GetDrawData());
-    const SwapchainSettings how{.extent = window_.extent(),
-                                .vsync = settings.vsync,
-                                .codes = codes_of(display),
-                                .peak = display.peak,
-                                .black = display.black};
-    return swapchain_.show(how, [&](VkCommandBuffer commands, const WindowImage& image) {
+    const window::Overlay overlay = overlay_of(*ImGui::GetDrawData());
+    const window::SwapchainSettings how{.extent = window_.extent(),
+                                        .vsync = settings.vsync,
+                                        .codes = codes_of(display),
+                                        .peak = display.peak,
+                                        .black = display.black};
+    return swapchain_.show(how, [&](VkCommandBuffer commands, const window::WindowImage& image) {
         presenter_.draw(commands, image, picture, settings.scaling, overlay);
     });
 }
 
 bool Screen::is_typing() const { return ImGui::GetIO().WantTextInput; }
 
-std::optional<glm::uvec2> Screen::pixel_under_mouse(VkExtent2D picture, Scaling scaling) const {
+std::optional<glm::uvec2> Screen::pixel_under_mouse(VkExtent2D picture, window::Scaling scaling) const {
     const VkExtent2D window = window_.extent();
     if (ImGui::GetIO().WantCaptureMouse || window.width == 0 || window.height == 0) return std::nullopt;
-    const VkRect2D area = place(picture, window, scaling).area;
+    const VkRect2D area = window::place(picture, window, scaling).area;
     const glm::dvec2 at = (window_.mouse() - glm::dvec2(area.offset.x, area.offset.y)) *
                           glm::dvec2(picture.width, picture.height) / glm::dvec2(area.extent.width, area.extent.height);
     if (at.x < 0 || at.y < 0 || at.x >= picture.width || at.y >= picture.height) return std::nullopt;
     return glm::uvec2(at);
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -9,32 +9,32 @@
 #include "window.h"
 #include "window/presenter.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 struct ScreenSettings {
-    Vsync vsync = Vsync::Wait;
-    Scaling scaling = Scaling::Fit;
+    window::Vsync vsync = window::Vsync::Wait;
+    window::Scaling scaling = window::Scaling::Fit;
 };
 
 /// Shows pictures in a window, with Dear ImGui over them. One at a time.
 class Screen {
 public:
-    Screen(Window&, Device&);
+    Screen(Window&, gpu::Device&);
     ~Screen();
     Screen(const Screen&) = delete;
     Screen& operator=(const Screen&) = delete;
 
     /// Whether the window can show the codes of such a display.
-    bool shows(const Display&) const;
+    bool shows(const vision::Display&) const;
 
     /// Between these two, instruments are declared (ImGui::Begin and the like). Keys are theirs while `keyboard` says
     /// so, but for those of letters typed.
     void begin_instruments(bool keyboard);
     /// Shows a picture of a display and the instruments. False: nothing was shown, for now.
-    bool show(const Picture&, const Display&, const ScreenSettings&);
+    bool show(const window::Picture&, const vision::Display&, const ScreenSettings&);
 
     /// The px of a picture of this size that is under the mouse; nothing beside it, or over an instrument.
-    std::optional<glm::uvec2> pixel_under_mouse(VkExtent2D picture, Scaling) const;
+    std::optional<glm::uvec2> pixel_under_mouse(VkExtent2D picture, window::Scaling) const;
     bool is_typing() const;  ///< letters go into a field of an instrument
     std::string describe() const { return swapchain_.describe(); }
 
@@ -42,8 +42,8 @@ private:
     struct Instruments;  // Dear ImGui
     Window& window_;
     std::unique_ptr<Instruments> instruments_;
-    Swapchain swapchain_;
-    Presenter presenter_;
+    window::Swapchain swapchain_;
+    window::Presenter presenter_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::drive

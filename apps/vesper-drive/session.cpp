@@ -1,18 +1,18 @@
 #include "session.h"
 
-namespace vesper {
+namespace vesper::drive {
 
-Session::Session(Device& device, DriveStart options)
+Session::Session(gpu::Device& device, DriveStart options)
     : Session(device, options, Scenery(options.scene, options.run, options.scenario)) {}
 
-Session::Session(Device& device, DriveStart options, Scenery scenery)
+Session::Session(gpu::Device& device, DriveStart options, Scenery scenery)
     : options_(std::move(options)),
       scenery_(std::move(scenery)),
       settings_(scenery_.check(DriveSettings(options_.settings))),
       world_(std::make_unique<traffic::World>(scenery_.world(), options_.seed)),
       actors_(world_->actors()),
       device_(&device),
-      renderer_(std::make_unique<Renderer>(device, scenery_.scene())),
+      renderer_(std::make_unique<render::Renderer>(device, scenery_.scene())),
       recorder_(std::make_unique<DriveRecorder>(start())) {}
 
 Session::~Session() = default;
@@ -63,11 +63,11 @@ void Session::set(const std::string& name, const std::string& value) {
     recorder_->add({.kind = DriveEvent::Kind::Set, .name = name, .value = value});
 }
 
-SceneFrame Session::moment() const { return scenery_.frame(actors_, world_->seconds(), settings_); }
+gpu_scene::SceneFrame Session::moment() const { return scenery_.frame(actors_, world_->seconds(), settings_); }
 
-View Session::view(VkExtent2D extent) const { return scenery_.view(moment(), actors_, settings_, extent); }
+gpu_scene::View Session::view(VkExtent2D extent) const { return scenery_.view(moment(), actors_, settings_, extent); }
 
-Frame Session::render(VkExtent2D extent, Outputs outputs) { return render(view(extent), outputs); }
+render::Frame Session::render(VkExtent2D extent, render::Outputs outputs) { return render(view(extent), outputs); }
 
 void Session::begin_frame() { eye_step_ = rendered_ ? double(world_->steps() - *rendered_) * options_.time_step : 0; }
 
@@ -77,14 +77,14 @@ void Session::end_frame(const shared::EyeState& eye) {
     recorder_->add({.kind = DriveEvent::Kind::Frame, .name = {}, .value = {}});
 }
 
-Frame Session::render(const View& view, Outputs outputs) {
+render::Frame Session::render(const gpu_scene::View& view, render::Outputs outputs) {
     begin_frame();
-    Frame frame = renderer_->render(settings_.render(), view, moment(), float(eye_step_), outputs);
+    render::Frame frame = renderer_->render(settings_.render(), view, moment(), float(eye_step_), outputs);
     end_frame(frame.eye);
     return frame;
 }
 
-ChannelMosaic Session::render(const Channels& channels, Outputs outputs) {
+ChannelMosaic Session::render(const Channels& channels, render::Outputs outputs) {
     if (!wall_) wall_ = std::make_unique<ChannelRenderer>(*device_);
     begin_frame();
     ChannelMosaic wall =
@@ -93,12 +93,12 @@ ChannelMosaic Session::render(const Channels& channels, Outputs outputs) {
     return wall;
 }
 
-void Session::use(Device& device) {
+void Session::use(gpu::Device& device) {
     const bool had_wall = wall_ != nullptr;
     wall_.reset();
     renderer_.reset();
     device_ = &device;
-    renderer_ = std::make_unique<Renderer>(device, scenery_.scene());
+    renderer_ = std::make_unique<render::Renderer>(device, scenery_.scene());
     if (rendered_) renderer_->set_eye(eye_);
     if (!had_wall) return;
     wall_ = std::make_unique<ChannelRenderer>(device);
@@ -111,4 +111,4 @@ void Session::stop_recording() { recorder_->close(); }
 
 bool Session::recording() const { return recorder_->is_open(); }
 
-}  // namespace vesper
+}  // namespace vesper::drive

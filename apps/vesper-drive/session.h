@@ -30,13 +30,13 @@
 #include "settings.h"
 #include "traffic/world.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 class Session {
 public:
-    Session(Device&, DriveStart);
+    Session(gpu::Device&, DriveStart);
     /// With the scenery of that start, which somebody has read already.
-    Session(Device&, DriveStart, Scenery);
+    Session(gpu::Device&, DriveStart, Scenery);
     ~Session();
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
@@ -64,21 +64,21 @@ public:
 
     // Pictures.
     /// What the camera of the settings sees in a picture of that size.
-    View view(VkExtent2D) const;
+    gpu_scene::View view(VkExtent2D) const;
     /// Where everything stands now and how it is lit.
-    SceneFrame moment() const;
+    gpu_scene::SceneFrame moment() const;
     /// The picture of this moment. The first one, and one after a restart, is seen by an eye that is adapted.
-    Frame render(VkExtent2D, Outputs);
+    render::Frame render(VkExtent2D, render::Outputs);
     /// The same of another view.
-    Frame render(const View&, Outputs);
+    render::Frame render(const gpu_scene::View&, render::Outputs);
     /// All channels of this moment, seen by one eye. Not to be mixed with frames of one view: each way has an eye of
     /// its own.
-    ChannelMosaic render(const Channels&, Outputs);
+    ChannelMosaic render(const Channels&, render::Outputs);
     /// Seconds that passed for the eye before the last frame.
     double eye_step() const { return eye_step_; }
-    Renderer& renderer() { return *renderer_; }
+    render::Renderer& renderer() { return *renderer_; }
     /// Goes on with another device, as after one was lost; the eye remembers.
-    void use(Device&);
+    void use(gpu::Device&);
 
     // Recording (docs/drives.md).
     /// Records the drive from its start, whenever that was, and goes on with it: FILE.part has every event as soon as
@@ -99,8 +99,8 @@ private:
     std::unique_ptr<traffic::World> world_;
     std::vector<traffic::Actor> actors_;
     traffic::DriverInput input_;
-    Device* device_;
-    std::unique_ptr<Renderer> renderer_;
+    gpu::Device* device_;
+    std::unique_ptr<render::Renderer> renderer_;
     std::unique_ptr<ChannelRenderer> wall_;  // made when first asked for
     std::optional<uint64_t> rendered_;       // steps at the last frame
     shared::EyeState eye_{};
@@ -108,4 +108,4 @@ private:
     std::unique_ptr<DriveRecorder> recorder_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::drive

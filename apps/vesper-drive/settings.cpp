@@ -11,7 +11,7 @@
 #include "base/one_line.h"
 #include "tone_arguments.h"
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
 
 constexpr const char* kLamp = "lamp:";
@@ -21,32 +21,32 @@ const std::map<std::string, CameraKind> kCameras{{"driver", CameraKind::Driver},
                                                  {"free", CameraKind::Free}};
 
 struct SettingsArguments {
-    ToneArguments tone;
+    apps::ToneArguments tone;
     std::string camera = "driver";
     std::vector<double> free{0, 2, 0, 0, 0};
     double sun = 0, fov = 0;
-    float threshold = ClusterSettings{}.threshold;
+    float threshold = render::ClusterSettings{}.threshold;
 };
 
-void add(Command command, SettingsArguments& a) {
-    add_tone_options(command, a.tone);
+void add(apps::Command command, SettingsArguments& a) {
+    apps::add_tone_options(command, a.tone);
     command.add_option("--camera", a.camera, "Who sees the street: the driver, somebody behind, above, or free to go")
-        .check(one_of({"driver", "chase", "bird", "free"}))
+        .check(apps::one_of({"driver", "chase", "bird", "free"}))
         .shows_default();
     command.help_group("Cameras and lamps");
     command.add_option("--free", a.free, "Where the free camera stands and looks: X,Y,Z,YAW,PITCH, m and degrees")
         .separated_by(',')
         .values(5);
     command.add_option("--fov", a.fov, "Angle of the picture's height, degrees (default: the camera's)")
-        .check(between(0.0, 170.0));
+        .check(apps::between(0.0, 170.0));
     command.help_group();
     command
         .add_option("--sun", a.sun,
                     "Elevation of the sun under a closed cover of cloud, degrees\nDefault: the night of the scene")
-        .check(between(-90.0, 90.0));
+        .check(apps::between(-90.0, 90.0));
     command.help_group("Cameras and lamps");
     command.add_option("--threshold", a.threshold, "Illuminance below which a lamp counts as dark, lx")
-        .check(between(1e-9, 1e3))
+        .check(apps::between(1e-9, 1e3))
         .shows_default();
     command.help_group();
 }
@@ -54,11 +54,11 @@ void add(Command command, SettingsArguments& a) {
 // Names of all settings but lamps, without dashes.
 const std::set<std::string>& setting_names() {
     static const std::set<std::string> names = [] {
-        Program known;
+        apps::Program known;
         SettingsArguments a;
         add(known, a);
         std::set<std::string> found;
-        for (const Option& option : known.options()) found.insert(option.name().substr(2));
+        for (const apps::Option& option : known.options()) found.insert(option.name().substr(2));
         return found;
     }();
     return names;
@@ -97,7 +97,7 @@ void DriveSettings::set(const std::string& name, const std::string& value) {
 }
 
 void DriveSettings::apply(const Values& values) {
-    Program command;
+    apps::Program command;
     SettingsArguments a;
     add(command, a);
     std::vector<std::string> words;
@@ -119,8 +119,8 @@ void DriveSettings::apply(const Values& values) {
     } catch (const Error& error) {
         throw Error(std::string("settings: ") + error.what());
     }
-    RenderSettings render;
-    static_cast<ToneChainSettings&>(render) = tone_settings(a.tone);
+    render::RenderSettings render;
+    static_cast<render::ToneChainSettings&>(render) = apps::tone_settings(a.tone);
     render.clusters.threshold = a.threshold;
     const FreeCamera free = free_camera_of(a.free);
     render_ = std::move(render);
@@ -131,7 +131,7 @@ void DriveSettings::apply(const Values& values) {
     lamps_ = std::move(lamps);
 }
 
-void DriveSettings::add_options(Command command) {
+void DriveSettings::add_options(apps::Command command) {
     const auto a = std::make_shared<SettingsArguments>();
     add(command, *a);
     command.help_group("Cameras and lamps");
@@ -141,7 +141,7 @@ void DriveSettings::add_options(Command command) {
     command.keep(a);
 }
 
-DriveSettings::Values DriveSettings::given(const Command& command) {
+DriveSettings::Values DriveSettings::given(const apps::Command& command) {
     Values values;
     for (const std::string& name : setting_names()) {
         if (!command.count("--" + name)) continue;
@@ -158,4 +158,4 @@ DriveSettings::Values DriveSettings::given(const Command& command) {
     return values;
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

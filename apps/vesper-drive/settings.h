@@ -9,7 +9,7 @@
 
 #include "render/renderer.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 enum class CameraKind : uint8_t { Driver, Chase, Bird, Free };
 
@@ -34,7 +34,7 @@ public:
     const Values& values() const { return values_; }
 
     // What they mean.
-    const RenderSettings& render() const { return render_; }
+    const render::RenderSettings& render() const { return render_; }
     /// "sun": elevation of the sun, degrees; none: the light of the sky is what the scene says (night).
     std::optional<double> sun() const { return sun_; }
     /// "camera": driver, chase, bird or free.
@@ -46,14 +46,14 @@ public:
     const std::map<std::string, double>& lamps() const { return lamps_; }
 
     /// Adds them all as options to a command, and takes over those that were given.
-    static void add_options(Command);
-    static Values given(const Command&);
+    static void add_options(apps::Command);
+    static Values given(const apps::Command&);
 
 private:
     void apply(const Values&);
 
     Values values_;
-    RenderSettings render_;
+    render::RenderSettings render_;
     std::optional<double> sun_;
     CameraKind camera_ = CameraKind::Driver;
     FreeCamera free_;
@@ -61,4 +61,4 @@ private:
     std::map<std::string, double> lamps_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::drive

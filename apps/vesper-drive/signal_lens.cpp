@@ -9,7 +9,7 @@
 
 #include "base/one_line.h"
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
 
 constexpr std::array kColours{"red", "yellow", "green"};  // from the top
@@ -80,11 +80,11 @@ std::optional<std::vector<Mode>> lenses_in(const std::string& state, const std::
     return shown;
 }
 
-std::vector<SignalLens> lenses_of(const Scene& scene, const roads::RoadNetwork& network, const roads::EsminiRun& run,
-                                  std::vector<std::string>& notes) {
+std::vector<SignalLens> lenses_of(const scene::Scene& scene, const roads::RoadNetwork& network,
+                                  const roads::EsminiRun& run, std::vector<std::string>& notes) {
     std::map<std::string, uint32_t> lamps;  // by the names of their nodes
     for (uint32_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].lamp != kNone) lamps.try_emplace(scene.nodes[i].name, i);
+        if (scene.nodes[i].lamp != scene::kNone) lamps.try_emplace(scene.nodes[i].name, i);
     std::map<std::string, std::vector<size_t>> set;  // events by signal
     for (size_t i = 0; i < run.signals.size(); ++i) set[run.signals[i].signal].push_back(i);
 
@@ -127,4 +127,4 @@ std::vector<SignalLens> lenses_of(const Scene& scene, const roads::RoadNetwork& 
     return lenses;
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

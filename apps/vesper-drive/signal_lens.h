@@ -8,7 +8,7 @@
 #include "roads/esmini_run.h"
 #include "scene/scene.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 /// One lens of a traffic light, and when it shines.
 struct SignalLens {
@@ -17,9 +17,9 @@ struct SignalLens {
         double time = 0;  ///< s
         Mode mode = Mode::Off;
     };
-    uint32_t node = kNone;        ///< of the scene: its lamp
-    bool otherwise = false;       ///< before the first change
-    std::vector<Change> changes;  ///< times ascending
+    uint32_t node = scene::kNone;  ///< of the scene: its lamp
+    bool otherwise = false;        ///< before the first change
+    std::vector<Change> changes;   ///< times ascending
 
     bool shines(double seconds) const;
 };
@@ -33,7 +33,7 @@ std::optional<std::vector<SignalLens::Mode>> lenses_in(const std::string& state,
 /// Of all lenses ("signal_ID/red" and so on: LitRoadOptions::every_lens) of a scene. Signals that the run does not set
 /// stay as they are without one: red for cars, green for people on foot; so they do in states that are not understood,
 /// of each of which there is one note.
-std::vector<SignalLens> lenses_of(const Scene&, const roads::RoadNetwork&, const roads::EsminiRun&,
+std::vector<SignalLens> lenses_of(const scene::Scene&, const roads::RoadNetwork&, const roads::EsminiRun&,
                                   std::vector<std::string>& notes);
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -6,7 +6,7 @@
 #define GLFW_INCLUDE_VULKAN
 #include <GLFW/glfw3.h>
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
 
 std::string last_glfw_error() {
@@ -58,7 +58,7 @@ Window::Window(const WindowSettings& settings)
 
 Window::~Window() { glfwDestroyWindow(window_); }
 
-Presentation Window::presentation() const {
+gpu::Presentation Window::presentation() const {
     uint32_t count = 0;
     const char** names = glfwGetRequiredInstanceExtensions(&count);
     return {.instance_extensions = {names, names + count},
@@ -161,4 +161,4 @@ unsigned Window::nearest_monitor() const {
     return best;
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

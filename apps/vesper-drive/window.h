@@ -12,7 +12,7 @@
 
 struct GLFWwindow;
 
-namespace vesper {
+namespace vesper::drive {
 
 struct WindowSettings {
     std::string title = "Vesper";
@@ -31,7 +31,7 @@ public:
 
     GLFWwindow* handle() const { return window_; }
     /// For the device that is to show pictures in the window.
-    Presentation presentation() const;
+    gpu::Presentation presentation() const;
     VkSurfaceKHR make_surface(VkInstance) const;
 
     VkExtent2D extent() const;  ///< px; nothing while minimised
@@ -62,4 +62,4 @@ private:
     std::string title_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -18,8 +18,10 @@
 #include "render/passes/operators.h"
 #include "tone_arguments.h"
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
+
+using apps::format;
 
 constexpr double kMostBehind = 0.25;  // s: where a device is slower than that, time goes slower
 constexpr std::array<double, WindowedDrive::kCoarsest + 1> kCoarser{1, 1.25, 1.5, 2, 3, 4};
@@ -39,12 +41,12 @@ const char* name_of(CameraKind camera) {
 
 WindowSettings window_settings(const DriveArguments& a) {
     return {.title = "Vesper",
-            .extent = parse_size(a.window, 64),
+            .extent = apps::parse_size(a.window, 64),
             .monitor = a.full_screen < 0 ? std::nullopt : std::optional(unsigned(a.full_screen))};
 }
 
-Vsync vsync_of(const std::string& name) {
-    return name == "latest" ? Vsync::Latest : name == "off" ? Vsync::Off : Vsync::Wait;
+window::Vsync vsync_of(const std::string& name) {
+    return name == "latest" ? window::Vsync::Latest : name == "off" ? window::Vsync::Off : window::Vsync::Wait;
 }
 
 }  // namespace
@@ -52,11 +54,12 @@ Vsync vsync_of(const std::string& name) {
 WindowedDrive::WindowedDrive(const DriveArguments& a)
     : arguments_(a),
       window_(window_settings(a)),
-      device_(std::make_unique<Device>(device_options())),
+      device_(std::make_unique<gpu::Device>(device_options())),
       screen_(std::make_unique<Screen>(window_, *device_)),
-      screen_settings_{.vsync = vsync_of(a.vsync), .scaling = a.scaling == "whole" ? Scaling::Whole : Scaling::Fit},
+      screen_settings_{.vsync = vsync_of(a.vsync),
+                       .scaling = a.scaling == "whole" ? window::Scaling::Whole : window::Scaling::Fit},
       hands_(a.controllers.empty() ? std::vector<ControllerMapping>() : read_controllers(a.controllers)) {
-    if (a.size_given) size_ = parse_size(a.size);
+    if (a.size_given) size_ = apps::parse_size(a.size);
     if (!a.channels.empty()) channels_ = read_channels(a.channels);
     Drive drive;
     if (!a.replay.empty()) {
@@ -83,14 +86,14 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
     window_.on_drop = [this](const std::string& file) { reload(file); };
 }
 
-DeviceOptions WindowedDrive::device_options() const {
+gpu::DeviceOptions WindowedDrive::device_options() const {
     return {.select = arguments_.device, .validation = false, .on_message = {}, .presentation = window_.presentation()};
 }
 
-void WindowedDrive::recover(const DeviceLost& error) {
+void WindowedDrive::recover(const gpu::DeviceLost& error) {
     if (!std::exchange(shown_, false)) throw error;
     screen_.reset();
-    auto device = std::make_unique<Device>(device_options());
+    auto device = std::make_unique<gpu::Device>(device_options());
     session_->use(*device);
     device_ = std::move(device);
     screen_ = std::make_unique<Screen>(window_, *device_);
@@ -112,7 +115,7 @@ void WindowedDrive::open_session(const Drive& drive) {
         [](const DriveSettings&) {});
     session_ = std::make_unique<Session>(*device_, start, std::move(scenery));
     watch_contacts();
-    print_notes(session_->scenery().notes());
+    apps::print_notes(session_->scenery().notes());
 }
 
 // A scene that cannot be used leaves everything as it is.
@@ -146,13 +149,13 @@ void WindowedDrive::reload(const std::string& scene) {
 void WindowedDrive::say(const std::string& text, bool alarm) {
     message_ = text, alarm_ = alarm;
     message_until_ = Clock::now() + std::chrono::seconds(alarm ? 15 : 5);
-    if (alarm) print_error("vesper-drive", text);
+    if (alarm) apps::print_error("vesper-drive", text);
 }
 
 std::string WindowedDrive::title() const {
     std::string text = std::filesystem::path(arguments_.scene).filename().string() +
                        format(", %.1f s, ", session_->world().seconds()) +
-                       vesper::name_of(session_->settings().render().tone_operator) + ", " +
+                       apps::name_of(session_->settings().render().tone_operator) + ", " +
                        name_of(session_->settings().camera());
     if (replay_) text += ", replay";
     if (paused_) text += ", paused";
@@ -249,8 +252,8 @@ void WindowedDrive::watch_contacts() {
 
 void WindowedDrive::render(bool moved) {
     const VkExtent2D extent = picture_extent();
-    const bool ldr = session_->settings().render().tone_operator == Operator::Ldr;
-    const Outputs outputs{.display = true, .scene = (instruments_.needs_scene() || log_) && !ldr};
+    const bool ldr = session_->settings().render().tone_operator == render::Operator::Ldr;
+    const render::Outputs outputs{.display = true, .scene = (instruments_.needs_scene() || log_) && !ldr};
     const bool lacks =
         (outputs.scene && frame_.scene.empty()) || extent.width != rendered_.width || extent.height != rendered_.height;
     if (!moved && !stale_ && !lacks) return;
@@ -273,13 +276,13 @@ void WindowedDrive::render(bool moved) {
         }
     }
     if (!channels_) return;
-    const std::vector<Timing> timings = std::move(frame_.timings);
-    static_cast<ToneMapped&>(frame_) = std::move(wall.shown);
+    const std::vector<graph::Timing> timings = std::move(frame_.timings);
+    static_cast<render::ToneMapped&>(frame_) = std::move(wall.shown);
     frame_.timings = timings, columns_ = wall.columns;
 }
 
 // The view that a pixel of the frame belongs to, and its place there.
-std::pair<View, std::optional<glm::uvec2>> WindowedDrive::view_at(std::optional<glm::uvec2> pixel) const {
+std::pair<gpu_scene::View, std::optional<glm::uvec2>> WindowedDrive::view_at(std::optional<glm::uvec2> pixel) const {
     if (!channels_ || !pixel) return {view_, pixel};
     for (size_t i = 0; i < columns_.size(); ++i) {
         const ScreenChannel& screen = channels_->screens[i];
@@ -290,7 +293,7 @@ std::pair<View, std::optional<glm::uvec2>> WindowedDrive::view_at(std::optional<
 }
 
 void WindowedDrive::present() {
-    const Display& display = session_->settings().render().display;
+    const vision::Display& display = session_->settings().render().display;
     screen_->begin_instruments(instruments_.has_keyboard());
     const bool talks = Clock::now() < message_until_;
     const std::optional<glm::uvec2> pixel = screen_->pixel_under_mouse(frame_.extent, screen_settings_.scaling);
@@ -310,9 +313,9 @@ void WindowedDrive::present() {
     const std::vector<Change> changes = instruments_.draw(now);
     const bool colours = instruments_.shows_false_colour() && display.bits == 8;
     const auto coloured = colours ? instruments_.coloured(frame_, frame_number_) : std::span<const uint8_t>();
-    const Picture picture{.codes = coloured.empty() ? std::span<const uint8_t>(frame_.display) : coloured,
-                          .extent = frame_.extent,
-                          .bits = display.bits};
+    const window::Picture picture{.codes = coloured.empty() ? std::span<const uint8_t>(frame_.display) : coloured,
+                                  .extent = frame_.extent,
+                                  .bits = display.bits};
     shown_ |= screen_->show(picture, display, screen_settings_);
     for (const auto& [name, value] : changes) change(name, value);
 }
@@ -332,7 +335,7 @@ void WindowedDrive::run() {
         try {
             advance(elapsed);
             present();
-        } catch (const DeviceLost& error) {
+        } catch (const gpu::DeviceLost& error) {
             recover(error);
         } catch (const Error& error) {
             // A full disk ends the recording, not the drive.
@@ -356,8 +359,8 @@ void run_windowed(const DriveArguments& arguments) {
     } catch (const Error& error) {
         if (drive.recording().empty()) throw;
         throw Error(std::string(error.what()) + "; the drive up to then is in " +
-                    one_line(GrowingFile::part_of(drive.recording())));
+                    one_line(io::GrowingFile::part_of(drive.recording())));
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

@@ -18,7 +18,7 @@
 #include "session.h"
 #include "window.h"
 
-namespace vesper {
+namespace vesper::drive {
 
 /// A session that somebody drives and looks at.
 class WindowedDrive {
@@ -36,8 +36,8 @@ public:
 private:
     using Clock = std::chrono::steady_clock;
 
-    DeviceOptions device_options() const;
-    void recover(const DeviceLost&);
+    gpu::DeviceOptions device_options() const;
+    void recover(const gpu::DeviceLost&);
     void check_display(const DriveSettings&) const;
     void open_session(const Drive&);
     void reload(const std::string& scene);
@@ -58,7 +58,7 @@ private:
     bool replay_to_next_frame();
     void render(bool moved);
     void present();
-    std::pair<View, std::optional<glm::uvec2>> view_at(std::optional<glm::uvec2> pixel) const;
+    std::pair<gpu_scene::View, std::optional<glm::uvec2>> view_at(std::optional<glm::uvec2> pixel) const;
     void say(const std::string& text, bool alarm = false);
     std::string title() const;
     VkExtent2D picture_extent() const;
@@ -66,7 +66,7 @@ private:
 
     DriveArguments arguments_;
     Window window_;
-    std::unique_ptr<Device> device_;
+    std::unique_ptr<gpu::Device> device_;
     std::unique_ptr<Session> session_;
     std::unique_ptr<Screen> screen_;
     bool shown_ = false;  // a picture, since the device is there
@@ -82,8 +82,8 @@ private:
     unsigned coarser_ = 0;            // index of the picture's coarseness
     std::optional<VkExtent2D> size_;  // of pictures, as it was given or recorded; none: the window's
     VkExtent2D rendered_{};
-    Frame frame_;
-    View view_;
+    render::Frame frame_;
+    gpu_scene::View view_;
     std::optional<Channels> channels_;
     std::vector<uint32_t> columns_;  // where each begins in the frame
     uint64_t frame_number_ = 0;
@@ -97,4 +97,4 @@ private:
 /// Opens a window and drives, or replays, in it.
 void run_windowed(const DriveArguments&);
 
-}  // namespace vesper
+}  // namespace vesper::drive

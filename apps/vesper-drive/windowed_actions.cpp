@@ -9,8 +9,10 @@
 #include "tone_arguments.h"
 #include "windowed.h"
 
-namespace vesper {
+namespace vesper::drive {
 namespace {
+
+using apps::format;
 
 constexpr double kSunStep = 0.5, kNight = -18;  // degrees
 constexpr double kAgeStep = 5, kYoungest = 20, kOldest = 90;
@@ -19,7 +21,7 @@ constexpr double kAgeStep = 5, kYoungest = 20, kOldest = 90;
 std::string free_name(const char* before, const char* after) {
     for (unsigned i = 1;; ++i)
         if (const std::string name = before + format("%03u", i) + after;
-            !std::filesystem::exists(name) && !std::filesystem::exists(GrowingFile::part_of(name)))
+            !std::filesystem::exists(name) && !std::filesystem::exists(io::GrowingFile::part_of(name)))
             return name;
 }
 
@@ -47,7 +49,7 @@ void WindowedDrive::cycle(const std::string& name, const std::vector<std::string
 
 void WindowedDrive::next_display() {
     std::vector<std::string> names;
-    for (const NamedDisplay& known : known_displays())
+    for (const vision::NamedDisplay& known : vision::known_displays())
         if (screen_->shows(known.display)) names.emplace_back(known.name);
     cycle("display", names, 1);
 }
@@ -80,7 +82,7 @@ void WindowedDrive::record() {
 void WindowedDrive::save_picture() {
     try {
         const std::string name = free_name("picture-", ".png");
-        write_codes(name, frame_, session_->settings().render().display);
+        apps::write_codes(name, frame_, session_->settings().render().display);
         say("saved " + name);
     } catch (const Error& error) {
         say(error.what(), true);
@@ -130,7 +132,7 @@ void WindowedDrive::press(Action action) {
 }
 
 void WindowedDrive::press_view(Action action) {
-    const ToneSettings& tone = session_->settings().render().tone;
+    const render::ToneSettings& tone = session_->settings().render().tone;
     const auto sun = [&](double by) {
         const double now = session_->settings().sun().value_or(kNight) + by;
         change("sun", now <= kNight ? "" : format("%g", std::min(now, 90.0)));
@@ -140,7 +142,7 @@ void WindowedDrive::press_view(Action action) {
                                               kYoungest, kOldest)));
     };
     std::vector<std::string> names;
-    for (const OperatorInfo& info : operators()) names.emplace_back(info.name);
+    for (const render::OperatorInfo& info : render::operators()) names.emplace_back(info.name);
     switch (action) {
         case Action::NextCamera:
             cycle("camera", {"driver", "chase", "bird", "free"}, 1);
@@ -164,7 +166,7 @@ void WindowedDrive::press_view(Action action) {
             cycle("operator", names, -1);
             break;
         case Action::NextGlare:
-            cycle("glare", glare_names(), 1);
+            cycle("glare", apps::glare_names(), 1);
             break;
         case Action::NextDisplay:
             next_display();
@@ -188,10 +190,11 @@ void WindowedDrive::press_view(Action action) {
             fill_monitor(true);
             break;
         case Action::NextVsync:
-            screen_settings_.vsync = Vsync((unsigned(screen_settings_.vsync) + 1) % 3);
+            screen_settings_.vsync = window::Vsync((unsigned(screen_settings_.vsync) + 1) % 3);
             break;
         case Action::NextScaling:
-            screen_settings_.scaling = screen_settings_.scaling == Scaling::Fit ? Scaling::Whole : Scaling::Fit;
+            screen_settings_.scaling =
+                screen_settings_.scaling == window::Scaling::Fit ? window::Scaling::Whole : window::Scaling::Fit;
             break;
         case Action::FinerPicture:
             coarser_ -= coarser_ > 0 ? 1 : 0;
@@ -204,4 +207,4 @@ void WindowedDrive::press_view(Action action) {
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::drive

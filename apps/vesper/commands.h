@@ -3,15 +3,15 @@
 
 #include "command_line.h"
 
-namespace vesper {
+namespace vesper::commands {
 
-void add_render(Command program);
-void add_convert(Command program);
-void add_road(Command program);
-void add_merge(Command program);
-void add_inspect(Command program);
-void add_tonemap(Command program);
-void add_display(Command program);
-void add_study(Command program);
+void add_render(apps::Command program);
+void add_convert(apps::Command program);
+void add_road(apps::Command program);
+void add_merge(apps::Command program);
+void add_inspect(apps::Command program);
+void add_tonemap(apps::Command program);
+void add_display(apps::Command program);
+void add_study(apps::Command program);
 
-}  // namespace vesper
+}  // namespace vesper::commands

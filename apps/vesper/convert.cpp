@@ -14,7 +14,7 @@
 #include "print.h"
 #include "roads/convert_roads.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
 
 const std::map<std::string, roads::LampSide> kSides{{"auto", roads::LampSide::Auto},
@@ -28,18 +28,18 @@ struct ConvertArguments {
     bool srgb = false;
     roads::StreetLampOptions lamps;
     std::string side = "auto", luminaire;
-    std::vector<Option> for_databases, for_lamps;
+    std::vector<apps::Option> for_databases, for_lamps;
 };
 
 void report(const std::vector<std::string>& changes, const std::vector<std::string>& warnings,
             const std::string& output) {
-    print_notes(changes, "");
-    print_notes(warnings, "warning: ");
-    print("wrote %s\n", output.c_str());
+    apps::print_notes(changes, "");
+    apps::print_notes(warnings, "warning: ");
+    apps::print("wrote %s\n", output.c_str());
 }
 
-void refuse(const std::vector<Option>& options, const std::string& why) {
-    for (const Option& option : options)
+void refuse(const std::vector<apps::Option>& options, const std::string& why) {
+    for (const apps::Option& option : options)
         if (option.count() > 0) throw Error(option.name() + why);
 }
 
@@ -47,8 +47,8 @@ void run_roads(const ConvertArguments& arguments) {
     refuse(arguments.for_databases, " has no meaning for an OpenDRIVE file: it has no materials and no nodes");
     const std::filesystem::path input = arguments.input;
     const std::string output = arguments.output.empty() ? input.stem().string() + ".gltf" : arguments.output;
-    announce_read(input);
-    announce_write("-o", output);
+    io::announce_read(input);
+    io::announce_write("-o", output);
     roads::ConvertOptions options{.lamps = arguments.lamps, .luminaire = arguments.luminaire};
     options.lamps.side = kSides.at(arguments.side);
     const roads::RoadConversion made = roads::convert_roads(input, output, options);
@@ -60,19 +60,20 @@ void run(const ConvertArguments& arguments) {
     refuse(arguments.for_lamps, " has a meaning only for an OpenDRIVE file (.xodr)");
     if (arguments.photometry.empty()) throw Error("--photometry is required for a glTF database");
     if (arguments.output.empty()) throw Error("--output is required for a glTF database");
-    announce_read(arguments.input);
-    announce_read(arguments.photometry);
-    announce_write("-o", arguments.output);
-    std::optional<Transfer> transfer;
-    if (arguments.srgb) transfer = Transfer{Transfer::Kind::Srgb};
-    const ConversionReport made = convert(arguments.input, arguments.photometry, arguments.output, transfer);
+    io::announce_read(arguments.input);
+    io::announce_read(arguments.photometry);
+    io::announce_write("-o", arguments.output);
+    std::optional<scene::Transfer> transfer;
+    if (arguments.srgb) transfer = scene::Transfer{scene::Transfer::Kind::Srgb};
+    const scene::ConversionReport made =
+        scene::convert(arguments.input, arguments.photometry, arguments.output, transfer);
     report(made.changes, made.warnings, arguments.output);
 }
 
 }  // namespace
 
-void add_convert(Command program) {
-    Command command = program.add_command(
+void add_convert(apps::Command program) {
+    apps::Command command = program.add_command(
         "convert", "Make a daytime glTF database photometric, or a night street of an OpenDRIVE file");
     const auto a = std::make_shared<ConvertArguments>();
     command.add_option("input", a->input, "The database: .gltf or .glb; or roads: .xodr (docs/roads.md)").required();
@@ -87,14 +88,14 @@ void add_convert(Command program) {
         command
             .add_option("--lamp-spacing", a->lamps.spacing,
                         "Roads: m between street lamps, 0 for none (default: 30, or those of the file)")
-            .check(range(0.0, 1000.0)),
+            .check(apps::range(0.0, 1000.0)),
         command
             .add_option("--lamp-height", a->lamps.height,
                         "Roads: m, of the light points (default: 8, up to 12 on wide roads)")
-            .check(range(2.0, 60.0)),
-        command.add_option("--lamp-side", a->side, "Roads: on which side of the way").check(one_of_keys(kSides)),
+            .check(apps::range(2.0, 60.0)),
+        command.add_option("--lamp-side", a->side, "Roads: on which side of the way").check(apps::one_of_keys(kSides)),
         command.add_option("--lamp-overhang", a->lamps.overhang, "Roads: m from the pole towards the road")
-            .check(range(0.1, 20.0)),
+            .check(apps::range(0.1, 20.0)),
         command.add_option("--luminaire", a->luminaire, "Roads: another luminaire: .ies or .ldt")};
     command.add_allow_outside();
     command.footer(
@@ -104,4 +105,4 @@ void add_convert(Command program) {
     command.callback([a] { run(*a); });
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

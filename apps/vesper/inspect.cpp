@@ -20,7 +20,7 @@
 #include "picture_arguments.h"
 #include "print.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
 
 enum class Kind : uint8_t { Scene, Distribution, Table, Picture };
@@ -30,14 +30,15 @@ bool is_grid(const std::string& file) {
     std::vector<char> start(1u << 20);  // the header is in it
     std::ifstream in(file, std::ios::binary);
     in.read(start.data(), std::streamsize(start.size()));
-    return is_grid_exr({reinterpret_cast<const uint8_t*>(start.data()), size_t(in.gcount())});
+    return photometry::is_grid_exr({reinterpret_cast<const uint8_t*>(start.data()), size_t(in.gcount())});
 }
 
 Kind kind_of(const std::string& file) {
     const std::string extension = lower(std::filesystem::path(file).extension().string());
     if (extension == ".gltf" || extension == ".glb") return Kind::Scene;
     if (extension == ".ies" || extension == ".ldt") return Kind::Distribution;
-    if (extension == ".csv") return is_reflection_table(read_file(file, 64u << 20)) ? Kind::Table : Kind::Distribution;
+    if (extension == ".csv")
+        return photometry::is_reflection_table(io::read_file(file, 64u << 20)) ? Kind::Table : Kind::Distribution;
     if (extension == ".hdr" || extension == ".pic" || extension == ".rgbe") return Kind::Picture;
     if (extension == ".exr") return is_grid(file) ? Kind::Distribution : Kind::Picture;
     throw Error(file +
@@ -46,11 +47,11 @@ Kind kind_of(const std::string& file) {
 }
 
 void run(const InspectArguments& a) {
-    announce_read(a.file);
-    announce_write("--json", a.json);
+    io::announce_read(a.file);
+    io::announce_write("--json", a.json);
     if (!a.picture.empty() && !a.picture.ends_with(".png"))
         throw Error("-o " + a.picture + ": a .png file is expected");
-    announce_write("-o", a.picture);
+    io::announce_write("-o", a.picture);
     const Kind kind = kind_of(a.file);
     const auto only = [&](bool given, Kind wanted, const char* what) {
         if (given && kind != wanted) throw Error(what);
@@ -75,15 +76,17 @@ void run(const InspectArguments& a) {
             found = inspect_picture(a);
             break;
     }
-    print_text(found.text);
+    apps::print_text(found.text);
     if (!a.json.empty())
-        write_text(a.json, found.json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+        apps::write_text(a.json,
+                         found.json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace
 
-void add_inspect(Command program) {
-    Command command = program.add_command("inspect", "Say what a scene, a lamp or a picture holds (docs/inspect.md)");
+void add_inspect(apps::Command program) {
+    apps::Command command =
+        program.add_command("inspect", "Say what a scene, a lamp or a picture holds (docs/inspect.md)");
     const auto a = std::make_shared<InspectArguments>();
     command
         .add_option("file", a->file,
@@ -92,10 +95,11 @@ void add_inspect(Command program) {
     command.add_option("--json", a->json, "Write the report to a JSON file");
     command.add_option("--output,-o", a->picture, "OUT.png: diagrams of a lamp, false colours of a picture");
     command.add_option("--probe", a->probes, "Pictures: X,Y from the top left, px; may be repeated");
-    command.add_option("--layer", a->layer, kLayerHelp);
-    command.add_option("--low", a->low, "Pictures: lower end of the colour scale, cd/m^2").check(between(1e-30, 1e30));
+    command.add_option("--layer", a->layer, apps::kLayerHelp);
+    command.add_option("--low", a->low, "Pictures: lower end of the colour scale, cd/m^2")
+        .check(apps::between(1e-30, 1e30));
     command.add_option("--high", a->high, "Pictures: upper end of the colour scale, cd/m^2")
-        .check(between(1e-30, 1e30));
+        .check(apps::between(1e-30, 1e30));
     command.add_flag("--contours", a->contours,
                      "Pictures: lines at the luminances of the classes M6 to M1 of EN 13201-2");
     command.add_allow_outside();
@@ -105,4 +109,4 @@ void add_inspect(Command program) {
     command.callback([a] { run(*a); });
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

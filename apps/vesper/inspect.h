@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace vesper {
+namespace vesper::commands {
 
 struct InspectArguments {
     std::string file, json, picture, layer;
@@ -26,4 +26,4 @@ Inspection inspect_distribution(const InspectArguments&);  ///< writes the pictu
 Inspection inspect_table(const InspectArguments&);         ///< an r-table
 Inspection inspect_picture(const InspectArguments&);       ///< writes the picture if one is wanted
 
-}  // namespace vesper
+}  // namespace vesper::commands

@@ -7,36 +7,41 @@
 #include "plot.h"
 #include "print.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
 
-const char* name_of(Goniometry goniometry) {
-    return goniometry == Goniometry::CGamma  ? "type C (C, gamma)"
-           : goniometry == Goniometry::TypeB ? "type B (H, V)"
-                                             : "type A (H, V)";
+using apps::format;
+
+const char* name_of(photometry::Goniometry goniometry) {
+    return goniometry == photometry::Goniometry::CGamma  ? "type C (C, gamma)"
+           : goniometry == photometry::Goniometry::TypeB ? "type B (H, V)"
+                                                         : "type A (H, V)";
 }
 
-std::vector<std::pair<std::string, Cut>> cuts_of(const Distribution& d, const BeamFigures& f) {
-    if (d.goniometry != Goniometry::CGamma)
-        return {{format("along H at V %g", f.largest_v), horizontal_cut(d, f.largest_v)},
-                {format("along V at H %g", f.largest_h), vertical_cut(d, f.largest_h)}};
-    std::vector<std::pair<std::string, Cut>> cuts{{"C0-C180", plane_cut(d, 0)}, {"C90-C270", plane_cut(d, 90)}};
+std::vector<std::pair<std::string, photometry::Cut>> cuts_of(const photometry::Distribution& d,
+                                                             const photometry::BeamFigures& f) {
+    if (d.goniometry != photometry::Goniometry::CGamma)
+        return {{format("along H at V %g", f.largest_v), photometry::horizontal_cut(d, f.largest_v)},
+                {format("along V at H %g", f.largest_h), photometry::vertical_cut(d, f.largest_h)}};
+    std::vector<std::pair<std::string, photometry::Cut>> cuts{{"C0-C180", photometry::plane_cut(d, 0)},
+                                                              {"C90-C270", photometry::plane_cut(d, 90)}};
     if (std::fmod(f.largest_h, 90) != 0)
-        cuts.emplace_back(format("C%g-C%g", f.largest_h, std::fmod(f.largest_h + 180, 360)), plane_cut(d, f.largest_h));
+        cuts.emplace_back(format("C%g-C%g", f.largest_h, std::fmod(f.largest_h + 180, 360)),
+                          photometry::plane_cut(d, f.largest_h));
     return cuts;
 }
 
-std::string ranges_text(const Distribution& d) {
-    const bool c = d.goniometry == Goniometry::CGamma;
+std::string ranges_text(const photometry::Distribution& d) {
+    const bool c = d.goniometry == photometry::Goniometry::CGamma;
     return format("  angles       %zu x %zu, %s %g to %g, %s %g to %g deg\n", d.horizontal.size(), d.vertical.size(),
                   c ? "C" : "H", d.horizontal.front(), d.horizontal.back(), c ? "gamma" : "V", d.vertical.front(),
                   d.vertical.back());
 }
 
-void add_widths(Inspection& made, const Distribution& d, const BeamFigures& f) {
+void add_widths(Inspection& made, const photometry::Distribution& d, const photometry::BeamFigures& f) {
     made.text += "\n  width, deg          50 % of the cut's greatest     10 %\n";
     for (const auto& [name, cut] : cuts_of(d, f)) {
-        const auto half = width_of(cut, 0.5), tenth = width_of(cut, 0.1);
+        const auto half = photometry::width_of(cut, 0.5), tenth = photometry::width_of(cut, 0.1);
         if (!half || !tenth) continue;
         made.text += format("  %-18s %6.1f (%.1f to %.1f)", name.c_str(), half->angle(), half->from, half->to);
         made.text += format("   %6.1f (%.1f to %.1f)\n", tenth->angle(), tenth->from, tenth->to);
@@ -48,7 +53,7 @@ void add_widths(Inspection& made, const Distribution& d, const BeamFigures& f) {
     }
 }
 
-void add_cut_off(Inspection& made, const BeamFigures& f) {
+void add_cut_off(Inspection& made, const photometry::BeamFigures& f) {
     const auto& g = f.at_70_80_90_95;
     made.text += format("\n  cd per klm of the luminaire at gamma 70: %.4g, 80: %.4g, 90: %.4g, from 95 up: %.4g\n",
                         g[0], g[1], g[2], g[3]);
@@ -60,10 +65,10 @@ void add_cut_off(Inspection& made, const BeamFigures& f) {
     made.json["upward_share"] = f.upward_share;
 }
 
-void add_beam_points(Inspection& made, const Distribution& d) {
+void add_beam_points(Inspection& made, const photometry::Distribution& d) {
     std::string rows;
-    for (const BeamPoint& p : passing_beam_points()) {
-        const double candela = intensity_at(d, p.h, p.v);
+    for (const photometry::BeamPoint& p : photometry::passing_beam_points()) {
+        const double candela = photometry::intensity_at(d, p.h, p.v);
         const bool holds = candela >= p.least && (p.most == 0 || candela <= p.most);
         rows += format("  %-5s %6.2f %6.2f %10.1f   %s %g %s\n", p.name, p.h, p.v, candela,
                        p.least > 0 ? ">=" : "<=", p.least > 0 ? p.least : p.most, holds ? "ok" : "missed");
@@ -78,28 +83,28 @@ void add_beam_points(Inspection& made, const Distribution& d) {
 }  // namespace
 
 Inspection inspect_distribution(const InspectArguments& arguments) {
-    const Distribution d = read_distribution(arguments.file);
-    const BeamFigures f = beam_figures(d);
+    const photometry::Distribution d = photometry::read_distribution(arguments.file);
+    const photometry::BeamFigures f = photometry::beam_figures(d);
     Inspection made;
-    made.text = arguments.file + "\n  " + column(d.name, 100) + "\n";
+    made.text = arguments.file + "\n  " + apps::column(d.name, 100) + "\n";
     while (made.text.ends_with(" \n")) made.text.erase(made.text.size() - 2, 1);
     made.text += format("  goniometry   %s\n", name_of(d.goniometry)) + ranges_text(d);
-    made.text += format("  symmetry     %s\n  flux         %.1f lm", name_of(f.symmetry), f.flux);
+    made.text += format("  symmetry     %s\n  flux         %.1f lm", photometry::name_of(f.symmetry), f.flux);
     made.text += d.lamp_flux > 0 ? format(", %.1f %% of the lamps' %.0f lm\n", 100 * f.output_ratio, d.lamp_flux)
                                  : " (absolute photometry)\n";
-    const bool c = d.goniometry == Goniometry::CGamma;
+    const bool c = d.goniometry == photometry::Goniometry::CGamma;
     made.text += format("  greatest     %.4g cd at %s %g, %s %g deg\n", f.largest, c ? "C" : "H", f.largest_h,
                         c ? "gamma" : "V", f.largest_v);
-    const LuminousOpening& o = d.opening;
+    const photometry::LuminousOpening& o = d.opening;
     if (o.length > 0 || o.width > 0 || o.height > 0)
         made.text += format("  opening      %g x %g x %g m%s\n", o.length, o.width, o.height, o.round ? ", round" : "");
     if (o.area() > 0)
-        made.text +=
-            format("  mean luminance of the opening along the axis %.4g cd/m2\n", intensity_at(d, 0, 0) / o.area());
+        made.text += format("  mean luminance of the opening along the axis %.4g cd/m2\n",
+                            photometry::intensity_at(d, 0, 0) / o.area());
     made.json = {{"kind", "distribution"},
                  {"name", d.name},
                  {"goniometry", name_of(d.goniometry)},
-                 {"symmetry", name_of(f.symmetry)},
+                 {"symmetry", photometry::name_of(f.symmetry)},
                  {"horizontal_deg", {d.horizontal.front(), d.horizontal.back()}},
                  {"vertical_deg", {d.vertical.front(), d.vertical.back()}},
                  {"flux_lm", f.flux},
@@ -117,7 +122,7 @@ Inspection inspect_distribution(const InspectArguments& arguments) {
         made.json["metadata"].push_back({key, value});
     }
     if (!arguments.picture.empty()) {
-        Canvas canvas(kPlotWidth, kPlotHeight);
+        apps::Canvas canvas(kPlotWidth, kPlotHeight);
         draw_distribution(canvas, d, f);
         canvas.save(arguments.picture);
     }
@@ -125,8 +130,8 @@ Inspection inspect_distribution(const InspectArguments& arguments) {
 }
 
 Inspection inspect_table(const InspectArguments& arguments) {
-    const ReflectionTable t = read_reflection_table(arguments.file);
-    const double q0 = average_luminance_coefficient(t), s1 = specular_factor(t);
+    const photometry::ReflectionTable t = photometry::read_reflection_table(arguments.file);
+    const double q0 = photometry::average_luminance_coefficient(t), s1 = photometry::specular_factor(t);
     Inspection made;
     made.text = arguments.file + "\n  " + t.name +
                 format(": r-table of %zu tan gamma to %g and %zu beta\n", t.tan_gamma.size(), t.tan_gamma.back(),
@@ -139,4 +144,4 @@ Inspection inspect_table(const InspectArguments& arguments) {
     return made;
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

@@ -13,15 +13,17 @@
 #include "scene/colour.h"
 #include "statistics.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
+
+using apps::format;
 
 struct Probe {
     uint32_t x = 0, y = 0;
     glm::dvec3 rgb{0};
 };
 
-std::vector<Probe> probes_of(const InspectArguments& arguments, const HdrImage& image) {
+std::vector<Probe> probes_of(const InspectArguments& arguments, const io::HdrImage& image) {
     std::vector<Probe> probes;
     for (const std::string& text : arguments.probes) {
         unsigned x = 0, y = 0;
@@ -37,8 +39,8 @@ std::vector<Probe> probes_of(const InspectArguments& arguments, const HdrImage& 
     return probes;
 }
 
-ValuePicture luminances_of(const HdrImage& image, double factor) {
-    ValuePicture made{image.width, image.height, {}};
+apps::ValuePicture luminances_of(const io::HdrImage& image, double factor) {
+    apps::ValuePicture made{image.width, image.height, {}};
     made.values.reserve(image.rgb.size() / 3);
     for (size_t i = 0; i < image.rgb.size(); i += 3)
         made.values.push_back(
@@ -46,44 +48,44 @@ ValuePicture luminances_of(const HdrImage& image, double factor) {
     return made;
 }
 
-void draw(const InspectArguments& arguments, const ValuePicture& full, const std::vector<Probe>& probes,
+void draw(const InspectArguments& arguments, const apps::ValuePicture& full, const std::vector<Probe>& probes,
           const std::string& unit) {
     // Large pictures are averaged down to fit 1280 x 1280 px, small ones repeat their pixels.
     const double longest = std::max(full.width, full.height);
     const double zoom = longest > 1280 ? 1280 / longest : std::max(1.0, std::floor(640 / longest));
     const auto width = std::max(1u, static_cast<uint32_t>(full.width * zoom)),
                height = std::max(1u, static_cast<uint32_t>(full.height * zoom));
-    ColourScale scale = scale_of(full.values);
+    apps::ColourScale scale = apps::scale_of(full.values);
     if (arguments.low > 0) scale.low = arguments.low;
     if (arguments.high > 0) scale.high = arguments.high;
     if (!(scale.high > scale.low)) throw Error(format("--low %g must be less than --high %g", scale.low, scale.high));
-    const ValuePicture shown = resized(full, width, height);
+    const apps::ValuePicture shown = apps::resized(full, width, height);
     const glm::dvec2 corner(16, 40);
     const double bar = std::max<double>(height - 24.0, 200);
-    Canvas canvas(width + 32 + static_cast<uint32_t>(kBarWidth) + 10, static_cast<uint32_t>(bar) + 24 + 60);
+    apps::Canvas canvas(width + 32 + static_cast<uint32_t>(apps::kBarWidth) + 10, static_cast<uint32_t>(bar) + 24 + 60);
     canvas.text({16, 20}, arguments.file, 14);
-    canvas.pixels(16, 40, width, height, false_colours(shown, scale));
+    canvas.pixels(16, 40, width, height, apps::false_colours(shown, scale));
     if (arguments.contours) {
         std::vector<double> levels;
         for (const roads::LightingClass& c : roads::lighting_classes()) levels.push_back(c.average_luminance);
-        draw_contours(canvas, shown, levels, corner);
+        apps::draw_contours(canvas, shown, levels, corner);
     }
     for (const Probe& p : probes) {
         const glm::dvec2 at = corner + (glm::dvec2(p.x, p.y) + 0.5) * zoom;
-        canvas.circle(at, 6, CanvasColour(0), 3.5);
-        canvas.circle(at, 6, CanvasColour(1), 1.5);
+        canvas.circle(at, 6, apps::CanvasColour(0), 3.5);
+        canvas.circle(at, 6, apps::CanvasColour(1), 1.5);
         const bool left = p.x > 0.8 * full.width;
         canvas.text(at + glm::dvec2(left ? -11 : 11, 0), format("%.4g", full.values[size_t{p.y} * full.width + p.x]),
-                    13, left ? Canvas::Align::Right : Canvas::Align::Left, CanvasColour(1), true);
+                    13, left ? apps::Canvas::Align::Right : apps::Canvas::Align::Left, apps::CanvasColour(1), true);
     }
-    draw_colour_bar(canvas, {corner.x + width + 20, corner.y + 24}, bar, scale, unit);
+    apps::draw_colour_bar(canvas, {corner.x + width + 20, corner.y + 24}, bar, scale, unit);
     canvas.save(arguments.picture);
 }
 
 }  // namespace
 
 Inspection inspect_picture(const InspectArguments& arguments) {
-    const HdrImage image = read_hdr_image(arguments.file, {}, arguments.layer);
+    const io::HdrImage image = io::read_hdr_image(arguments.file, {}, arguments.layer);
     const bool absolute = image.white_luminance > 0;
     const double factor = absolute ? image.white_luminance : 1;
     const std::string unit = absolute ? "cd/m\u00b2" : "relative";
@@ -93,24 +95,25 @@ Inspection inspect_picture(const InspectArguments& arguments) {
         scaled = image.rgb;
         for (float& value : scaled) value *= static_cast<float>(factor);
     }
-    const LuminanceStatistics statistics = luminance_statistics(factor == 1 ? image.rgb : scaled, 3);
+    const apps::LuminanceStatistics statistics = apps::luminance_statistics(factor == 1 ? image.rgb : scaled, 3);
     Inspection made;
     made.text = arguments.file + format("\n  %u x %u px\n", image.width, image.height);
     for (const auto& [key, value] : image.header)
         made.text += "  " + one_line(key, 60) + ": " + one_line(value, 120) + "\n";  // whole in JSON
-    made.text += text_of(statistics, absolute ? "luminance, cd/m^2" : "luminance, relative (the header names no unit)");
+    made.text +=
+        apps::text_of(statistics, absolute ? "luminance, cd/m^2" : "luminance, relative (the header names no unit)");
     made.json = {{"kind", "picture"},
                  {"width", image.width},
                  {"height", image.height},
                  {"white_luminance_cd_m2", image.white_luminance}};
     made.json["absolute"] = absolute;
-    made.json["luminance"] = nlohmann::ordered_json::parse(json_of(statistics));
+    made.json["luminance"] = nlohmann::ordered_json::parse(apps::json_of(statistics));
     for (const auto& [key, value] : image.header) made.json["header"].push_back({key, value});
     if (!probes.empty())
         made.text += "probes\n       x      y   luminance           R          G          B       x      y\n";
     for (const Probe& p : probes) {
         const glm::dvec3 rgb = factor * p.rgb;
-        const glm::dvec2 xy = chromaticity(rgb);
+        const glm::dvec2 xy = scene::chromaticity(rgb);
         made.text += format("  %6u %6u  %10.5g  %10.5g %10.5g %10.5g  %.4f %.4f\n", p.x, p.y, luminance(rgb), rgb.r,
                             rgb.g, rgb.b, xy.x, xy.y);
         made.json["probes"].push_back({{"x", p.x},
@@ -123,4 +126,4 @@ Inspection inspect_picture(const InspectArguments& arguments) {
     return made;
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

@@ -8,57 +8,60 @@
 #include "scene/gltf.h"
 #include "scene/scene_report.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
+
+using apps::format;
 
 constexpr size_t kMostRows = 40;
 
 std::string colour_text(glm::vec3 rgb) {
-    const double kelvin = temperature_of(glm::dvec3(rgb));
+    const double kelvin = scene::temperature_of(glm::dvec3(rgb));
     if (kelvin > 0) return format("%.0f K", kelvin);
-    const glm::dvec2 xy = chromaticity(glm::dvec3(rgb));
+    const glm::dvec2 xy = scene::chromaticity(glm::dvec3(rgb));
     return format("x %.2f y %.2f", xy.x, xy.y);
 }
 
-std::string height_text(const LampReport& lamp) {
+std::string height_text(const scene::LampReport& lamp) {
     if (!lamp.lowest) return "-";
     if (*lamp.highest - *lamp.lowest < 0.05) return format("%.2f", *lamp.lowest);
     return format("%.2f to %.2f", *lamp.lowest, *lamp.highest);
 }
 
-std::string lamps_text(const SceneReport& report) {
+std::string lamps_text(const scene::SceneReport& report) {
     if (report.lamps.empty()) return "\nno lamps\n";
     std::string text =
-        "\n" + column("lamp", 26) + "  kind          number         cd         lm  colour         height, m\n";
+        "\n" + apps::column("lamp", 26) + "  kind          number         cd         lm  colour         height, m\n";
     size_t number = 0;
-    for (const LampReport& lamp : report.lamps) {
+    for (const scene::LampReport& lamp : report.lamps) {
         number += lamp.number;
-        if (lamp.kind == Lamp::Kind::Directional) {
-            text += column(one_line(lamp.name), 26) +
-                    format("  %-12s %7zu   %10.4g lx\n", name_of(lamp.kind), lamp.number, lamp.candela);
+        if (lamp.kind == scene::Lamp::Kind::Directional) {
+            text += apps::column(one_line(lamp.name), 26) +
+                    format("  %-12s %7zu   %10.4g lx\n", scene::name_of(lamp.kind), lamp.number, lamp.candela);
             continue;
         }
-        text += column(one_line(lamp.name), 26) +
-                format("  %-12s %7zu %10.4g %10.4g  ", name_of(lamp.kind), lamp.number, lamp.candela, lamp.lumens);
-        text += column(colour_text(lamp.colour), 14) + " " + height_text(lamp) + "\n";
+        text +=
+            apps::column(one_line(lamp.name), 26) +
+            format("  %-12s %7zu %10.4g %10.4g  ", scene::name_of(lamp.kind), lamp.number, lamp.candela, lamp.lumens);
+        text += apps::column(colour_text(lamp.colour), 14) + " " + height_text(lamp) + "\n";
     }
     return text + format("%zu lamps, %.4g lm together; heights are above the lowest surface under a lamp\n", number,
                          report.lumens);
 }
 
-std::string picture_text(const MaterialReport& m) {
+std::string picture_text(const scene::MaterialReport& m) {
     return one_line(m.picture) + format(", mean %.4g", m.mean_emission);
 }
 
-std::string materials_text(const SceneReport& report) {
-    std::vector<const MaterialReport*> sorted;
-    for (const MaterialReport& m : report.materials) sorted.push_back(&m);
+std::string materials_text(const scene::SceneReport& report) {
+    std::vector<const scene::MaterialReport*> sorted;
+    for (const scene::MaterialReport& m : report.materials) sorted.push_back(&m);
     std::stable_sort(sorted.begin(), sorted.end(), [](auto* a, auto* b) { return a->area > b->area; });
-    std::string text =
-        "\n" + column("material", 30) + "    area, m2  reflectance  rough  metal  emits cd/m2  r-table or picture\n";
+    std::string text = "\n" + apps::column("material", 30) +
+                       "    area, m2  reflectance  rough  metal  emits cd/m2  r-table or picture\n";
     for (size_t i = 0; i < std::min(sorted.size(), kMostRows); ++i) {
-        const MaterialReport& m = *sorted[i];
-        text += column(one_line(m.name), 30) +
+        const scene::MaterialReport& m = *sorted[i];
+        text += apps::column(one_line(m.name), 30) +
                 format("  %10.4g  %6.3f %-4s  %5.2f  %5.2f  %11s  %s\n", m.area, m.reflectance, m.textured ? "(t)" : "",
                        m.roughness, m.metallic, m.emission > 0 ? format("%.4g", m.emission).c_str() : "",
                        m.picture.empty() ? one_line(m.road_table).c_str() : picture_text(m).c_str());
@@ -68,7 +71,7 @@ std::string materials_text(const SceneReport& report) {
     return text + format("(t) mean of a texture. Diffuse reflectance by area: %.3f\n", report.mean_reflectance);
 }
 
-nlohmann::ordered_json json_of(const SceneReport& report) {
+nlohmann::ordered_json json_of(const scene::SceneReport& report) {
     nlohmann::ordered_json json = {{"kind", "scene"},
                                    {"extent_m", {report.extent.x, report.extent.y, report.extent.z}},
                                    {"triangles", report.triangles},
@@ -78,20 +81,20 @@ nlohmann::ordered_json json_of(const SceneReport& report) {
                                    {"cameras", report.cameras},
                                    {"lamps", nlohmann::ordered_json::array()},
                                    {"materials", nlohmann::ordered_json::array()}};
-    for (const LampReport& l : report.lamps) {
-        const bool sun = l.kind == Lamp::Kind::Directional;
-        nlohmann::ordered_json lamp = {{"name", l.name}, {"kind", name_of(l.kind)}, {"number", l.number}};
+    for (const scene::LampReport& l : report.lamps) {
+        const bool sun = l.kind == scene::Lamp::Kind::Directional;
+        nlohmann::ordered_json lamp = {{"name", l.name}, {"kind", scene::name_of(l.kind)}, {"number", l.number}};
         lamp[sun ? "illuminance_lx" : "intensity_cd"] = l.candela;
         if (!sun) lamp["luminous_flux_lm"] = l.lumens;
         lamp["colour"] = {l.colour.r, l.colour.g, l.colour.b};
-        if (const double kelvin = temperature_of(glm::dvec3(l.colour)); kelvin > 0)
+        if (const double kelvin = scene::temperature_of(glm::dvec3(l.colour)); kelvin > 0)
             lamp["colour_temperature_K"] = kelvin;
         if (l.lowest) lamp["height_m"] = {*l.lowest, *l.highest};
         lamp["without_surface_below"] = l.over_nothing;
         lamp["below_ground"] = l.under_ground;
         json["lamps"].push_back(lamp);
     }
-    for (const MaterialReport& m : report.materials) {
+    for (const scene::MaterialReport& m : report.materials) {
         json["materials"].push_back({{"name", m.name},
                                      {"area_m2", m.area},
                                      {"mean_reflectance", m.reflectance},
@@ -110,16 +113,17 @@ nlohmann::ordered_json json_of(const SceneReport& report) {
 }  // namespace
 
 Inspection inspect_scene(const InspectArguments& arguments) {
-    const LoadedScene loaded = read_gltf(arguments.file);
-    const Scene& scene = loaded.scene;
-    const SceneReport report = report_scene(scene);
+    const scene::LoadedScene loaded = scene::read_gltf(arguments.file);
+    const scene::Scene& scene = loaded.scene;
+    const scene::SceneReport report = scene::report_scene(scene);
     std::string text = arguments.file + "\n";
     text += format("%.4g x %.4g x %.4g m (x, up, z), %llu triangles, %zu materials\n", report.extent.x, report.extent.y,
                    report.extent.z, static_cast<unsigned long long>(report.triangles), report.materials.size());
     text += format("ambient %.4g lx, sky %.4g cd/m2, textures by ", static_cast<double>(scene.ambient_illuminance),
                    static_cast<double>(scene.sky_luminance));
-    text += scene.transfer.kind == Transfer::Kind::Gamma ? format("T^%.3g\n", static_cast<double>(scene.transfer.gamma))
-                                                         : "sRGB\n";
+    text += scene.transfer.kind == scene::Transfer::Kind::Gamma
+                ? format("T^%.3g\n", static_cast<double>(scene.transfer.gamma))
+                : "sRGB\n";
     text += "cameras: ";
     for (size_t i = 0; i < report.cameras.size(); ++i) text += (i ? ", " : "") + one_line(report.cameras[i]);
     text += report.cameras.empty() ? "none\n" : "\n";
@@ -135,4 +139,4 @@ Inspection inspect_scene(const InspectArguments& arguments) {
     return {text, json};
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

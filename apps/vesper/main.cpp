@@ -7,7 +7,7 @@
 #include "print.h"
 
 int main(int argc, char** argv) {
-    vesper::Program program{"What a driver sees at night, on the screen you have.", "vesper"};
+    vesper::apps::Program program{"What a driver sees at night, on the screen you have.", "vesper"};
     program.version(VESPER_VERSION);
     program.requires_command();
     program.footer(
@@ -15,17 +15,17 @@ int main(int argc, char** argv) {
         "Example:\n"
         "  vesper convert street.gltf --photometry street.photometry.json -o night.gltf\n"
         "  vesper render night.gltf --camera driver --stats -o night.png\n");
-    vesper::add_convert(program);
-    vesper::add_render(program);
-    vesper::add_road(program);
-    vesper::add_merge(program);
-    vesper::add_inspect(program);
-    vesper::add_tonemap(program);
-    vesper::add_display(program);
-    vesper::add_study(program);
-    vesper::Command devices = program.add_command("devices", "List the Vulkan devices of this machine");
+    vesper::commands::add_convert(program);
+    vesper::commands::add_render(program);
+    vesper::commands::add_road(program);
+    vesper::commands::add_merge(program);
+    vesper::commands::add_inspect(program);
+    vesper::commands::add_tonemap(program);
+    vesper::commands::add_display(program);
+    vesper::commands::add_study(program);
+    vesper::apps::Command devices = program.add_command("devices", "List the Vulkan devices of this machine");
     devices.callback([] {
-        for (const std::string& line : vesper::list_devices()) vesper::print("%s\n", line.c_str());
+        for (const std::string& line : vesper::gpu::list_devices()) vesper::apps::print("%s\n", line.c_str());
     });
     return program.run(argc, argv);
 }

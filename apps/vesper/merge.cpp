@@ -18,8 +18,10 @@
 #include "print.h"
 #include "progress.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
+
+using apps::format;
 
 struct MergeArguments {
     std::vector<std::string> images;
@@ -57,11 +59,11 @@ std::string pictures_of(const MergeArguments& arguments) {
 /// Errors of what is done with all pictures name them.
 template <class Call>
 auto of_pictures(const MergeArguments& arguments, const Call& call) {
-    return in_file(pictures_of(arguments), call);
+    return io::in_file(pictures_of(arguments), call);
 }
 
 struct KnownLuminance {
-    Region region;
+    photometry::Region region;
     double cd_m2 = 0;
 };
 
@@ -79,7 +81,7 @@ KnownLuminance parse_luminance(const std::string& text) {
     return known;
 }
 
-std::vector<Exposure> read_exposures(const MergeArguments& arguments) {
+std::vector<photometry::Exposure> read_exposures(const MergeArguments& arguments) {
     std::vector<double> given;
     if (!arguments.exposures.empty()) {
         given = numbers("--exposures", arguments.exposures, false);
@@ -87,14 +89,14 @@ std::vector<Exposure> read_exposures(const MergeArguments& arguments) {
             throw Error("--exposures: " + std::to_string(given.size()) + " for " +
                         std::to_string(arguments.images.size()) + " pictures");
     }
-    std::vector<Exposure> exposures;
-    std::vector<std::pair<std::string, CameraExposure>> cameras;
-    Progress progress("reading", unsigned(arguments.images.size()));
+    std::vector<photometry::Exposure> exposures;
+    std::vector<std::pair<std::string, io::CameraExposure>> cameras;
+    apps::Progress progress("reading", unsigned(arguments.images.size()));
     for (const std::string& file : arguments.images) {
-        const std::vector<uint8_t> bytes = read_file(file, 1u << 30);
-        Exposure exposure;
+        const std::vector<uint8_t> bytes = io::read_file(file, 1u << 30);
+        photometry::Exposure exposure;
         try {
-            exposure.image = decode_image(bytes, 32768, uint64_t{1} << 28);
+            exposure.image = io::decode_image(bytes, 32768, uint64_t{1} << 28);
         } catch (const Error& error) {
             throw Error(one_line(file) + ": " + error.what());
         }
@@ -102,13 +104,13 @@ std::vector<Exposure> read_exposures(const MergeArguments& arguments) {
         if (exposure.image.width != first.width || exposure.image.height != first.height)
             throw Error(one_line(file) + ": is not of the size of " + one_line(arguments.images.front()) + ", " +
                         std::to_string(first.width) + " x " + std::to_string(first.height) + " px");
-        cameras.emplace_back(one_line(file), read_exif(bytes));
+        cameras.emplace_back(one_line(file), io::read_exif(bytes));
         exposures.push_back(std::move(exposure));
         progress.step();
     }
     if (given.empty()) {
         try {
-            given = relative_exposures(cameras);
+            given = photometry::relative_exposures(cameras);
         } catch (const Error& error) {
             throw Error(std::string(error.what()) + "; give --exposures");
         }
@@ -117,98 +119,101 @@ std::vector<Exposure> read_exposures(const MergeArguments& arguments) {
     return exposures;
 }
 
-void report_exposures(const MergeArguments& arguments, const std::vector<Exposure>& exposures) {
+void report_exposures(const MergeArguments& arguments, const std::vector<photometry::Exposure>& exposures) {
     std::vector<double> sorted;
     bool moved = false;
-    print("exposure (relative)   shift, px   picture\n");
+    apps::print("exposure (relative)   shift, px   picture\n");
     for (size_t i = 0; i < exposures.size(); ++i) {
         const glm::ivec2 shift = exposures[i].shift;
-        print("%19.6g %5d %5d   %s\n", exposures[i].exposure, shift.x, shift.y, one_line(arguments.images[i]).c_str());
+        apps::print("%19.6g %5d %5d   %s\n", exposures[i].exposure, shift.x, shift.y,
+                    one_line(arguments.images[i]).c_str());
         sorted.push_back(exposures[i].exposure);
         moved |= shift != glm::ivec2(0);
     }
     std::sort(sorted.begin(), sorted.end());
     for (size_t i = 1; i < sorted.size(); ++i)
         if (sorted[i] > 4.5 * sorted[i - 1]) {
-            print_warning(
+            apps::print_warning(
                 format("exposures %.3g and %.3g are more than two stops apart: between them the response is "
                        "uncertain",
                        sorted[i - 1], sorted[i]));
             break;
         }
-    if (moved && !arguments.align) print_warning("the pictures seem shifted; --align undoes it");
+    if (moved && !arguments.align) apps::print_warning("the pictures seem shifted; --align undoes it");
 }
 
-Response response_of(const MergeArguments& arguments, const std::vector<Exposure>& exposures) {
-    Response response;
+photometry::Response response_of(const MergeArguments& arguments, const std::vector<photometry::Exposure>& exposures) {
+    photometry::Response response;
     if (arguments.curve == "recover") {
-        const RecoveredResponse recovered =
-            of_pictures(arguments, [&] { return recover_response(exposures, arguments.smoothness); });
+        const photometry::RecoveredResponse recovered =
+            of_pictures(arguments, [&] { return photometry::recover_response(exposures, arguments.smoothness); });
         for (size_t c = 0; c < 3; ++c)
-            print("response of %c: rms error %.1f %% of exposure, from %zu pixels\n", "RGB"[c],
-                  100 * recovered.error[c], recovered.pixels[c]);
+            apps::print("response of %c: rms error %.1f %% of exposure, from %zu pixels\n", "RGB"[c],
+                        100 * recovered.error[c], recovered.pixels[c]);
         for (size_t c = 0; c < 3; ++c)
             if (recovered.error[c] > 0.15)
-                print_warning(
+                apps::print_warning(
                     format("the pictures do not agree on one response of %c: movement, changing light or "
                            "wrong exposures?",
                            "RGB"[c]));
         response = recovered.response;
     } else if (arguments.curve == "srgb") {
-        response = srgb_response();
+        response = photometry::srgb_response();
     } else if (arguments.curve == "linear" || arguments.curve == "gamma2.2") {
-        response = gamma_response(arguments.curve == "linear" ? 1 : 2.2);
+        response = photometry::gamma_response(arguments.curve == "linear" ? 1 : 2.2);
     } else {
-        response = read_response(arguments.curve);
+        response = photometry::read_response(arguments.curve);
     }
-    const std::array<int, 3> falls = count_falls(response);
+    const std::array<int, 3> falls = photometry::count_falls(response);
     for (size_t c = 0; c < 3; ++c)
         if (falls[c] > 0)
-            print_warning(
+            apps::print_warning(
                 format("the response of %c falls at %d codes; more pictures or a larger --smoothness may help",
                        "RGB"[c], falls[c]));
     return response;
 }
 
-void report(const MergedImage& merged) {
+void report(const photometry::MergedImage& merged) {
     const double pixels = double(merged.held.size());
     const bool absolute = merged.image.white_luminance > 0;
-    print("luminance %.4g to %.4g %s: %.1f decades\n", merged.darkest, merged.brightest,
-          absolute ? "cd/m^2" : "(relative)", merged.darkest > 0 ? std::log10(merged.brightest / merged.darkest) : 0.0);
+    apps::print("luminance %.4g to %.4g %s: %.1f decades\n", merged.darkest, merged.brightest,
+                absolute ? "cd/m^2" : "(relative)",
+                merged.darkest > 0 ? std::log10(merged.brightest / merged.darkest) : 0.0);
     const uint64_t lost = merged.too_dark + merged.too_bright + merged.between;
-    print("never well exposed: %.2f %% of the pixels (%.2f %% too dark, %.2f %% too bright)\n",
-          100 * double(lost) / pixels, 100 * double(merged.too_dark) / pixels,
-          100 * double(merged.too_bright) / pixels);
-    if (double(lost) > 0.05 * pixels) print_warning("the exposures do not cover the scene");
+    apps::print("never well exposed: %.2f %% of the pixels (%.2f %% too dark, %.2f %% too bright)\n",
+                100 * double(lost) / pixels, 100 * double(merged.too_dark) / pixels,
+                100 * double(merged.too_bright) / pixels);
+    if (double(lost) > 0.05 * pixels) apps::print_warning("the exposures do not cover the scene");
 }
 
 void run(const MergeArguments& arguments) {
-    if (arguments.images.size() < 2 || arguments.images.size() > kMaxExposures)
-        throw Error(std::to_string(arguments.images.size()) + " picture(s): 2 to " + std::to_string(kMaxExposures) +
-                    " can be merged");
+    if (arguments.images.size() < 2 || arguments.images.size() > photometry::kMaxExposures)
+        throw Error(std::to_string(arguments.images.size()) + " picture(s): 2 to " +
+                    std::to_string(photometry::kMaxExposures) + " can be merged");
     if (!arguments.luminance.empty() && arguments.scale > 0) throw Error("--luminance and --scale exclude one another");
     if (std::filesystem::path(arguments.output).extension() != ".exr")
         throw Error("-o " + one_line(arguments.output) + ": a .exr file is expected");
-    for (const std::string& image : arguments.images) announce_read(image);
-    announce_write("-o", arguments.output);
-    announce_write("--response", arguments.response);
+    for (const std::string& image : arguments.images) io::announce_read(image);
+    io::announce_write("-o", arguments.output);
+    io::announce_write("--response", arguments.response);
     const KnownLuminance known = arguments.luminance.empty() ? KnownLuminance{} : parse_luminance(arguments.luminance);
 
-    std::vector<Exposure> exposures = read_exposures(arguments);
-    estimate_shifts(exposures);
+    std::vector<photometry::Exposure> exposures = read_exposures(arguments);
+    photometry::estimate_shifts(exposures);
     report_exposures(arguments, exposures);
     if (!arguments.align)
-        for (Exposure& exposure : exposures) exposure.shift = glm::ivec2(0);
-    const Response response = response_of(arguments, exposures);
-    MergedImage merged = of_pictures(arguments, [&] { return merge_exposures(exposures, response); });
+        for (photometry::Exposure& exposure : exposures) exposure.shift = glm::ivec2(0);
+    const photometry::Response response = response_of(arguments, exposures);
+    photometry::MergedImage merged =
+        of_pictures(arguments, [&] { return photometry::merge_exposures(exposures, response); });
     if (known.cd_m2 > 0) {
         try {
-            print("scale %.6g\n", scale_to_luminance(merged, known.region, known.cd_m2));
+            apps::print("scale %.6g\n", photometry::scale_to_luminance(merged, known.region, known.cd_m2));
         } catch (const Error& error) {
             throw Error("--luminance " + arguments.luminance + ": " + pictures_of(arguments) + ": " + error.what());
         }
     } else if (arguments.scale > 0) {
-        scale(merged, arguments.scale);
+        photometry::scale(merged, arguments.scale);
     }
     report(merged);
     const bool absolute = merged.image.white_luminance > 0;
@@ -216,15 +221,15 @@ void run(const MergeArguments& arguments) {
         {"vesper:version", VESPER_VERSION},
         {"vesper:unit", absolute ? "cd/m^2, linear Rec. 709 RGB" : "relative luminance, linear Rec. 709 RGB"},
         {"vesper:merged", std::to_string(exposures.size()) + " exposures, response " + arguments.curve}};
-    if (!arguments.response.empty()) write_response(arguments.response, response);
-    write_exr(arguments.output, merged.image);
-    print("wrote %s\n", arguments.output.c_str());
+    if (!arguments.response.empty()) photometry::write_response(arguments.response, response);
+    io::write_exr(arguments.output, merged.image);
+    apps::print("wrote %s\n", arguments.output.c_str());
 }
 
 }  // namespace
 
-void add_merge(Command program) {
-    Command command =
+void add_merge(apps::Command program) {
+    apps::Command command =
         program.add_command("merge", "Merge photographs of different exposure into luminance (docs/merge.md)");
     const auto a = std::make_shared<MergeArguments>();
     command.add_option("images", a->images, "2 to 32 PNG or JPEG of equal size, from one tripod").required();
@@ -237,16 +242,17 @@ void add_merge(Command program) {
                     "Response of the camera: recover, srgb, gamma2.2, linear or a file that --response wrote")
         .shows_default();
     command.add_option("--smoothness", a->smoothness, "Smoothness of a recovered response")
-        .check(range(0.1, 10000.0))
+        .check(apps::range(0.1, 10000.0))
         .shows_default();
     command.add_option("--response", a->response, "Write the response to a CSV file");
     command.add_option("--luminance", a->luminance,
                        "A measured luminance: X,Y,CD_M2 or X,Y,WIDTH,HEIGHT,CD_M2 (px, from the top left)");
-    command.add_option("--scale", a->scale, "cd/m^2 per unit, from an earlier --luminance").check(range(1e-12, 1e12));
+    command.add_option("--scale", a->scale, "cd/m^2 per unit, from an earlier --luminance")
+        .check(apps::range(1e-12, 1e12));
     command.footer(
         "Example:\n  vesper merge street-1.jpg street-2.jpg street-3.jpg --align --luminance 812,440,9,9,3.2 -o "
         "street.exr\n");
     command.callback([a] { run(*a); });
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

@@ -23,16 +23,18 @@
 #include "tone_arguments.h"
 #include "tone_log.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
+
+using apps::format, apps::print;
 
 struct RenderArguments {
     std::string scene, camera, size = "1680x1050", device, lambert = "physical";
-    ToneArguments tone;
-    GlareArguments glare;
+    apps::ToneArguments tone;
+    apps::GlareArguments glare;
     std::vector<std::string> outputs;
     std::string statistics_file, log_file, replay_file, sources_file;
-    RenderSettings settings;
+    render::RenderSettings settings;
     unsigned frames = 1;
     double dt = 1.0 / 30, start = 0;
     bool statistics = false, plan = false;
@@ -41,43 +43,43 @@ struct RenderArguments {
 
 // The file of one frame of several: %04d is replaced by its number, or the number is put before the extension.
 std::string file_of_frame(const std::string& pattern, unsigned index, unsigned frames) {
-    if (const auto name = numbered_name("-o", pattern)) return name->at(index);
+    if (const auto name = apps::numbered_name("-o", pattern)) return name->at(index);
     if (frames == 1) return pattern;
     const size_t dot = pattern.rfind('.');
     return pattern.substr(0, dot) + format(".%04u", index) + pattern.substr(dot);
 }
 
-Header describe_frame(const RenderArguments& arguments, const Device& device, const View& view, const Frame& frame,
-                      const GlareReport& glare, double seconds) {
+io::Header describe_frame(const RenderArguments& arguments, const gpu::Device& device, const gpu_scene::View& view,
+                          const render::Frame& frame, const vision::GlareReport& glare, double seconds) {
     std::string pose;
     for (int c = 0; c < 4; ++c)
         for (int r = 0; r < 4; ++r) pose += (pose.empty() ? "" : " ") + format("%.15g", view.world_to_view[c][r]);
-    Header header{
-        {"vesper:version", VESPER_VERSION},
-        {"vesper:scene", arguments.scene},
-        {"vesper:options", arguments.options},
-        {"vesper:unit", "cd/m^2, linear Rec. 709 RGB"},
-        {"vesper:camera", arguments.camera},
-        {"vesper:worldToView", pose},
-        {"vesper:tangents", digits(double(view.tangent_low.x)) + " " + digits(double(view.tangent_low.y)) + " " +
-                                digits(double(view.tangent_high.x)) + " " + digits(double(view.tangent_high.y))},
-        {"vesper:seconds", digits(seconds)},
-        {"vesper:lights", std::to_string(frame.lamps)},
-        {"vesper:illuminanceThreshold", digits(double(arguments.settings.clusters.threshold))},
-        {"vesper:lambert", arguments.lambert},
-        {"vesper:device", device.name() + ", " + device.driver()}};
-    const Header tone = describe_tone(arguments.settings, frame);
+    io::Header header{{"vesper:version", VESPER_VERSION},
+                      {"vesper:scene", arguments.scene},
+                      {"vesper:options", arguments.options},
+                      {"vesper:unit", "cd/m^2, linear Rec. 709 RGB"},
+                      {"vesper:camera", arguments.camera},
+                      {"vesper:worldToView", pose},
+                      {"vesper:tangents",
+                       apps::digits(double(view.tangent_low.x)) + " " + apps::digits(double(view.tangent_low.y)) + " " +
+                           apps::digits(double(view.tangent_high.x)) + " " + apps::digits(double(view.tangent_high.y))},
+                      {"vesper:seconds", apps::digits(seconds)},
+                      {"vesper:lights", std::to_string(frame.lamps)},
+                      {"vesper:illuminanceThreshold", apps::digits(double(arguments.settings.clusters.threshold))},
+                      {"vesper:lambert", arguments.lambert},
+                      {"vesper:device", device.name() + ", " + device.driver()}};
+    const io::Header tone = apps::describe_tone(arguments.settings, frame);
     header.insert(header.end(), tone.begin(), tone.end());
-    const Header dazzled = describe_glare(arguments.settings, glare);
+    const io::Header dazzled = apps::describe_glare(arguments.settings, glare);
     header.insert(header.end(), dazzled.begin(), dazzled.end());
     return header;
 }
 
-void print_statistics(const RenderArguments& arguments, const Device& device, const Renderer& renderer,
-                      const Frame& frame, std::vector<double> milliseconds) {
+void print_statistics(const RenderArguments& arguments, const gpu::Device& device, const render::Renderer& renderer,
+                      const render::Frame& frame, std::vector<double> milliseconds) {
     print("%s on %s (%s)\n", arguments.scene.c_str(), device.name().c_str(), device.driver().c_str());
     print("%ux%u, %s, %llu triangles, %u lamps, %.0f MiB on the device\n", frame.extent.width, frame.extent.height,
-          name_of(arguments.settings.tone_operator).c_str(),
+          apps::name_of(arguments.settings.tone_operator).c_str(),
           static_cast<unsigned long long>(renderer.scene().triangles()), frame.lamps,
           double(renderer.device_bytes()) / (1 << 20));
     print("clusters: to %.0f m, at most %u lamps in a froxel, %u froxels overflowed (and looked at every lamp)\n",
@@ -85,11 +87,12 @@ void print_statistics(const RenderArguments& arguments, const Device& device, co
     print("adaptation luminance %.4g cd/m^2, foveal level %u, %u of %u pixels not finite\n",
           double(frame.curve.adaptation), frame.foveal_level, frame.histogram.non_finite,
           frame.histogram.finite + frame.histogram.non_finite);
-    const bool ldr = arguments.settings.tone_operator == Operator::Ldr;
-    print_text(text_of(luminance_statistics(frame.scene), ldr ? "LDR values, relative to white" : "luminance, cd/m^2"));
+    const bool ldr = arguments.settings.tone_operator == render::Operator::Ldr;
+    apps::print_text(apps::text_of(apps::luminance_statistics(frame.scene),
+                                   ldr ? "LDR values, relative to white" : "luminance, cd/m^2"));
     double total = 0;
     print("device time, ms\n");
-    for (const Timing& timing : frame.timings) {
+    for (const graph::Timing& timing : frame.timings) {
         print("  %-24s %8.3f\n", timing.pass.c_str(), timing.milliseconds);
         total += timing.milliseconds;
     }
@@ -104,39 +107,39 @@ void print_statistics(const RenderArguments& arguments, const Device& device, co
           milliseconds.size(), milliseconds.front());
 }
 
-void write_outputs(const RenderArguments& arguments, const Device& device, const View& view, const Frame& frame,
-                   const GlareReport& glare, unsigned index, double seconds) {
+void write_outputs(const RenderArguments& arguments, const gpu::Device& device, const gpu_scene::View& view,
+                   const render::Frame& frame, const vision::GlareReport& glare, unsigned index, double seconds) {
     for (const std::string& output : arguments.outputs) {
         const std::string file = file_of_frame(output, index, arguments.frames);
         if (output.ends_with(".png"))
-            write_codes(file, frame, arguments.settings.display);
+            apps::write_codes(file, frame, arguments.settings.display);
         else
-            write_exr(file, frame.extent.width, frame.extent.height, frame.scene,
-                      describe_frame(arguments, device, view, frame, glare, seconds));
+            io::write_exr(file, frame.extent.width, frame.extent.height, frame.scene,
+                          describe_frame(arguments, device, view, frame, glare, seconds));
     }
 }
 
 // Everything that can be wrong with the arguments alone, and what follows from them.
 void check_arguments(RenderArguments& arguments) {
-    RenderSettings& settings = arguments.settings;
-    static_cast<ToneChainSettings&>(settings) = tone_settings(arguments.tone);
-    check_target(arguments.glare, settings);
+    render::RenderSettings& settings = arguments.settings;
+    static_cast<render::ToneChainSettings&>(settings) = apps::tone_settings(arguments.tone);
+    apps::check_target(arguments.glare, settings);
     settings.paper_lambert = arguments.lambert == "paper";
-    announce_read(arguments.scene);
-    announce_read(arguments.replay_file);
-    announce_read(arguments.glare.lamps);
+    io::announce_read(arguments.scene);
+    io::announce_read(arguments.replay_file);
+    io::announce_read(arguments.glare.lamps);
     for (const std::string& output : arguments.outputs) {
         const bool exr = output.ends_with(".exr");
         if (!exr && !output.ends_with(".png")) throw Error("-o " + output + ": a .png or .exr file is expected");
-        if (exr && settings.tone_operator == Operator::Ldr)
+        if (exr && settings.tone_operator == render::Operator::Ldr)
             throw Error("-o " + output + ": the ldr operator has no luminances to write; use .png");
-        announce_write("-o", file_of_frame(output, 0, arguments.frames));
+        io::announce_write("-o", file_of_frame(output, 0, arguments.frames));
     }
-    announce_write("--stats-json", arguments.statistics_file);
+    io::announce_write("--stats-json", arguments.statistics_file);
     for (const auto& [option, file] :
          {std::pair("--log", arguments.log_file), std::pair("--glare-sources", arguments.sources_file)}) {
-        announce_write(option, file);
-        announce_write(option, GrowingFile::part_of(file));  // where it grows
+        io::announce_write(option, file);
+        io::announce_write(option, io::GrowingFile::part_of(file));  // where it grows
     }
 }
 
@@ -155,14 +158,14 @@ struct FrameTime {
 };
 
 // A replay shows what was logged: with the operator and the histogram of the log, at its times.
-void check_replay(const RenderArguments& arguments, const std::vector<LoggedFrame>& log) {
+void check_replay(const RenderArguments& arguments, const std::vector<apps::LoggedFrame>& log) {
     const auto fail = [&](const std::string& reason) {
         throw Error("--replay " + one_line(arguments.replay_file) + ": " + reason);
     };
     if (arguments.tone.eye.command.count("--dt")) fail("times are those of the log: --dt has no meaning beside it");
-    const std::string wanted = name_of(arguments.settings.tone_operator);
-    const HistogramSettings& bins = arguments.settings.histogram;
-    for (const LoggedFrame& frame : log) {
+    const std::string wanted = apps::name_of(arguments.settings.tone_operator);
+    const render::HistogramSettings& bins = arguments.settings.histogram;
+    for (const apps::LoggedFrame& frame : log) {
         if (frame.tone_operator != wanted)
             fail("is of the operator " + one_line(frame.tone_operator, 40) + " and not of " + wanted);
         const shared::EyeState& eye = frame.eye;
@@ -185,7 +188,7 @@ std::vector<FrameTime> moments_of(const RenderArguments& arguments) {
             moments.push_back({arguments.start + i * arguments.dt, i == 0 ? 0.0f : float(arguments.dt), {}});
         return moments;
     }
-    const std::vector<LoggedFrame> log = read_log(arguments.replay_file);
+    const std::vector<apps::LoggedFrame> log = apps::read_log(arguments.replay_file);
     check_replay(arguments, log);
     const unsigned frames = arguments.tone.eye.command.count("--frames") ? arguments.frames : ~0u;
     for (size_t i = 0; i < log.size() && moments.size() < frames; ++i)
@@ -196,68 +199,73 @@ std::vector<FrameTime> moments_of(const RenderArguments& arguments) {
 }
 
 void run(RenderArguments& arguments) {
-    const VkExtent2D extent = parse_size(arguments.size);
+    const VkExtent2D extent = apps::parse_size(arguments.size);
     check_arguments(arguments);
     const bool wants_statistics = arguments.statistics || !arguments.statistics_file.empty();
-    Outputs outputs{.display = wants_statistics, .scene = false};  // what is timed includes the display image
+    render::Outputs outputs{.display = wants_statistics, .scene = false};  // what is timed includes the display image
     for (const std::string& output : arguments.outputs)
         (output.ends_with(".png") ? outputs.display : outputs.scene) = true;
 
-    arguments.settings.offscreen_lamps = read_lamps(arguments.glare.lamps);
+    arguments.settings.offscreen_lamps = apps::read_lamps(arguments.glare.lamps);
     // Glare is read off luminances.
-    const bool ldr = arguments.settings.tone_operator == Operator::Ldr;
+    const bool ldr = arguments.settings.tone_operator == render::Operator::Ldr;
     const bool logs_glare = !arguments.log_file.empty() && !ldr;
     const bool wants_target = !arguments.glare.target.empty();
     outputs.scene |= logs_glare || wants_target;
 
     const std::vector<FrameTime> moments = moments_of(arguments);
     arguments.frames = unsigned(moments.size());
-    LoadedScene loaded = read_gltf(arguments.scene);
+    scene::LoadedScene loaded = scene::read_gltf(arguments.scene);
     loaded.scene.name = arguments.scene;
     check_wanted(arguments);  // a scene that cannot be read is said first
-    print_notes(loaded.notes);
-    const Scene& scene = loaded.scene;
-    SceneFrame moment{world_transforms(scene, moments.front().seconds)};
-    camera_view(scene, moment, arguments.camera, extent);  // a wrong name is known before a device is opened
-    const std::vector<std::string> cameras = camera_names(scene);
+    apps::print_notes(loaded.notes);
+    const scene::Scene& scene = loaded.scene;
+    gpu_scene::SceneFrame moment{scene::world_transforms(scene, moments.front().seconds)};
+    gpu_scene::camera_view(scene, moment, arguments.camera, extent);  // a wrong name is known before a device is opened
+    const std::vector<std::string> cameras = gpu_scene::camera_names(scene);
     if (arguments.camera.empty() && !cameras.empty()) arguments.camera = cameras.front();
 
-    Device device({.select = arguments.device});
-    Renderer renderer(device, scene);
-    Progress progress("rendering", arguments.frames);
+    gpu::Device device({.select = arguments.device});
+    render::Renderer renderer(device, scene);
+    apps::Progress progress("rendering", arguments.frames);
     std::vector<double> milliseconds;
-    std::optional<GrowingFile> log, sources;
-    const auto begin = [](std::optional<GrowingFile>& grows, const std::string& file, const std::string& heading) {
+    std::optional<io::GrowingFile> log, sources;
+    const auto begin = [](std::optional<io::GrowingFile>& grows, const std::string& file, const std::string& heading) {
         if (!file.empty()) grows.emplace(file).append(heading);
     };
-    begin(log, arguments.log_file, log_heading()), begin(sources, arguments.sources_file, glare_sources_heading());
+    begin(log, arguments.log_file, apps::log_heading()),
+        begin(sources, arguments.sources_file, apps::glare_sources_heading());
     for (unsigned index = 0; index < arguments.frames; ++index) {
         const auto& [seconds, step, eye] = moments[index];
         if (eye) renderer.set_eye(*eye);
-        moment.world = world_transforms(scene, seconds);
-        const View view = camera_view(scene, moment, arguments.camera, extent);
+        moment.world = scene::world_transforms(scene, seconds);
+        const gpu_scene::View view = gpu_scene::camera_view(scene, moment, arguments.camera, extent);
         const bool last = index + 1 == arguments.frames;
-        const Frame frame =
+        const render::Frame frame =
             renderer.render(arguments.settings, view, moment, step,
                             {.display = outputs.display, .scene = outputs.scene || (last && wants_statistics)});
         milliseconds.push_back(frame.milliseconds);
-        if (const std::string note = photometry_note(loaded, arguments.scene); index == 0 && !note.empty())
-            print_note(note);
-        GlareReport glare;
+        if (const std::string note = apps::photometry_note(loaded, arguments.scene); index == 0 && !note.empty())
+            apps::print_note(note);
+        vision::GlareReport glare;
         if (outputs.scene && !ldr)
-            glare = glare_of(arguments.glare, arguments.settings, frame, angles_of(view), frame.outside);
+            glare =
+                apps::glare_of(arguments.glare, arguments.settings, frame, gpu_scene::angles_of(view), frame.outside);
         write_outputs(arguments, device, view, frame, glare, index, seconds);
         if (log)
-            log->append(log_line(index, {seconds, step, name_of(arguments.settings.tone_operator), frame.eye},
-                                 frame.curve, arguments.settings.tone_operator, arguments.settings.display, glare));
+            log->append(
+                apps::log_line(index, {seconds, step, apps::name_of(arguments.settings.tone_operator), frame.eye},
+                               frame.curve, arguments.settings.tone_operator, arguments.settings.display, glare));
         if (sources)
-            sources->append(glare_sources_lines(index, scene, frame.glare_sources, arguments.settings.scatter.eye));
-        if (index == 0 && arguments.plan) print_text(renderer.plan());
+            sources->append(
+                apps::glare_sources_lines(index, scene, frame.glare_sources, arguments.settings.scatter.eye));
+        if (index == 0 && arguments.plan) apps::print_text(renderer.plan());
         if (last) {
-            if (wants_target) print_text(target_line(glare));
+            if (wants_target) apps::print_text(apps::target_line(glare));
             if (arguments.statistics) print_statistics(arguments, device, renderer, frame, milliseconds);
             if (!arguments.statistics_file.empty())
-                write_text(arguments.statistics_file, json_of(luminance_statistics(frame.scene)) + "\n");
+                apps::write_text(arguments.statistics_file,
+                                 apps::json_of(apps::luminance_statistics(frame.scene)) + "\n");
         }
         progress.step();
     }
@@ -267,8 +275,9 @@ void run(RenderArguments& arguments) {
 
 }  // namespace
 
-void add_render(Command program) {
-    Command command = program.add_command("render", "Render a photometric scene to a display image or to luminance");
+void add_render(apps::Command program) {
+    apps::Command command =
+        program.add_command("render", "Render a photometric scene to a display image or to luminance");
     const auto a = std::make_shared<RenderArguments>();
     command.add_option("scene", a->scene, "A .gltf or .glb, as vesper convert writes it").required();
     command.add_option("--output,-o", a->outputs,
@@ -276,9 +285,9 @@ void add_render(Command program) {
     command.add_option("--camera,-c", a->camera, "Name of a camera of the scene (default: the first)");
     command.add_option("--size,-s", a->size, "WIDTHxHEIGHT, px").shows_default();
     command.add_option("--frames", a->frames, "How many frames; files are numbered")
-        .check(range(1u, 1000000u))
+        .check(apps::range(1u, 1000000u))
         .shows_default();
-    command.add_option("--dt", a->dt, "Time between frames, s").check(between(1e-6, 3600.0)).shows_default();
+    command.add_option("--dt", a->dt, "Time between frames, s").check(apps::between(1e-6, 3600.0)).shows_default();
     command.help_group("Logs and replay");
     command.add_option("--log", a->log_file,
                        "Write the state of the eye, the tone curve and what glare hides of every frame to a CSV file");
@@ -288,7 +297,9 @@ void add_render(Command program) {
     command.add_option("--replay", a->replay_file,
                        "Take times and the state of the eye from such a log: the same frames to the last bit; --start "
                        "and --frames choose from them");
-    command.add_option("--start", a->start, "Time of the first frame, s").check(between(0.0, 1e6)).shows_default();
+    command.add_option("--start", a->start, "Time of the first frame, s")
+        .check(apps::between(0.0, 1e6))
+        .shows_default();
     command.help_group();
     command.add_flag("--stats", a->statistics, "Print luminances and milliseconds of the last frame");
     command.help_group("Logs and replay");
@@ -301,16 +312,16 @@ void add_render(Command program) {
     command.add_allow_outside();
     command.help_group("Light");
     command.add_option("--lambert", a->lambert, "physical: L = E R / pi; paper: L = E R")
-        .check(one_of({"physical", "paper"}))
+        .check(apps::one_of({"physical", "paper"}))
         .shows_default();
     command
         .add_option("--threshold", a->settings.clusters.threshold,
                     "Illuminance below which a lamp counts as dark: on matt surfaces, or on a plane facing it, lx")
-        .check(between(1e-9, 1e3))
+        .check(apps::between(1e-9, 1e3))
         .shows_default();
     command.help_group();
-    add_tone_options(command, a->tone);
-    add_glare_options(command, a->glare);
+    apps::add_tone_options(command, a->tone);
+    apps::add_glare_options(command, a->glare);
     command.help_group("Light");
     command.add_flag("--all-lights", a->settings.all_lamps,
                      "Shade every lamp in every pixel, slowly: as without clusters and sums over blocks, but for what "
@@ -321,9 +332,10 @@ void add_render(Command program) {
         "  vesper render night.gltf --camera driver -o night.exr\n"
         "  mkdir drive && vesper render night.gltf --camera driver --frames 300 --dt 0.0333 -o drive/%04d.png\n");
     command.callback([a, command] {
-        a->options = options_of(command, {"--output", "--log", "--glare-sources", "--stats", "--stats-json", "--plan"});
+        a->options =
+            apps::options_of(command, {"--output", "--log", "--glare-sources", "--stats", "--stats-json", "--plan"});
         run(*a);
     });
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

@@ -16,7 +16,7 @@
 #include "roads/layout_scene.h"
 #include "scene/gltf_save.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
 
 struct RoadArguments {
@@ -27,49 +27,50 @@ struct RoadArguments {
 };
 
 /// The road as a scene whose luminaires are seen, too, where their file states an opening.
-Scene lit_road(const roads::LoadedLayout& layout) {
-    Scene scene = layout_scene(layout);
-    for (Lamp& lamp : scene.lamps) lamp.opening = layout.distribution.opening;
+scene::Scene lit_road(const roads::LoadedLayout& layout) {
+    scene::Scene scene = roads::layout_scene(layout);
+    for (scene::Lamp& lamp : scene.lamps) lamp.opening = layout.distribution.opening;
     return scene;
 }
 
 void run(const RoadArguments& arguments) {
-    announce_read(arguments.layout);
+    io::announce_read(arguments.layout);
     for (const std::string& file : arguments.pictures) {
         if (!file.ends_with(".png") && !file.ends_with(".exr"))
             throw Error("--render " + file + ": a .png or .exr file is expected");
-        announce_write("--render", file);
+        io::announce_write("--render", file);
     }
-    announce_write("--csv", arguments.csv);
-    announce_write("--json", arguments.json);
+    io::announce_write("--csv", arguments.csv);
+    io::announce_write("--json", arguments.json);
     if (!arguments.scene.empty() && !arguments.scene.ends_with(".gltf") && !arguments.scene.ends_with(".glb"))
         throw Error("--scene " + arguments.scene + ": a .gltf or .glb file is expected");
-    announce_write("--scene", arguments.scene);
+    io::announce_write("--scene", arguments.scene);
     if (!arguments.device.empty() && arguments.pictures.empty())
         throw Error("--device has a meaning only beside --render");
     const roads::LoadedLayout layout = roads::read_layout(arguments.layout, arguments.overrides);
-    const roads::RoadLighting result = in_file(arguments.layout, [&] { return calculate_lighting(layout); });
+    const roads::RoadLighting result = io::in_file(arguments.layout, [&] { return roads::calculate_lighting(layout); });
     const roads::LightingClass* wanted =
         roads::find_lighting_class(arguments.wanted.empty() ? layout.wanted_class : arguments.wanted);
-    print_text(text_of(layout, result, wanted ? wanted : reached_class(result)));
-    if (arguments.grid) print_text(grid_text_of(result));
+    apps::print_text(text_of(layout, result, wanted ? wanted : roads::reached_class(result)));
+    if (arguments.grid) apps::print_text(grid_text_of(result));
     RenderedRoad rendered;
     if (!arguments.pictures.empty()) {
         rendered = render_road(layout, result, arguments.device);
-        print_text(text_of(result, rendered));
+        apps::print_text(text_of(result, rendered));
         for (const std::string& picture : arguments.pictures) write_picture(picture, layout, result, rendered);
     }
     const RenderedRoad* beside = arguments.pictures.empty() ? nullptr : &rendered;
     if (!arguments.scene.empty())
-        save_gltf(lit_road(layout), std::filesystem::path(arguments.layout).filename().string(), arguments.scene);
-    if (!arguments.csv.empty()) write_text(arguments.csv, csv_of(layout, result, beside));
-    if (!arguments.json.empty()) write_text(arguments.json, json_of(layout, result, wanted, beside));
+        scene::save_gltf(lit_road(layout), std::filesystem::path(arguments.layout).filename().string(),
+                         arguments.scene);
+    if (!arguments.csv.empty()) apps::write_text(arguments.csv, csv_of(layout, result, beside));
+    if (!arguments.json.empty()) apps::write_text(arguments.json, json_of(layout, result, wanted, beside));
 }
 
 }  // namespace
 
-void add_road(Command program) {
-    Command command = program.add_command("road", "Calculate road lighting: Lav, Uo, Ul, TI, EIR (EN 13201-3)");
+void add_road(apps::Command program) {
+    apps::Command command = program.add_command("road", "Calculate road lighting: Lav, Uo, Ul, TI, EIR (EN 13201-3)");
     const auto a = std::make_shared<RoadArguments>();
     roads::LayoutOverrides& o = a->overrides;
     std::vector<std::string> classes;
@@ -86,11 +87,11 @@ void add_road(Command program) {
         "Write the road as a scene for vesper render: OUT.gltf or OUT.glb, with a camera for each observer");
     command.add_option("--device", a->device, "Where to render: part of a name, cpu, or an index of vesper devices");
     command.add_option("--class", a->wanted, "Lighting class to compare with (default: that of the file)")
-        .check(one_of(classes));
+        .check(apps::one_of(classes));
     command.add_option("--luminaire", o.luminaire, "Another luminaire: .ies or .ldt");
     command.add_option("--r-table", o.reflection_table, "Another surface: R1 to R4, C1, C2, W3, W4 or a .csv file");
     command.add_option("--q0", o.q0, "Scale the surface to this mean luminance coefficient, 1/sr")
-        .check(range(0.001, 10.0));
+        .check(apps::range(0.001, 10.0));
     command.add_option("--spacing", o.spacing, "m");
     command.add_option("--height", o.height, "m");
     command.add_option("--overhang", o.overhang, "m");
@@ -106,4 +107,4 @@ void add_road(Command program) {
     command.callback([a] { run(*a); });
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

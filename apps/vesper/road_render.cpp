@@ -11,8 +11,10 @@
 #include "road_view.h"
 #include "roads/layout_scene.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
+
+using apps::format;
 
 /// Difference of a point, %: relative to the calculated luminance, but at least to a thousandth of the average.
 double difference_percent(double picture, double calculated, double average) {
@@ -63,60 +65,63 @@ Groups groups_of(const roads::LoadedLayout& layout, const std::vector<roads::Pla
             const glm::dvec2 point(result.points[i].x, result.points[i].y);
             std::vector<bool> counted;
             for (const roads::PlacedLuminaire& lamp : lamps)
-                counted.push_back(reflected_towards(layout, lamp, point, vector_of(result.observers[o].eye)) > 0);
+                counted.push_back(
+                    roads::reflected_towards(layout, lamp, point, roads::vector_of(result.observers[o].eye)) > 0);
             groups[counted].push_back({o, i});
         }
     return groups;
 }
 
 /// The scene with only some of its luminaires, and tables as the calculation takes them.
-Scene with_luminaires(Scene scene, const std::vector<bool>& wanted) {
+scene::Scene with_luminaires(scene::Scene scene, const std::vector<bool>& wanted) {
     scene.beyond_tables = false;
     size_t lamp = 0;
-    for (Node& node : scene.nodes)
-        if (node.lamp != kNone && !wanted.at(lamp++)) node.lamp = kNone;
+    for (scene::Node& node : scene.nodes)
+        if (node.lamp != scene::kNone && !wanted.at(lamp++)) node.lamp = scene::kNone;
     return scene;
 }
 
 /// Every lamp counts, as in the calculation, however dim: contributions of 1e-9 lx are left out.
-RenderSettings road_settings() {
-    RenderSettings settings;
+render::RenderSettings road_settings() {
+    render::RenderSettings settings;
     settings.clusters.threshold = 1e-9f;
     return settings;
 }
 
 class RoadPictures {
 public:
-    RoadPictures(Device& device, const Scene& scene) : frame_{world_transforms(scene, 0)}, renderer_(device, scene) {}
-    std::vector<float> render(const View& view) {
+    RoadPictures(gpu::Device& device, const scene::Scene& scene)
+        : frame_{scene::world_transforms(scene, 0)}, renderer_(device, scene) {}
+    std::vector<float> render(const gpu_scene::View& view) {
         return renderer_.render(road_settings(), view, frame_, 0, {.display = false, .scene = true}).scene;
     }
 
 private:
-    SceneFrame frame_;
-    Renderer renderer_;
+    gpu_scene::SceneFrame frame_;
+    render::Renderer renderer_;
 };
 
 /// Veil and TI off a picture of what dazzles; lamps above the roof of the car do not.
-GlareReport read_glare(const roads::LoadedLayout& layout, const roads::LaneObserver& observer, Device& device) {
-    const Scene scene = layout_glare_scene(layout, observer.glare_eye.x);
-    Renderer renderer(device, scene);
-    const View view = road_glare_view(vector_of(observer.glare_eye));
-    const Frame frame =
-        renderer.render(road_settings(), view, {world_transforms(scene, 0)}, 0, {.display = false, .scene = true});
-    std::vector<DazzlingLight> beside;
-    for (const OffscreenLamp& lamp : frame.outside)
+vision::GlareReport read_glare(const roads::LoadedLayout& layout, const roads::LaneObserver& observer,
+                               gpu::Device& device) {
+    const scene::Scene scene = roads::layout_glare_scene(layout, observer.glare_eye.x);
+    render::Renderer renderer(device, scene);
+    const gpu_scene::View view = road_glare_view(roads::vector_of(observer.glare_eye));
+    const render::Frame frame = renderer.render(road_settings(), view, {scene::world_transforms(scene, 0)}, 0,
+                                                {.display = false, .scene = true});
+    std::vector<vision::DazzlingLight> beside;
+    for (const gpu_scene::OffscreenLamp& lamp : frame.outside)
         if (lamp.direction.y < double(view.tangent_high.y) * -lamp.direction.z)
             beside.push_back({lamp.direction, luminance(lamp.illuminance)});
-    const ImageAngles image = angles_of(view);
+    const vision::ImageAngles image = gpu_scene::angles_of(view);
     const double average = observer.average_luminance / layout.maintenance_factor;
     const glm::dvec2 sight = image.pixels_at({0, 0}) / glm::dvec2(image.width, image.height);
-    return report_glare(
+    return vision::report_glare(
         image, frame.scene, beside,
         {.eye = {layout.observer_age}, .gaze = sight, .source_luminance = 0, .average_luminance = average});
 }
 
-double read_point(const std::vector<float>& rgba, const View& view, const roads::FieldPoint& point) {
+double read_point(const std::vector<float>& rgba, const gpu_scene::View& view, const roads::FieldPoint& point) {
     return luminance_at(rgba, view.extent, project(view, {point.x, point.y, 0}));
 }
 
@@ -147,8 +152,8 @@ std::string worst_line(const roads::RoadLighting& result, const RenderedRoad& re
 
 RenderedRoad render_road(const roads::LoadedLayout& layout, const roads::RoadLighting& result,
                          const std::string& select) {
-    const Scene scene = layout_scene(layout);
-    Device device({.select = select});
+    const scene::Scene scene = roads::layout_scene(layout);
+    gpu::Device device({.select = select});
     RenderedRoad made{.device = device.name()};
     RoadPictures whole(device, scene);
     for (size_t i = 0; i < result.observers.size(); ++i) {
@@ -164,10 +169,10 @@ RenderedRoad render_road(const roads::LoadedLayout& layout, const roads::RoadLig
     }
     for (size_t i = 0; i < made.observers.size(); ++i)
         made.observers[i].glare = read_glare(layout, result.observers[i], device);
-    for (const auto& [counted, wanted] : groups_of(layout, layout_scene_luminaires(layout), result)) {
+    for (const auto& [counted, wanted] : groups_of(layout, roads::layout_scene_luminaires(layout), result)) {
         RoadPictures some(device, with_luminaires(scene, counted));
         for (const auto& [observer, point] : wanted) {
-            const View view =
+            const gpu_scene::View view =
                 road_point_view(result.observers[observer], {result.points[point].x, result.points[point].y});
             made.observers[observer].counted.luminance[point] =
                 read_point(some.render(view), view, result.points[point]);
@@ -216,7 +221,7 @@ std::string text_of(const roads::RoadLighting& result, const RenderedRoad& rende
     text += "\nGlare, off a picture of the new luminaires: veil in cd/m2 and TI, calculated, rendered\n";
     for (size_t o = 0; o < result.observers.size(); ++o) {
         const roads::LaneObserver& a = result.observers[o];
-        const GlareReport& b = rendered.observers[o].glare;
+        const vision::GlareReport& b = rendered.observers[o].glare;
         text += format("  %4d  %7.4f %7.4f   %6.2f %% %6.2f %%\n", a.lane, a.veil, b.road_veil,
                        a.threshold_increment_percent, b.increment);
     }
@@ -224,4 +229,4 @@ std::string text_of(const roads::RoadLighting& result, const RenderedRoad& rende
     return text + "By every luminaire: " + worst_line(result, rendered, &RenderedObserver::every);
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

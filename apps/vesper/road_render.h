@@ -8,7 +8,7 @@
 #include "roads/road_lighting.h"
 #include "vision/glare_report.h"
 
-namespace vesper {
+namespace vesper::commands {
 
 /// What was read off pictures at the points of the grid, beside the calculation.
 struct RoadReading {
@@ -22,7 +22,7 @@ struct RoadReading {
 
 /// What an observer sees in the picture.
 struct RenderedObserver {
-    View view;
+    gpu_scene::View view;
     std::vector<float> rgba;  ///< cd/m^2 RGB, by every luminaire of the scene
     /// The standard leaves out luminaires more than 5H before, 12H beyond or 5H beside a point, and those outside of
     /// the r-table; so each point is read off a picture of its own (road_point_view) with the luminaires that count for
@@ -30,13 +30,13 @@ struct RenderedObserver {
     RoadReading counted, every;
     double longest_pixel = 0;  ///< m of road in a pixel, at the far end of the field
     /// Off a picture of the new luminaires from LaneObserver::glare_eye, those outside of it added.
-    GlareReport glare;
+    vision::GlareReport glare;
 };
 
 struct RenderedRoad {
     std::string device;
     std::vector<RenderedObserver> observers;
-    View overview;  ///< as the observer of the darkest lane sees the road
+    gpu_scene::View overview;  ///< as the observer of the darkest lane sees the road
     std::vector<float> overview_rgba;
     size_t darkest = 0;  ///< which observer that is
 };
@@ -51,4 +51,4 @@ std::string text_of(const roads::RoadLighting&, const RenderedRoad&);
 void write_picture(const std::string& file, const roads::LoadedLayout&, const roads::RoadLighting&,
                    const RenderedRoad&);
 
-}  // namespace vesper
+}  // namespace vesper::commands

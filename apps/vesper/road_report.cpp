@@ -4,8 +4,10 @@
 
 #include "print.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
+
+using apps::format;
 
 const char* name_of(roads::Arrangement arrangement) {
     switch (arrangement) {
@@ -25,19 +27,19 @@ const char* name_of(roads::Arrangement arrangement) {
     return "";
 }
 
-double q0_of(const ReflectionTable& table) {
-    return table.stated_q0 > 0 ? table.stated_q0 : average_luminance_coefficient(table);
+double q0_of(const photometry::ReflectionTable& table) {
+    return table.stated_q0 > 0 ? table.stated_q0 : photometry::average_luminance_coefficient(table);
 }
 
 std::string head_of(const roads::LoadedLayout& layout, const roads::RoadLighting& result) {
     std::string text = layout.name + "\n";
     text += format("  carriageway  %g m, %d lanes, surface %s with Q0 %.3g, S1 %.2f\n", layout.width, layout.lanes,
-                   layout.surface.name.c_str(), q0_of(layout.surface), specular_factor(layout.surface));
+                   layout.surface.name.c_str(), q0_of(layout.surface), photometry::specular_factor(layout.surface));
     text +=
         format("  luminaires   %s, every %g m, %g m high, overhang %g m, tilt %g deg\n", name_of(layout.arrangement),
-               layout.spacing, mounting_height(layout), layout.overhang, layout.tilt_deg);
+               layout.spacing, roads::mounting_height(layout), layout.overhang, layout.tilt_deg);
     text += format("               %s, %.0f lm, maintenance factor %g\n", layout.distribution.name.c_str(),
-                   luminous_flux(layout.distribution) * layout.flux_factor, layout.maintenance_factor);
+                   photometry::luminous_flux(layout.distribution) * layout.flux_factor, layout.maintenance_factor);
     text += format("  grid         %zu x %zu points, %.3g m apart\n", result.field.x.size(), result.field.y.size(),
                    result.field.step);
     return text;
@@ -105,7 +107,7 @@ std::string text_of(const roads::LoadedLayout& layout, const roads::RoadLighting
         text += format("  %4d  %11.2f  %10.3f  %6.3f  %6.3f  %6.2f  %9.4f  %16.1f\n", o.lane, o.eye.y,
                        o.average_luminance, o.overall_uniformity, o.longitudinal_uniformity,
                        o.threshold_increment_percent, o.veil, o.glare_eye.x);
-    const roads::LightingClass* reached = reached_class(result);
+    const roads::LightingClass* reached = roads::reached_class(result);
     if (result.wet)
         text +=
             "\nA wet surface: the other limits of the classes (EN 13201-2:2015) are those of the road when it is dry\n";
@@ -160,9 +162,9 @@ std::string json_of(const roads::LoadedLayout& layout, const roads::RoadLighting
     json["edge_illuminance_ratio_left"] = result.edge_ratio_left;
     json["average_illuminance_lx"] = result.average_illuminance;
     json["minimum_illuminance_lx"] = result.minimum_illuminance;
-    const roads::LightingClass* reached = reached_class(result);
+    const roads::LightingClass* reached = roads::reached_class(result);
     json["class_reached"] = reached ? nlohmann::ordered_json(reached->name) : nlohmann::ordered_json();
-    if (wanted) json["class_wanted"] = {{"name", wanted->name}, {"fulfilled", fulfils(result, *wanted)}};
+    if (wanted) json["class_wanted"] = {{"name", wanted->name}, {"fulfilled", roads::fulfils(result, *wanted)}};
     for (const roads::LaneObserver& o : result.observers)
         json["observers"].push_back({{"lane", o.lane},
                                      {"eye_m", {o.eye.x, o.eye.y, o.eye.z}},
@@ -192,4 +194,4 @@ std::string json_of(const roads::LoadedLayout& layout, const roads::RoadLighting
     return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

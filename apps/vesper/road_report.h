@@ -6,7 +6,7 @@
 #include "road_render.h"
 #include "roads/road_lighting.h"
 
-namespace vesper {
+namespace vesper::commands {
 
 /// Layout, figures against the limits of a class (may be null) and figures of each lane, for a terminal.
 std::string text_of(const roads::LoadedLayout&, const roads::RoadLighting&, const roads::LightingClass* wanted);
@@ -17,4 +17,4 @@ std::string csv_of(const roads::LoadedLayout&, const roads::RoadLighting&, const
 std::string json_of(const roads::LoadedLayout&, const roads::RoadLighting&, const roads::LightingClass* wanted,
                     const RenderedRoad* rendered);
 
-}  // namespace vesper
+}  // namespace vesper::commands

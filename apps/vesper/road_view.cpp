@@ -10,8 +10,10 @@
 #include "roads/layout_scene.h"
 #include "scene/colour.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
+
+using gpu_scene::View;
 
 constexpr double kDepth = 0.05;   // m of road in a pixel
 constexpr double kAcross = 0.02;  // m
@@ -33,8 +35,8 @@ uint32_t pixels(double span, double size, uint32_t most) {
 }  // namespace
 
 View road_view(const roads::RoadLayout& layout, const roads::LaneObserver& observer, uint32_t max_rows) {
-    const roads::CalculationField field = calculation_field(layout);
-    const glm::dvec3 eye = vector_of(observer.eye);
+    const roads::CalculationField field = roads::calculation_field(layout);
+    const glm::dvec3 eye = roads::vector_of(observer.eye);
     const double across = layout.width / static_cast<double>(field.y.size());
     const double near = field.x.front() - field.step / 2 - eye.x, far = field.x.back() + field.step - eye.x;
     const double right = (eye.y + across) / near, left = (layout.width - eye.y + across) / near;
@@ -51,12 +53,12 @@ View road_view(const roads::RoadLayout& layout, const roads::LaneObserver& obser
 
 View road_point_view(const roads::LaneObserver& observer, glm::dvec2 point) {
     constexpr double kPixels = 8, kOfRoad = 0.001;  // m in one
-    const glm::dvec2 away = point - glm::dvec2(vector_of(observer.eye));
+    const glm::dvec2 away = point - glm::dvec2(roads::vector_of(observer.eye));
     const glm::dvec2 middle(-away.y / away.x, -observer.eye.z / away.x);
     const glm::dvec2 half = 0.5 * kPixels * kOfRoad * glm::dvec2(1 / away.x, observer.eye.z / (away.x * away.x));
     View view;
     view.extent = {uint32_t(kPixels), uint32_t(kPixels)};
-    view.world_to_view = along_road(vector_of(observer.eye));
+    view.world_to_view = along_road(roads::vector_of(observer.eye));
     view.tangent_low = glm::vec2(middle - half);
     view.tangent_high = glm::vec2(middle + half);
     view.near = kNear;
@@ -68,7 +70,7 @@ View road_overview(const roads::RoadLayout& layout, const roads::LaneObserver& o
     const double right = (observer.eye.y + 1) / near, left = (layout.width - observer.eye.y + 1) / near;
     View view;
     view.extent = {width, std::max(1u, static_cast<uint32_t>(std::lround(width * (top - bottom) / (right + left))))};
-    view.world_to_view = along_road(vector_of(observer.eye));
+    view.world_to_view = along_road(roads::vector_of(observer.eye));
     view.tangent_low = {static_cast<float>(-left), static_cast<float>(bottom)};
     view.tangent_high = {static_cast<float>(right), static_cast<float>(top)};
     view.near = kNear;
@@ -113,4 +115,4 @@ double luminance_at(std::span<const float> rgba, VkExtent2D extent, glm::dvec2 p
                     weight.y);
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

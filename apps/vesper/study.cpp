@@ -14,9 +14,10 @@
 #include "picture_arguments.h"
 #include "print.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
 
+using apps::Command;
 namespace fs = std::filesystem;
 
 /// Checks names and folder before anything takes time. Gives the names of the pictures.
@@ -29,9 +30,9 @@ std::vector<std::string> check_arguments(const StudyArguments& arguments) {
             throw Error(one_line(input) + ": a second picture of the name " + one_line(names.back()));
         if (!fs::is_regular_file(input)) throw Error(one_line(input) + ": there is no such file");
     }
-    parse_size(arguments.source.size);
+    apps::parse_size(arguments.source.size);
     if (!fs::is_directory(arguments.folder)) {
-        announce_write("-o", fs::path(arguments.folder).lexically_normal().string());
+        io::announce_write("-o", fs::path(arguments.folder).lexically_normal().string());
         if (fs::exists(arguments.folder)) throw Error("-o " + one_line(arguments.folder) + ": is not a folder");
     }
     return names;
@@ -39,9 +40,9 @@ std::vector<std::string> check_arguments(const StudyArguments& arguments) {
 
 void run(const StudyArguments& arguments, const std::string& what, const std::string& title,
          const std::function<void(Study&)>& study) {
-    const ToneChainSettings settings = tone_settings(arguments.tone);
+    const render::ToneChainSettings settings = apps::tone_settings(arguments.tone);
     const std::vector<std::string> names = check_arguments(arguments);
-    Device device({.select = arguments.device});
+    gpu::Device device({.select = arguments.device});
     std::vector<StudyPicture> pictures;
     for (size_t i = 0; i < names.size(); ++i) {
         pictures.push_back(read_study_picture(arguments.source, device, settings, arguments.inputs[i]));
@@ -50,14 +51,14 @@ void run(const StudyArguments& arguments, const std::string& what, const std::st
     std::error_code error;
     if (!fs::is_directory(arguments.folder) && !fs::create_directory(arguments.folder, error))
         throw Error("-o " + one_line(arguments.folder) + ": cannot be made a folder");
-    ToneMapper mapper(device);
+    render::ToneMapper mapper(device);
     Study all{arguments, settings, mapper, pictures, StudyPage(title)};
-    all.page.paragraph(format("Display from %.4g to %.4g cd/m\u00b2, %u bits. ", double(settings.display.low()),
-                              double(settings.display.high()), settings.display.bits) +
+    all.page.paragraph(apps::format("Display from %.4g to %.4g cd/m\u00b2, %u bits. ", double(settings.display.low()),
+                                    double(settings.display.high()), settings.display.bits) +
                        "Differences are of display codes.");
     study(all);
-    write_text(all.file(what + ".html"), all.page.html());
-    print("%s\n", all.file(what + ".html").c_str());
+    apps::write_text(all.file(what + ".html"), all.page.html());
+    apps::print("%s\n", all.file(what + ".html").c_str());
 }
 
 void add_pictures(Command command, StudyArguments& a) {
@@ -65,15 +66,17 @@ void add_pictures(Command command, StudyArguments& a) {
         .required();
     command.add_option("--camera,-c", a.source.camera, "Of a scene: name of a camera (default: the first)");
     command.add_option("--size,-s", a.source.size, "Of a scene: WIDTHxHEIGHT, px").shows_default();
-    command.add_option("--start", a.source.start, "Of a scene: its time, s").check(between(0.0, 1e6)).shows_default();
+    command.add_option("--start", a.source.start, "Of a scene: its time, s")
+        .check(apps::between(0.0, 1e6))
+        .shows_default();
     command.add_allow_outside();
-    command.add_option("--layer", a.source.layer, kLayerHelp);
-    add_scale_options(command, a.source.scale);
+    command.add_option("--layer", a.source.layer, apps::kLayerHelp);
+    apps::add_scale_options(command, a.source.scale);
     command
         .add_option("--fov", a.source.fov,
                     "Angle a picture covers in height, degrees (default: what the picture says, if Vesper or Radiance "
                     "made it, or 40)")
-        .check(between(0.1, 170.0));
+        .check(apps::between(0.1, 170.0));
 }
 
 Command add_one(Command studies, const std::shared_ptr<StudyArguments>& a, const std::string& name,
@@ -82,7 +85,7 @@ Command add_one(Command studies, const std::shared_ptr<StudyArguments>& a, const
     command.add_option("--output,-o", a->folder, "Folder of the page, its pictures, CSV and plots").required();
     command.add_option("--device", a->device,
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
-    add_tone_options(command, a->tone);
+    apps::add_tone_options(command, a->tone);
     command.footer("Example:\n  vesper study " + name + " " + example + "\n");
     command.callback([a, name, title, study] {
         while (a->folder.size() > 1 && a->folder.ends_with('/')) a->folder.pop_back();
@@ -114,22 +117,22 @@ void add_study(Command program) {
                 "night.gltf --camera driver --contrast 0.3 --minutes 10 -o out/operators", study_operators);
     add_pictures(compared, *ops);
     compared.add_option("--contrast", ops->contrast, "Of the target: (Lt - Lb) / Lb")
-        .check(between(0.001, 100.0))
+        .check(apps::between(0.001, 100.0))
         .shows_default();
     compared.add_option("--minutes", ops->minutes, "Diameter of the target, arc minutes")
-        .check(between(1.0, 60.0))
+        .check(apps::between(1.0, 60.0))
         .shows_default();
     Command adaptation = add_one(studies, tunnel, "adaptation", "Into a tunnel and out of it",
                                  "Step responses of every operator that remembers",
                                  "--outside 5000 --inside 50 -o out/tunnel", study_adaptation);
     adaptation.add_option("--outside", tunnel->outside, "Luminance before the tunnel, cd/m^2")
-        .check(between(1e-3, 1e6))
+        .check(apps::between(1e-3, 1e6))
         .shows_default();
     adaptation.add_option("--inside", tunnel->inside, "Luminance in the tunnel, cd/m^2")
-        .check(between(1e-3, 1e6))
+        .check(apps::between(1e-3, 1e6))
         .shows_default();
     adaptation.add_option("--seconds", tunnel->seconds, "How long each response is followed, s")
-        .check(between(0.1, 3600.0))
+        .check(apps::between(0.1, 3600.0))
         .shows_default();
     studies.footer(
         "Examples:\n  vesper study bins night.gltf --camera driver -o out/bins\n"
@@ -137,4 +140,4 @@ void add_study(Command program) {
         "  vesper study adaptation --outside 5000 --inside 50 -o out/tunnel\n");
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

@@ -12,7 +12,7 @@
 #include "study_picture.h"
 #include "tone_arguments.h"
 
-namespace vesper {
+namespace vesper::commands {
 
 struct StudyArguments {
     std::vector<std::string> inputs;
@@ -20,33 +20,34 @@ struct StudyArguments {
     PictureSource source;
     double outside = 5000, inside = 50, seconds = 300;  ///< cd/m^2, s; of the tunnel
     double contrast = 0.3, minutes = 10;                ///< of the target: (Lt - Lb) / Lb; diameter, arc minutes
-    ToneArguments tone;
+    apps::ToneArguments tone;
 };
 
 /// What every study works with.
 struct Study {
     const StudyArguments& arguments;
-    ToneChainSettings settings;
-    ToneMapper& mapper;
+    render::ToneChainSettings settings;
+    render::ToneMapper& mapper;
     const std::vector<StudyPicture>& pictures;
     StudyPage page;
 
     std::string file(const std::string& name) const { return arguments.folder + "/" + name; }
     /// The picture as an eye adapted to it sees it.
-    ToneMapped map(const StudyPicture& picture, const ToneChainSettings& with) const;
+    render::ToneMapped map(const StudyPicture& picture, const render::ToneChainSettings& with) const;
 };
 
 /// Operators that a study compares: the one given, which has to be among `candidates`, or all of those. Throws Error.
-std::vector<Operator> studied_operators(const StudyArguments&, const std::vector<Operator>& candidates,
-                                        const std::string& why);
+std::vector<render::Operator> studied_operators(const StudyArguments&, const std::vector<render::Operator>& candidates,
+                                                const std::string& why);
 /// Those that adjust the histogram.
-std::vector<Operator> histogram_operators();
+std::vector<render::Operator> histogram_operators();
 
 /// Luminances that a picture holds, cd/m^2, in equal steps of the logarithm.
 std::vector<double> luminances_of(const StudyPicture&);
 
 /// Codes that greys of these luminances are shown with, fractions of a code included.
-std::vector<double> curve_codes(const ToneMapped&, Operator, const Display&, const std::vector<double>& luminances);
+std::vector<double> curve_codes(const render::ToneMapped&, render::Operator, const vision::Display&,
+                                const std::vector<double>& luminances);
 
 /// What changes between two settings.
 struct Difference {
@@ -55,7 +56,7 @@ struct Difference {
            mean = 0;         ///< of the pixels (their worst channel): largest, 99th percentile, mean, codes
     std::vector<float> map;  ///< of every pixel, codes
 };
-Difference difference(const ToneMapped& from, const ToneMapped& to, const Display&);
+Difference difference(const render::ToneMapped& from, const render::ToneMapped& to, const vision::Display&);
 std::string describe(const Difference&);
 double largest_difference(const std::vector<double>&, const std::vector<double>&);
 
@@ -65,4 +66,4 @@ void study_adaptation(Study&);
 void study_mip(Study&);
 void study_operators(Study&);
 
-}  // namespace vesper
+}  // namespace vesper::commands

@@ -7,15 +7,17 @@
 #include "study.h"
 #include "vision/pattanaik.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
+
+using apps::format;
 
 const std::vector<std::string> kColumns{"operator", "step",      "seconds",         "luminance", "pigment",
                                         "sigma",    "threshold", "threshold_ratio", "shown"};
 
-std::vector<Operator> remembering() {
-    std::vector<Operator> found;
-    for (const OperatorInfo& op : operators())
+std::vector<render::Operator> remembering() {
+    std::vector<render::Operator> found;
+    for (const render::OperatorInfo& op : render::operators())
         if (op.remembers) found.push_back(op.tone_operator);
     return found;
 }
@@ -36,30 +38,30 @@ struct Sensitivity {
     double ratio = 1;                 ///< threshold over that of the eye adapted to this luminance
 };
 
-Sensitivity of_eye(const ToneMapped& got, const Observer& observer, double luminance) {
-    const ReceptorModel cones(ReceptorKind::Cones, observer.observed_cones());
+Sensitivity of_eye(const render::ToneMapped& got, const vision::Observer& observer, double luminance) {
+    const vision::ReceptorModel cones(vision::ReceptorKind::Cones, observer.observed_cones());
     const double sigma = double(got.curve.cone_sigma), threshold = cones.threshold(luminance, sigma);
     return {double(got.eye.cones.pigment), sigma, threshold, threshold / cones.adapted_threshold(luminance)};
 }
 
 /// Pattanaik et al. have responses and no threshold: a constant step of the cones' response p x / (1 + x)
 /// needs a difference in inverse proportion to its slope.
-Sensitivity of_lagging(const ToneMapped& got, double luminance) {
+Sensitivity of_lagging(const render::ToneMapped& got, double luminance) {
     const auto slope = [&](double adaptation, double pigment) {
-        using pattanaik::kExponent;
-        const double x = std::pow(luminance / pattanaik::cone_sigma(adaptation), kExponent);
+        using vision::pattanaik::kExponent;
+        const double x = std::pow(luminance / vision::pattanaik::cone_sigma(adaptation), kExponent);
         return pigment * kExponent * x / (luminance * (1 + x) * (1 + x));
     };
     const double adaptation = double(got.eye.pattanaik.cones), pigment = double(got.eye.pattanaik.cone_pigment);
-    const pattanaik::State adapted = pattanaik::adapted(luminance, luminance);
+    const vision::pattanaik::State adapted = vision::pattanaik::adapted(luminance, luminance);
     return {pigment,
-            pattanaik::cone_sigma(adaptation),
+            vision::pattanaik::cone_sigma(adaptation),
             {},
             slope(adapted.cones, adapted.cone_pigment) / slope(adaptation, pigment)};
 }
 
 /// A field of one luminance, whose curve says what anything would be shown as.
-ToneMapped look(Study& study, const ToneChainSettings& settings, double luminance, double seconds) {
+render::ToneMapped look(Study& study, const render::ToneChainSettings& settings, double luminance, double seconds) {
     constexpr uint32_t kSide = 16;
     const std::vector<float> values(size_t{3} * kSide * kSide, float(luminance));
     return study.mapper.map(settings, {.extent = {kSide, kSide}, .values = values}, float(seconds), {.display = false});
@@ -74,52 +76,52 @@ struct Step {
 
 void study_adaptation(Study& study) {
     const StudyArguments& a = study.arguments;
-    const std::vector<Operator> ops = studied_operators(a, remembering(), "it remembers nothing");
+    const std::vector<render::Operator> ops = studied_operators(a, remembering(), "it remembers nothing");
     const std::vector<double> times = moments(a.seconds);
     const Step steps[]{{"in", a.outside, a.inside}, {"out", a.inside, a.outside}};
     std::vector<std::vector<std::string>> rows;
-    Progress progress("adaptation", unsigned(ops.size() * std::size(steps)));
+    apps::Progress progress("adaptation", unsigned(ops.size() * std::size(steps)));
     for (const Step& step : steps) {
         const std::string title = format("From %g to %g cd/m\u00b2", step.from, step.to),
                           name = std::string("adaptation-") + step.name;
-        LinePlot ratio{.title = title + ": threshold over that of the adapted eye",
-                       .x_name = "s",
-                       .y_name = "threshold, times the adapted one",
-                       .lines = {},
-                       .log_x = true,
-                       .log_y = true,
-                       .rule = 1};
-        LinePlot sigma{.title = title + ": half saturation of the cones",
-                       .x_name = "s",
-                       .y_name = "\u03c3, cd/m\u00b2",
-                       .lines = {},
-                       .log_x = true,
-                       .log_y = true};
-        LinePlot shown{.title = title + ": what the new luminance is shown as",
-                       .x_name = "s",
-                       .y_name = "cd/m\u00b2 on the display",
-                       .lines = {},
-                       .log_x = true};
-        for (const Operator op : ops) {
-            ToneChainSettings settings = study.settings;
+        apps::LinePlot ratio{.title = title + ": threshold over that of the adapted eye",
+                             .x_name = "s",
+                             .y_name = "threshold, times the adapted one",
+                             .lines = {},
+                             .log_x = true,
+                             .log_y = true,
+                             .rule = 1};
+        apps::LinePlot sigma{.title = title + ": half saturation of the cones",
+                             .x_name = "s",
+                             .y_name = "\u03c3, cd/m\u00b2",
+                             .lines = {},
+                             .log_x = true,
+                             .log_y = true};
+        apps::LinePlot shown{.title = title + ": what the new luminance is shown as",
+                             .x_name = "s",
+                             .y_name = "cd/m\u00b2 on the display",
+                             .lines = {},
+                             .log_x = true};
+        for (const render::Operator op : ops) {
+            render::ToneChainSettings settings = study.settings;
             settings.tone_operator = op;
-            for (LinePlot* plot : {&ratio, &sigma, &shown})
-                plot->lines.push_back({.name = name_of(op),
+            for (apps::LinePlot* plot : {&ratio, &sigma, &shown})
+                plot->lines.push_back({.name = apps::name_of(op),
                                        .points = {},
                                        .dashed = plot->lines.size() > 1});  // thresholds of two may be the same
             study.mapper.reset_adaptation();
             look(study, settings, step.from, 0);
             double before = 0;
             for (const double t : times) {
-                const ToneMapped got = look(study, settings, step.to, t - before);
+                const render::ToneMapped got = look(study, settings, step.to, t - before);
                 before = t;
-                const Sensitivity s =
-                    op == Operator::Pattanaik ? of_lagging(got, step.to) : of_eye(got, settings.tone.observer, step.to);
-                const double light = shown_luminance(op, got.curve, step.to, settings.display);
+                const Sensitivity s = op == render::Operator::Pattanaik ? of_lagging(got, step.to)
+                                                                        : of_eye(got, settings.tone.observer, step.to);
+                const double light = render::shown_luminance(op, got.curve, step.to, settings.display);
                 ratio.lines.back().points.push_back({t, s.ratio});
                 sigma.lines.back().points.push_back({t, s.sigma});
                 shown.lines.back().points.push_back({t, light});
-                rows.push_back({name_of(op), step.name, format("%g", t), format("%g", step.to),
+                rows.push_back({apps::name_of(op), step.name, format("%g", t), format("%g", step.to),
                                 format("%.5f", s.pigment), format("%.6g", s.sigma),
                                 s.threshold ? format("%.6g", *s.threshold) : "", format("%.5g", s.ratio),
                                 format("%.5g", light)});
@@ -129,7 +131,7 @@ void study_adaptation(Study& study) {
         study.page.heading(title);
         for (const auto& [plot, kind] :
              {std::pair{&ratio, "threshold"}, std::pair{&sigma, "sigma"}, std::pair{&shown, "shown"}}) {
-            save_plot(study.file(name + "-" + kind + ".png"), *plot);
+            apps::save_plot(study.file(name + "-" + kind + ".png"), *plot);
             study.page.plot(name + "-" + kind + ".png");
         }
     }
@@ -138,9 +140,9 @@ void study_adaptation(Study& study) {
         "luminance. Pattanaik et al. 2000 have no "
         "threshold: its ratio is the inverse ratio of slopes of the cones' response, so that a step of constant "
         "response is seen.");
-    write_text(study.file("adaptation.csv"), csv_of(kColumns, rows));
+    apps::write_text(study.file("adaptation.csv"), csv_of(kColumns, rows));
     study.page.heading("All figures");
     study.page.table(kColumns, rows);
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

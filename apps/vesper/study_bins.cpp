@@ -4,8 +4,10 @@
 #include "print.h"
 #include "study.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
+
+using apps::format;
 
 constexpr uint32_t kBins[]{16, 20, 24, 32, 40, 50, 64, 80, 100, 128, 160, 200, 256};
 constexpr double kLimit = 1;  // codes
@@ -28,24 +30,24 @@ struct Results {
     double of_default = 0;             // largest difference of the default's curve, codes
 };
 
-void study_one(Study& study, const StudyPicture& picture, Operator op, Results& all, std::vector<double> worst[2],
-               Progress& progress) {
-    ToneChainSettings settings = study.settings;
+void study_one(Study& study, const StudyPicture& picture, render::Operator op, Results& all,
+               std::vector<double> worst[2], apps::Progress& progress) {
+    render::ToneChainSettings settings = study.settings;
     settings.tone_operator = op;
     const std::vector<double> luminances = luminances_of(picture);
     const auto map = [&](uint32_t bins, bool split) {
         settings.histogram.bins = bins, settings.histogram.split = split;
         return study.map(picture, settings);
     };
-    const std::string stem = picture.name + "-" + name_of(op);
-    const ToneMapped finest = map(256, true);
+    const std::string stem = picture.name + "-" + apps::name_of(op);
+    const render::ToneMapped finest = map(256, true);
     const std::vector<double> finest_codes = curve_codes(finest, op, settings.display, luminances);
-    write_codes(study.file(stem + "-256-shared.png"), finest, settings.display);
-    LinePlot plot{.title = picture.name + ", " + name_of(op) + ": curves",
-                  .x_name = "luminance of the scene, cd/m\u00b2",
-                  .y_name = "display code",
-                  .lines = {},
-                  .log_x = true};
+    apps::write_codes(study.file(stem + "-256-shared.png"), finest, settings.display);
+    apps::LinePlot plot{.title = picture.name + ", " + apps::name_of(op) + ": curves",
+                        .x_name = "luminance of the scene, cd/m\u00b2",
+                        .y_name = "display code",
+                        .lines = {},
+                        .log_x = true};
     const auto add_curve = [&](const std::string& name, const std::vector<double>& codes) {
         plot.lines.push_back({.name = name, .points = {}, .dashed = !plot.lines.empty()});
         for (size_t i = 0; i < codes.size(); ++i) plot.lines.back().points.push_back({luminances[i], codes[i]});
@@ -57,7 +59,7 @@ void study_one(Study& study, const StudyPicture& picture, Operator op, Results& 
         const std::string votes = split ? "shared" : "whole";
         for (size_t i = 0; i < std::size(kBins); ++i) {
             const uint32_t bins = kBins[i];
-            const ToneMapped got = map(bins, split);
+            const render::ToneMapped got = map(bins, split);
             const std::vector<double> codes = curve_codes(got, op, settings.display, luminances);
             Difference d = difference(got, finest, settings.display);
             d.curve = largest_difference(codes, finest_codes);
@@ -65,12 +67,12 @@ void study_one(Study& study, const StudyPicture& picture, Operator op, Results& 
             most[split].add(bins, d.percentile <= kLimit);
             pixels[split].add(bins, d.largest <= kLimit);
             worst[split][i] = std::max(worst[split][i], d.curve);
-            if (split && bins == HistogramSettings{}.bins) all.of_default = std::max(all.of_default, d.curve);
-            all.rows.push_back({picture.name, name_of(op), votes, std::to_string(bins), format("%.4f", d.curve),
+            if (split && bins == render::HistogramSettings{}.bins) all.of_default = std::max(all.of_default, d.curve);
+            all.rows.push_back({picture.name, apps::name_of(op), votes, std::to_string(bins), format("%.4f", d.curve),
                                 format("%.0f", d.largest), format("%.0f", d.percentile), format("%.5f", d.mean)});
             if (is_shown(bins)) {
                 const std::string name = stem + "-" + std::to_string(bins) + "-" + votes;
-                write_codes(study.file(name + ".png"), got, settings.display);
+                apps::write_codes(study.file(name + ".png"), got, settings.display);
                 save_difference(study.file(name + "-difference.png"), got.extent.width, got.extent.height, d.map);
                 shown.push_back({name + ".png", std::to_string(bins) + " bins, " + votes + " votes"});
                 shown.push_back({name + "-difference.png", "difference to the finest: " + describe(d)});
@@ -79,10 +81,10 @@ void study_one(Study& study, const StudyPicture& picture, Operator op, Results& 
             progress.step();
         }
     }
-    all.answers.push_back({picture.name, name_of(op), curve[1].text(), curve[0].text(), most[1].text(), most[0].text(),
-                           pixels[1].text(), pixels[0].text()});
-    save_plot(study.file(stem + "-curves.png"), plot);
-    study.page.heading(picture.name + ", " + name_of(op));
+    all.answers.push_back({picture.name, apps::name_of(op), curve[1].text(), curve[0].text(), most[1].text(),
+                           most[0].text(), pixels[1].text(), pixels[0].text()});
+    apps::save_plot(study.file(stem + "-curves.png"), plot);
+    study.page.heading(picture.name + ", " + apps::name_of(op));
     study.page.plot(stem + "-curves.png");
     study.page.pictures(shown);
 }
@@ -90,22 +92,23 @@ void study_one(Study& study, const StudyPicture& picture, Operator op, Results& 
 }  // namespace
 
 void study_bins(Study& study) {
-    const std::vector<Operator> ops =
+    const std::vector<render::Operator> ops =
         studied_operators(study.arguments, histogram_operators(), "it does not adjust a histogram");
     Results all;
     std::vector<double> worst[2]{std::vector<double>(std::size(kBins)), std::vector<double>(std::size(kBins))};
     {
-        Progress progress("bins", unsigned(study.pictures.size() * ops.size() * 2 * std::size(kBins)));
+        apps::Progress progress("bins", unsigned(study.pictures.size() * ops.size() * 2 * std::size(kBins)));
         for (const StudyPicture& picture : study.pictures)
-            for (const Operator op : ops) study_one(study, picture, op, all, worst, progress);
+            for (const render::Operator op : ops) study_one(study, picture, op, all, worst, progress);
     }
-    LinePlot plot{.title = "Largest difference of the curve to 256 bins with shared votes, all pictures and operators",
-                  .x_name = "bins",
-                  .y_name = "codes",
-                  .lines = {},
-                  .log_x = true,
-                  .log_y = true,
-                  .rule = kLimit};
+    apps::LinePlot plot{
+        .title = "Largest difference of the curve to 256 bins with shared votes, all pictures and operators",
+        .x_name = "bins",
+        .y_name = "codes",
+        .lines = {},
+        .log_x = true,
+        .log_y = true,
+        .rule = kLimit};
     for (const bool split : {true, false}) {
         plot.lines.push_back({.name = split ? "shared votes" : "whole votes", .points = {}, .marks = true});
         for (size_t i = 0; i < std::size(kBins); ++i) {
@@ -113,8 +116,8 @@ void study_bins(Study& study) {
             (split ? all.shared_curve : all.whole_curve).add(kBins[i], worst[split][i] <= kLimit);
         }
     }
-    save_plot(study.file("bins.png"), plot);
-    write_text(study.file("bins.csv"), csv_of(kBinsColumns, all.rows));
+    apps::save_plot(study.file("bins.png"), plot);
+    apps::write_text(study.file("bins.csv"), csv_of(kBinsColumns, all.rows));
     const std::vector<std::string> columns{"picture",
                                            "operator",
                                            "curve, shared votes",
@@ -127,7 +130,7 @@ void study_bins(Study& study) {
         "Fewest bins from which on every curve is within %g code of that of 256 bins with shared votes: %s with shared "
         "votes, %s with whole votes.",
         kLimit, all.shared_curve.text().c_str(), all.whole_curve.text().c_str());
-    const uint32_t standard = HistogramSettings{}.bins;
+    const uint32_t standard = render::HistogramSettings{}.bins;
     const bool follows = all.of_default <= kLimit;
     const std::string verdict =
         format("The default of %u bins with shared votes is %.2f codes away at most: it %s.", standard, all.of_default,
@@ -139,12 +142,12 @@ void study_bins(Study& study) {
     study.page.heading("All figures");
     study.page.table(kBinsColumns, all.rows);
     for (const auto& row : all.answers)
-        print(
+        apps::print(
             "%s, %s: within %g code from so many bins on with shared (whole) votes: curve %s (%s), 99 %% of pixels %s "
             "(%s), every pixel %s (%s)\n",
             row[0].c_str(), row[1].c_str(), kLimit, row[2].c_str(), row[3].c_str(), row[4].c_str(), row[5].c_str(),
             row[6].c_str(), row[7].c_str());
-    print("%s\n%s\n", answer.c_str(), verdict.c_str());
+    apps::print("%s\n%s\n", answer.c_str(), verdict.c_str());
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

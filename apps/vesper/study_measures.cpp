@@ -7,11 +7,11 @@
 #include "print.h"
 #include "study.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
 
 /// Three codes a pixel.
-std::vector<uint32_t> codes_of(const ToneMapped& shown, const Display& display) {
+std::vector<uint32_t> codes_of(const render::ToneMapped& shown, const vision::Display& display) {
     std::vector<uint32_t> codes;
     codes.reserve(shown.display.size() / 4 * 3);
     for (size_t i = 0; i < shown.display.size(); i += 4) {
@@ -23,7 +23,7 @@ std::vector<uint32_t> codes_of(const ToneMapped& shown, const Display& display) 
 }
 
 /// The code, fractions included, of a luminance in the dark.
-double code_of(const DisplayCurve& curve, double luminance, uint32_t largest) {
+double code_of(const vision::DisplayCurve& curve, double luminance, uint32_t largest) {
     double low = 0, high = 1;
     for (int i = 0; i < 40; ++i) {
         const double middle = (low + high) / 2;
@@ -34,25 +34,26 @@ double code_of(const DisplayCurve& curve, double luminance, uint32_t largest) {
 
 }  // namespace
 
-ToneMapped Study::map(const StudyPicture& picture, const ToneChainSettings& with) const {
+render::ToneMapped Study::map(const StudyPicture& picture, const render::ToneChainSettings& with) const {
     mapper.reset_adaptation();
     return mapper.map(with, picture.host(), 0);
 }
 
-std::vector<Operator> histogram_operators() {
-    std::vector<Operator> found;
-    for (const OperatorInfo& op : operators())
+std::vector<render::Operator> histogram_operators() {
+    std::vector<render::Operator> found;
+    for (const render::OperatorInfo& op : render::operators())
         if (op.histogram) found.push_back(op.tone_operator);
     return found;
 }
 
-std::vector<Operator> studied_operators(const StudyArguments& arguments, const std::vector<Operator>& candidates,
-                                        const std::string& why) {
-    const EyeArguments& eye = arguments.tone.eye;
+std::vector<render::Operator> studied_operators(const StudyArguments& arguments,
+                                                const std::vector<render::Operator>& candidates,
+                                                const std::string& why) {
+    const apps::EyeArguments& eye = arguments.tone.eye;
     if (eye.command.count("--operator") == 0) return candidates;
-    const Operator given = tone_settings(arguments.tone).tone_operator;
+    const render::Operator given = apps::tone_settings(arguments.tone).tone_operator;
     if (std::find(candidates.begin(), candidates.end(), given) == candidates.end())
-        throw Error("--operator " + name_of(given) + ": " + why);
+        throw Error("--operator " + apps::name_of(given) + ": " + why);
     return {given};
 }
 
@@ -64,14 +65,14 @@ std::vector<double> luminances_of(const StudyPicture& picture) {
     return luminances;
 }
 
-std::vector<double> curve_codes(const ToneMapped& shown, Operator op, const Display& display,
+std::vector<double> curve_codes(const render::ToneMapped& shown, render::Operator op, const vision::Display& display,
                                 const std::vector<double>& luminances) {
-    const DisplayCurve curve(display);
+    const vision::DisplayCurve curve(display);
     const double reflected = double(display.low() - display.black);
     std::vector<double> codes;
     for (const double l : luminances)
         codes.push_back(
-            code_of(curve, shown_luminance(op, shown.curve, l, display) - reflected, display.largest_code()));
+            code_of(curve, render::shown_luminance(op, shown.curve, l, display) - reflected, display.largest_code()));
     return codes;
 }
 
@@ -81,7 +82,7 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
     return most;
 }
 
-Difference difference(const ToneMapped& from, const ToneMapped& to, const Display& display) {
+Difference difference(const render::ToneMapped& from, const render::ToneMapped& to, const vision::Display& display) {
     const std::vector<uint32_t> a = codes_of(from, display), b = codes_of(to, display);
     Difference made;
     made.map.reserve(a.size() / 3);
@@ -102,8 +103,8 @@ Difference difference(const ToneMapped& from, const ToneMapped& to, const Displa
 }
 
 std::string describe(const Difference& d) {
-    return format("curve %.2f, largest %.0f, 99 %% within %.0f, mean %.3f codes", d.curve, d.largest, d.percentile,
-                  d.mean);
+    return apps::format("curve %.2f, largest %.0f, 99 %% within %.0f, mean %.3f codes", d.curve, d.largest,
+                        d.percentile, d.mean);
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

@@ -6,8 +6,10 @@
 #include "print.h"
 #include "study.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
+
+using apps::format;
 
 constexpr uint32_t kLevels = 8;
 
@@ -24,47 +26,48 @@ uint32_t levels_of(const StudyPicture& picture) {
 }  // namespace
 
 void study_mip(Study& study) {
-    const std::vector<Operator> ops =
+    const std::vector<render::Operator> ops =
         studied_operators(study.arguments, histogram_operators(), "it does not adjust a histogram");
     std::vector<std::vector<std::string>> rows;
-    LinePlot summary{.title = "Largest difference of the curve to that of level 1",
-                     .x_name = "foveal level",
-                     .y_name = "codes",
-                     .lines = {}};
-    Progress progress("mip", unsigned(study.pictures.size() * ops.size()));
+    apps::LinePlot summary{.title = "Largest difference of the curve to that of level 1",
+                           .x_name = "foveal level",
+                           .y_name = "codes",
+                           .lines = {}};
+    apps::Progress progress("mip", unsigned(study.pictures.size() * ops.size()));
     for (const StudyPicture& picture : study.pictures)
-        for (const Operator op : ops) {
-            ToneChainSettings settings = study.settings;
+        for (const render::Operator op : ops) {
+            render::ToneChainSettings settings = study.settings;
             settings.tone_operator = op;
-            const std::string stem = picture.name + "-" + name_of(op);
+            const std::string stem = picture.name + "-" + apps::name_of(op);
             const std::vector<double> luminances = luminances_of(picture);
-            LinePlot plot{.title = stem + ": curves of the levels",
-                          .x_name = "luminance of the scene, cd/m\u00b2",
-                          .y_name = "display code",
-                          .lines = {},
-                          .log_x = true};
+            apps::LinePlot plot{.title = stem + ": curves of the levels",
+                                .x_name = "luminance of the scene, cd/m\u00b2",
+                                .y_name = "display code",
+                                .lines = {},
+                                .log_x = true};
             summary.lines.push_back({.name = stem, .points = {}, .marks = true});
             std::vector<StudyPage::Figure> shown;
-            ToneMapped finest;
+            render::ToneMapped finest;
             std::vector<double> finest_codes;
             for (uint32_t level = 1; level <= levels_of(picture); ++level) {
                 settings.foveal_level = level;
-                ToneMapped got = study.map(picture, settings);
+                render::ToneMapped got = study.map(picture, settings);
                 const std::vector<double> codes = curve_codes(got, op, settings.display, luminances);
                 if (level == 1) finest = got, finest_codes = codes;
                 Difference d = difference(got, finest, settings.display);
                 d.curve = largest_difference(codes, finest_codes);
                 const double degrees =
-                    View::symmetric(picture.extent, float(picture.vertical_fov), glm::mat4(1)).degrees_per_pixel() *
+                    gpu_scene::View::symmetric(picture.extent, float(picture.vertical_fov), glm::mat4(1))
+                        .degrees_per_pixel() *
                     double(1u << level);
-                rows.push_back({picture.name, name_of(op), std::to_string(level), format("%.4g", degrees),
+                rows.push_back({picture.name, apps::name_of(op), std::to_string(level), format("%.4g", degrees),
                                 format("%.5g", double(got.curve.adaptation)), format("%.4f", d.curve),
                                 format("%.0f", d.largest), format("%.0f", d.percentile), format("%.5f", d.mean)});
                 summary.lines.back().points.push_back({double(level), d.curve});
                 plot.lines.push_back({.name = format("level %u, %.3g\u00b0", level, degrees), .points = {}});
                 for (size_t i = 0; i < codes.size(); ++i) plot.lines.back().points.push_back({luminances[i], codes[i]});
                 const std::string name = stem + "-level" + std::to_string(level);
-                write_codes(study.file(name + ".png"), got, settings.display);
+                apps::write_codes(study.file(name + ".png"), got, settings.display);
                 shown.push_back({name + ".png", format("level %u: %.3g\u00b0 a texel, adaptation %.4g cd/m\u00b2",
                                                        level, degrees, double(got.curve.adaptation))});
                 if (level == 1) continue;
@@ -72,17 +75,17 @@ void study_mip(Study& study) {
                 shown.push_back(
                     {name + "-difference.png", format("level %u, difference to level 1: ", level) + describe(d)});
             }
-            save_plot(study.file(stem + "-curves.png"), plot);
-            study.page.heading(picture.name + ", " + name_of(op));
+            apps::save_plot(study.file(stem + "-curves.png"), plot);
+            study.page.heading(picture.name + ", " + apps::name_of(op));
             study.page.plot(stem + "-curves.png");
             study.page.pictures(shown);
             progress.step();
         }
-    save_plot(study.file("mip.png"), summary);
-    write_text(study.file("mip.csv"), csv_of(kMipColumns, rows));
+    apps::save_plot(study.file("mip.png"), summary);
+    apps::write_text(study.file("mip.csv"), csv_of(kMipColumns, rows));
     study.page.heading("Summary");
     study.page.plot("mip.png");
     study.page.table(kMipColumns, rows);
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

@@ -8,8 +8,10 @@
 #include "study.h"
 #include "vision/visibility.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
+
+using apps::format;
 
 const std::vector<std::string> kOperatorColumns{"picture",        "operator",       "range_scene", "range_shown",
                                                 "contrast_scene", "contrast_shown", "vl_scene",    "vl_shown",
@@ -49,12 +51,12 @@ double log_range(const std::vector<double>& values) {
 }  // namespace
 
 void study_operators(Study& study) {
-    std::vector<Operator> all;
-    for (const OperatorInfo& op : operators())
-        if (op.tone_operator != Operator::Ldr) all.push_back(op.tone_operator);
-    const std::vector<Operator> ops = studied_operators(study.arguments, all, "it does not show luminance");
+    std::vector<render::Operator> all;
+    for (const render::OperatorInfo& op : render::operators())
+        if (op.tone_operator != render::Operator::Ldr) all.push_back(op.tone_operator);
+    const std::vector<render::Operator> ops = studied_operators(study.arguments, all, "it does not show luminance");
     const double contrast = study.arguments.contrast;
-    const Target target{.size = study.arguments.minutes, .age = study.settings.tone.observer.age};
+    const vision::Target target{.size = study.arguments.minutes, .age = study.settings.tone.observer.age};
     std::vector<std::vector<std::string>> rows;
     study.page.paragraph(
         format("The target has %g' and a contrast of %g to the mean of each square degree of the picture. Its "
@@ -63,11 +65,11 @@ void study_operators(Study& study) {
                "percentile of square degrees. Lost: share of "
                "square degrees where the target is visible in the scene and not on the display; gained: the reverse.",
                target.size, contrast, target.age));
-    Progress progress("operators", unsigned(study.pictures.size() * ops.size()));
+    apps::Progress progress("operators", unsigned(study.pictures.size() * ops.size()));
     for (const StudyPicture& picture : study.pictures) {
         const std::vector<double> backgrounds = degree_luminances(picture), luminances = luminances_of(picture);
         if (backgrounds.empty()) continue;
-        LinePlot levels{
+        apps::LinePlot levels{
             .title = picture.name + format(": visibility level of a target of %g', contrast %g", target.size, contrast),
             .x_name = "luminance of the background in the scene, cd/m\u00b2",
             .y_name = "visibility level",
@@ -76,52 +78,53 @@ void study_operators(Study& study) {
             .log_y = true,
             .rule = 1};
         for (const double l : luminances)
-            levels.lines[0].points.push_back({l, visibility_level(l * (1 + contrast), l, target)});
+            levels.lines[0].points.push_back({l, vision::visibility_level(l * (1 + contrast), l, target)});
         std::vector<StudyPage::Figure> shown;
-        for (const Operator op : ops) {
-            ToneChainSettings settings = study.settings;
+        for (const render::Operator op : ops) {
+            render::ToneChainSettings settings = study.settings;
             settings.tone_operator = op;
-            const ToneMapped got = study.map(picture, settings);
-            const auto display = [&](double l) { return shown_luminance(op, got.curve, l, settings.display); };
+            const render::ToneMapped got = study.map(picture, settings);
+            const auto display = [&](double l) { return render::shown_luminance(op, got.curve, l, settings.display); };
             std::vector<double> contrasts, scene, screen, displayed;
             double visible_scene = 0, visible_shown = 0, lost = 0, gained = 0;
             for (const double l : backgrounds) {
                 const double low = display(l), high = display(l * (1 + contrast));
                 displayed.push_back(low), contrasts.push_back(high / low - 1);
-                scene.push_back(visibility_level(l * (1 + contrast), l, target)),
-                    screen.push_back(visibility_level(high, low, target));
+                scene.push_back(vision::visibility_level(l * (1 + contrast), l, target)),
+                    screen.push_back(vision::visibility_level(high, low, target));
                 const bool in_scene = scene.back() >= 1, on_screen = screen.back() >= 1;
                 visible_scene += in_scene, visible_shown += on_screen, lost += in_scene && !on_screen,
                     gained += !in_scene && on_screen;
             }
             const double count = double(backgrounds.size());
-            rows.push_back({picture.name, name_of(op), format("%.3f", log_range(backgrounds)),
+            rows.push_back({picture.name, apps::name_of(op), format("%.3f", log_range(backgrounds)),
                             format("%.3f", log_range(displayed)), format("%g", contrast),
                             format("%.4f", percentile(contrasts, 0.5)), format("%.3f", percentile(scene, 0.5)),
                             format("%.3f", percentile(screen, 0.5)), format("%.4f", visible_scene / count),
                             format("%.4f", visible_shown / count), format("%.4f", lost / count),
                             format("%.4f", gained / count)});
-            levels.lines.push_back(
-                {.name = name_of(op), .points = {}, .dashed = op == Operator::Durand});  // often over ferwerda
+            levels.lines.push_back({.name = apps::name_of(op),
+                                    .points = {},
+                                    .dashed = op == render::Operator::Durand});  // often over ferwerda
             for (const double l : luminances)
                 levels.lines.back().points.push_back(
-                    {l, visibility_level(display(l * (1 + contrast)), display(l), target)});
-            const std::string name = picture.name + "-" + name_of(op) + ".png";
-            write_codes(study.file(name), got, settings.display);
+                    {l, vision::visibility_level(display(l * (1 + contrast)), display(l), target)});
+            const std::string name = picture.name + "-" + apps::name_of(op) + ".png";
+            apps::write_codes(study.file(name), got, settings.display);
             shown.push_back(
                 {name, format("%s: contrast %.3f, visibility level %.2f (scene %.2f), lost %.1f %%, gained %.1f %%",
-                              name_of(op).c_str(), percentile(contrasts, 0.5), percentile(screen, 0.5),
+                              apps::name_of(op).c_str(), percentile(contrasts, 0.5), percentile(screen, 0.5),
                               percentile(scene, 0.5), 100 * lost / count, 100 * gained / count)});
             progress.step();
         }
-        save_plot(study.file(picture.name + "-visibility.png"), levels);
+        apps::save_plot(study.file(picture.name + "-visibility.png"), levels);
         study.page.heading(picture.name);
         study.page.pictures(shown);
         study.page.plot(picture.name + "-visibility.png");
     }
-    write_text(study.file("operators.csv"), csv_of(kOperatorColumns, rows));
+    apps::write_text(study.file("operators.csv"), csv_of(kOperatorColumns, rows));
     study.page.heading("All figures");
     study.page.table(kOperatorColumns, rows);
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

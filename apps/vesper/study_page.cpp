@@ -4,7 +4,7 @@
 
 #include "false_colour.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
 
 std::string escaped(const std::string& text) {
@@ -87,12 +87,13 @@ void save_difference(const std::string& file, uint32_t full_width, uint32_t full
     const uint32_t width = std::max(1u, uint32_t(full_width * factor)),
                    height = std::max(1u, uint32_t(full_height * factor));
     const double largest = double(*std::max_element(codes.begin(), codes.end()));
-    const ColourScale scale{0.5, std::max(20.0, largest)};
-    const ValuePicture seen = resized({full_width, full_height, {codes.begin(), codes.end()}}, width, height);
-    Canvas canvas(width + uint32_t(kBarWidth) + 20, std::max(height, 150u));
-    canvas.pixels(0, 0, width, height, false_colours(seen, scale));
-    draw_colour_bar(canvas, {double(width) + 12, 26}, double(canvas.height()) - 36, scale, "codes");
+    const apps::ColourScale scale{0.5, std::max(20.0, largest)};
+    const apps::ValuePicture seen =
+        apps::resized({full_width, full_height, {codes.begin(), codes.end()}}, width, height);
+    apps::Canvas canvas(width + uint32_t(apps::kBarWidth) + 20, std::max(height, 150u));
+    canvas.pixels(0, 0, width, height, apps::false_colours(seen, scale));
+    apps::draw_colour_bar(canvas, {double(width) + 12, 26}, double(canvas.height()) - 36, scale, "codes");
     canvas.save(file);
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace vesper {
+namespace vesper::commands {
 
 /// An HTML page of text, tables and pictures that lie beside it.
 class StudyPage {
@@ -35,4 +35,4 @@ std::string csv_of(const std::vector<std::string>& columns, const std::vector<st
 /// least 20. Large pictures are shown smaller, by means. Throws Error.
 void save_difference(const std::string& file, uint32_t width, uint32_t height, std::span<const float> codes);
 
-}  // namespace vesper
+}  // namespace vesper::commands

@@ -12,35 +12,35 @@
 #include "scene_notes.h"
 #include "shared/photometry.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
 
 bool is_scene(const std::string& name) { return name.ends_with(".gltf") || name.ends_with(".glb"); }
 
 /// Renders the scene once.
-StudyPicture rendered(const PictureSource& arguments, Device& device, const ToneChainSettings& settings,
+StudyPicture rendered(const PictureSource& arguments, gpu::Device& device, const render::ToneChainSettings& settings,
                       const std::string& input) {
-    const VkExtent2D extent = parse_size(arguments.size);
-    LoadedScene loaded = read_gltf(input);
-    print_notes(notes_of(loaded, input));
+    const VkExtent2D extent = apps::parse_size(arguments.size);
+    scene::LoadedScene loaded = scene::read_gltf(input);
+    apps::print_notes(apps::notes_of(loaded, input));
     loaded.scene.name = input;
-    const SceneFrame frame{world_transforms(loaded.scene, arguments.start)};
-    const View view = camera_view(loaded.scene, frame, arguments.camera, extent);
-    Renderer renderer(device, loaded.scene);
-    RenderSettings render;
-    static_cast<ToneChainSettings&>(render) = settings;
-    Frame made = renderer.render(render, view, frame, 0, {.display = false, .scene = true});
+    const gpu_scene::SceneFrame frame{scene::world_transforms(loaded.scene, arguments.start)};
+    const gpu_scene::View view = gpu_scene::camera_view(loaded.scene, frame, arguments.camera, extent);
+    render::Renderer renderer(device, loaded.scene);
+    render::RenderSettings render;
+    static_cast<render::ToneChainSettings&>(render) = settings;
+    render::Frame made = renderer.render(render, view, frame, 0, {.display = false, .scene = true});
     StudyPicture picture{.name = {}, .extent = extent, .values = std::move(made.scene), .channels = 4};
     picture.vertical_fov = double(std::atan(view.tangent_high.y) - std::atan(view.tangent_low.y));
     return picture;
 }
 
 StudyPicture loaded(const PictureSource& arguments, const std::string& input) {
-    HdrImage image = read_hdr_image(input, {}, arguments.layer);
-    PictureMeaning meaning =
-        meaning_of(image, {.scale = arguments.scale, .fov = arguments.fov, .angle_matters = arguments.angle_matters});
+    io::HdrImage image = io::read_hdr_image(input, {}, arguments.layer);
+    apps::PictureMeaning meaning = apps::meaning_of(
+        image, {.scale = arguments.scale, .fov = arguments.fov, .angle_matters = arguments.angle_matters});
     if (!meaning.scale_note.empty()) meaning.notes.push_back(meaning.scale_note);
-    for (const std::string& note : meaning.notes) print_note(one_line(input) + ": " + note);
+    for (const std::string& note : meaning.notes) apps::print_note(one_line(input) + ": " + note);
     return {.name = {},
             .extent = {image.width, image.height},
             .values = std::move(image.rgb),
@@ -69,11 +69,11 @@ double StudyPicture::luminance(size_t i) const {
     return double(scale * (shared::kRed * rgb[0] + shared::kGreen * rgb[1] + shared::kBlue * rgb[2]));
 }
 
-StudyPicture read_study_picture(const PictureSource& arguments, Device& device, const ToneChainSettings& settings,
-                                const std::string& input) {
+StudyPicture read_study_picture(const PictureSource& arguments, gpu::Device& device,
+                                const render::ToneChainSettings& settings, const std::string& input) {
     StudyPicture picture = is_scene(input) ? rendered(arguments, device, settings, input) : loaded(arguments, input);
     measure(picture, input);
     return picture;
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

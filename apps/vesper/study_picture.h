@@ -7,7 +7,7 @@
 #include "picture_arguments.h"
 #include "render/tone_mapper.h"
 
-namespace vesper {
+namespace vesper::commands {
 
 /// A picture under study, on the host.
 struct StudyPicture {
@@ -21,7 +21,7 @@ struct StudyPicture {
 
     /// Of the i-th pixel, cd/m^2.
     double luminance(size_t i) const;
-    HostPicture host() const { return {extent, values, channels, scale, vertical_fov}; }
+    render::HostPicture host() const { return {extent, values, channels, scale, vertical_fov}; }
 };
 
 /// How pictures are read and scenes are rendered.
@@ -29,12 +29,13 @@ struct PictureSource {
     std::string camera, size = "1680x1050";  ///< of a scene
     double start = 0;                        ///< s, of a scene
     std::string layer;                       ///< of OpenEXR files, see read_hdr_image
-    ScaleArguments scale;                    ///< of a picture
+    apps::ScaleArguments scale;              ///< of a picture
     double fov = 0;                          ///< angle a picture covers in height, degrees; 0: as its file says, or 40
     bool angle_matters = false;              ///< to the study, so that a guess is noted
 };
 
 /// A picture without a name. Prints notes. Throws Error if it cannot be read or is black.
-StudyPicture read_study_picture(const PictureSource&, Device&, const ToneChainSettings&, const std::string& input);
+StudyPicture read_study_picture(const PictureSource&, gpu::Device&, const render::ToneChainSettings&,
+                                const std::string& input);
 
-}  // namespace vesper
+}  // namespace vesper::commands

@@ -10,7 +10,7 @@
 #include "io/image_file.h"
 #include "print.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
 
 using Codes = glm::uvec3;
@@ -34,9 +34,9 @@ public:
     };
     /// Words in one code, smoothed by mixing codes.
     void write(const std::vector<Label>& labels, double size, uint32_t code) {
-        Canvas canvas(width(), height(), CanvasColour(0));
+        apps::Canvas canvas(width(), height(), apps::CanvasColour(0));
         for (const Label& label : labels)
-            canvas.text(label.at, label.text, size, Canvas::Align::Centre, CanvasColour(1));
+            canvas.text(label.at, label.text, size, apps::Canvas::Align::Centre, apps::CanvasColour(1));
         const std::vector<uint8_t> coverage = canvas.rgba();
         for (size_t i = 0; i < pixels_.size(); ++i) {
             const double part = coverage[4 * i] / 255.0;
@@ -47,12 +47,12 @@ public:
         if (settings_.bits == 10) {
             std::vector<uint32_t> words;
             for (const Codes& c : pixels_) words.push_back(c.r | c.g << 10 | c.b << 20 | 3u << 30);
-            return write_png_10bit(file, width(), height(), words, PngColour());
+            return io::write_png_10bit(file, width(), height(), words, io::PngColour());
         }
         std::vector<uint8_t> rgba;
         for (const Codes& c : pixels_)
             for (const uint32_t value : {c.r, c.g, c.b, 255u}) rgba.push_back(uint8_t(value));
-        write_png(file, width(), height(), rgba, PngColour());
+        io::write_png(file, width(), height(), rgba, io::PngColour());
     }
 
 private:
@@ -129,13 +129,13 @@ std::vector<std::string> write_test_patterns(const std::string& folder, const Pa
     save("near-white.png", steps(settings, largest, true));
     std::string table = "code,cd_m2\n";
     for (const uint32_t code : measured_codes(settings)) {
-        save(format("patch-%04u.png", code), patch(settings, code));
+        save(apps::format("patch-%04u.png", code), patch(settings, code));
         table += std::to_string(code) + ",\n";
     }
     // What somebody has filled in is kept.
     names.push_back((std::filesystem::path(folder) / "measurements.csv").string());
-    if (!std::filesystem::exists(names.back())) write_text(names.back(), table);
+    if (!std::filesystem::exists(names.back())) apps::write_text(names.back(), table);
     return names;
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

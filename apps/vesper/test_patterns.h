@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace vesper {
+namespace vesper::commands {
 
 struct PatternSettings {
     uint32_t width = 1920, height = 1080;  ///< px
@@ -18,4 +18,4 @@ struct PatternSettings {
 /// a folder that exists. Returns the names. Throws Error.
 std::vector<std::string> write_test_patterns(const std::string& folder, const PatternSettings&);
 
-}  // namespace vesper
+}  // namespace vesper::commands

@@ -20,9 +20,10 @@
 #include "tone_arguments.h"
 #include "video.h"
 
-namespace vesper {
+namespace vesper::commands {
 namespace {
 
+using apps::format;
 namespace fs = std::filesystem;
 
 constexpr size_t kMaxPictures = 1000000;
@@ -30,9 +31,9 @@ constexpr size_t kMaxPictures = 1000000;
 struct TonemapArguments {
     std::vector<std::string> inputs, outputs;
     std::string device, layer;
-    ToneArguments tone;
-    GlareArguments glare;
-    ScaleArguments scale;
+    apps::ToneArguments tone;
+    apps::GlareArguments glare;
+    apps::ScaleArguments scale;
     double fps = 0, fov = 0;
     bool statistics = false;
     std::string options;  // as given
@@ -57,31 +58,31 @@ bool is_folder(const std::string& name) { return name.ends_with('/') || fs::is_d
 /// Where the pictures go that are told apart by their place in a list.
 std::string output_of(const std::string& output, const std::string& input, unsigned number, bool single) {
     if (is_folder(output)) return (fs::path(output) / fs::path(input).stem()).string() + ".png";
-    if (const auto name = numbered_name("-o", output)) return name->at(number);
+    if (const auto name = apps::numbered_name("-o", output)) return name->at(number);
     if (!single)
         throw Error("-o " + one_line(output) + ": several pictures need a folder, a name with %04d in it, or a .mp4");
     return output;
 }
 
 void check_outputs(const Plan& plan) {
-    for (const Job& job : plan.jobs) announce_read(job.input);
-    announce_write("-o", plan.film);
+    for (const Job& job : plan.jobs) io::announce_read(job.input);
+    io::announce_write("-o", plan.film);
     for (const Job& job : plan.jobs)
         for (const std::string& output : job.outputs) {
             if (!output.ends_with(".png") && !output.ends_with(".exr"))
                 throw Error("-o " + one_line(output) + ": a .png, .exr or .mp4 file or a folder is expected");
-            announce_write("-o", output);
+            io::announce_write("-o", output);
         }
 }
 
 Plan plan_of(const TonemapArguments& arguments) {
     Plan plan;
-    std::vector<NumberedFile> files;
+    std::vector<apps::NumberedFile> files;
     for (const std::string& input : arguments.inputs) {
-        if (const auto name = numbered_name("input", input)) {
+        if (const auto name = apps::numbered_name("input", input)) {
             if (arguments.inputs.size() > 1)
                 throw Error(one_line(input) + ": a sequence stands alone, without other pictures");
-            files = numbered_files(*name);
+            files = apps::numbered_files(*name);
             plan.sequence = true;
         } else {
             files.push_back({unsigned(files.size()), input});
@@ -95,8 +96,9 @@ Plan plan_of(const TonemapArguments& arguments) {
         const unsigned missing = plan.sequence && i > 0 ? files[i].number - files[i - 1].number - 1 : 0;
         if (plan.sequence && i > 0) job.seconds = (missing + 1) / plan.fps;  // missing frames take their time
         if (missing > 0)
-            print_note(format("%u %s before %s", missing, missing == 1 ? "picture is missing" : "pictures are missing",
-                              files[i].file.c_str()));
+            apps::print_note(format("%u %s before %s", missing,
+                                    missing == 1 ? "picture is missing" : "pictures are missing",
+                                    files[i].file.c_str()));
         for (const std::string& output : arguments.outputs) {
             if (!output.ends_with(".mp4"))
                 job.outputs.push_back(output_of(output, files[i].file, files[i].number, files.size() == 1));
@@ -114,28 +116,28 @@ Plan plan_of(const TonemapArguments& arguments) {
 }
 
 struct TonemappedPicture {
-    ToneMapped picture;
-    PictureMeaning meaning;
-    GlareReport glare;
+    render::ToneMapped picture;
+    apps::PictureMeaning meaning;
+    vision::GlareReport glare;
 };
 
 /// `held`: see PictureRequest.
-TonemappedPicture show(const TonemapArguments& arguments, const ToneChainSettings& settings,
-                       const std::vector<OffscreenLamp>& lamps, ToneMapper& mapper, const Job& job, bool wants_codes,
-                       double held) {
-    const HdrImage image = read_hdr_image(job.input, {}, arguments.layer);
+TonemappedPicture show(const TonemapArguments& arguments, const render::ToneChainSettings& settings,
+                       const std::vector<gpu_scene::OffscreenLamp>& lamps, render::ToneMapper& mapper, const Job& job,
+                       bool wants_codes, double held) {
+    const io::HdrImage image = io::read_hdr_image(job.input, {}, arguments.layer);
     TonemappedPicture shown;
-    shown.meaning =
-        meaning_of(image, {.scale = arguments.scale,
-                           .fov = arguments.fov,
-                           .angle_matters = settings.glare == Glare::Scatter || !arguments.glare.target.empty(),
-                           .to_white = settings.tone_operator == Operator::Ldr,
-                           .held = held});
-    Outputs outputs{.display = wants_codes, .scene = false, .display_light = false};
+    shown.meaning = apps::meaning_of(
+        image, {.scale = arguments.scale,
+                .fov = arguments.fov,
+                .angle_matters = settings.glare == render::Glare::Scatter || !arguments.glare.target.empty(),
+                .to_white = settings.tone_operator == render::Operator::Ldr,
+                .held = held});
+    render::Outputs outputs{.display = wants_codes, .scene = false, .display_light = false};
     for (const std::string& output : job.outputs)
         (output.ends_with(".png") ? outputs.display : outputs.display_light) = true;
     const double vertical = shown.meaning.fov * std::numbers::pi / 180;
-    const bool asks_glare = settings.tone_operator != Operator::Ldr &&
+    const bool asks_glare = settings.tone_operator != render::Operator::Ldr &&
                             (outputs.display_light || arguments.statistics || !arguments.glare.target.empty());
     outputs.scene = asks_glare;
     try {
@@ -148,47 +150,48 @@ TonemappedPicture show(const TonemapArguments& arguments, const ToneChainSetting
                                     .outside = lamps},
                                    float(job.seconds), outputs);
         if (asks_glare)
-            shown.glare =
-                glare_of(arguments.glare, settings, shown.picture,
-                         angles_of(View::symmetric(shown.picture.extent, float(vertical), glm::mat4(1))), lamps);
+            shown.glare = apps::glare_of(
+                arguments.glare, settings, shown.picture,
+                gpu_scene::angles_of(gpu_scene::View::symmetric(shown.picture.extent, float(vertical), glm::mat4(1))),
+                lamps);
     } catch (const Error& error) {
         throw Error(one_line(job.input) + ": " + error.what());
     }
     return shown;
 }
 
-void write_outputs(const TonemapArguments& arguments, const ToneChainSettings& settings, const Device& device,
-                   const Job& job, const TonemappedPicture& shown) {
-    const ToneMapped& picture = shown.picture;
-    const Header scale{{"vesper:sourceScale", digits(shown.meaning.scale)},
-                       {"vesper:sourceScaleFrom", shown.meaning.scale_source},
-                       {"vesper:exposure", digits(arguments.scale.exposure)}};
+void write_outputs(const TonemapArguments& arguments, const render::ToneChainSettings& settings,
+                   const gpu::Device& device, const Job& job, const TonemappedPicture& shown) {
+    const render::ToneMapped& picture = shown.picture;
+    const io::Header scale{{"vesper:sourceScale", apps::digits(shown.meaning.scale)},
+                           {"vesper:sourceScaleFrom", shown.meaning.scale_source},
+                           {"vesper:exposure", apps::digits(arguments.scale.exposure)}};
     const bool own_scale = shown.meaning.scale_source == "header" && arguments.scale.exposure == 0;
     for (const std::string& output : job.outputs) {
         if (output.ends_with(".png")) {
             // PNGs have no other provenance: shown at the file's own scale, a frame has the bytes that `vesper render`
             // writes.
-            write_codes(output, picture, settings.display, own_scale ? Header() : scale);
+            apps::write_codes(output, picture, settings.display, own_scale ? io::Header() : scale);
             continue;
         }
-        Header header{{"vesper:version", VESPER_VERSION},
-                      {"vesper:source", one_line(job.input)},
-                      {"vesper:options", arguments.options},
-                      {"vesper:unit", "cd/m^2 on the display, linear Rec. 709 RGB"},
-                      {"vesper:device", device.name() + ", " + device.driver()}};
+        io::Header header{{"vesper:version", VESPER_VERSION},
+                          {"vesper:source", one_line(job.input)},
+                          {"vesper:options", arguments.options},
+                          {"vesper:unit", "cd/m^2 on the display, linear Rec. 709 RGB"},
+                          {"vesper:device", device.name() + ", " + device.driver()}};
         header.insert(header.end(), scale.begin(), scale.end());
-        const Header tone = describe_tone(settings, picture);
+        const io::Header tone = apps::describe_tone(settings, picture);
         header.insert(header.end(), tone.begin(), tone.end());
-        const Header dazzled = describe_glare(settings, shown.glare);
+        const io::Header dazzled = apps::describe_glare(settings, shown.glare);
         header.insert(header.end(), dazzled.begin(), dazzled.end());
-        write_exr(output, picture.extent.width, picture.extent.height, picture.display_light, header);
+        io::write_exr(output, picture.extent.width, picture.extent.height, picture.display_light, header);
     }
 }
 
 /// Says once what holds for many pictures, for each what holds for it alone, and in a sequence where its unit changes.
 class Notes {
 public:
-    void tell(const Job& job, const PictureMeaning& meaning, bool sequence) {
+    void tell(const Job& job, const apps::PictureMeaning& meaning, bool sequence) {
         const std::string name = one_line(job.input);
         for (const std::string& note : meaning.notes)
             if (told_.insert(note).second) tell(name, note);
@@ -202,7 +205,7 @@ public:
     }
 
 private:
-    static void tell(const std::string& name, const std::string& note) { print_note(name + ": " + note); }
+    static void tell(const std::string& name, const std::string& note) { apps::print_note(name + ": " + note); }
 
     std::set<std::string> told_;
     double unit_ = 0;     // of the last picture that had one
@@ -210,39 +213,41 @@ private:
 };
 
 void report(const TonemapArguments& arguments, const Job& job, const TonemappedPicture& shown) {
-    const ToneMapped& p = shown.picture;
+    const render::ToneMapped& p = shown.picture;
     if (p.histogram.non_finite > 0)
-        print_note(format("%s: %u of %u pixels are not finite and shown black", job.input.c_str(),
-                          p.histogram.non_finite, p.histogram.finite + p.histogram.non_finite));
-    if (!arguments.glare.target.empty()) print_text(one_line(job.input) + ": " + target_line(shown.glare));
+        apps::print_note(format("%s: %u of %u pixels are not finite and shown black", job.input.c_str(),
+                                p.histogram.non_finite, p.histogram.finite + p.histogram.non_finite));
+    if (!arguments.glare.target.empty()) apps::print_text(one_line(job.input) + ": " + apps::target_line(shown.glare));
     if (!arguments.statistics) return;
     double device = 0;
-    for (const Timing& timing : p.timings) device += timing.milliseconds;
-    print(
+    for (const graph::Timing& timing : p.timings) device += timing.milliseconds;
+    apps::print(
         "%s: %u x %u px, %.4g cd/m^2 per unit, adaptation %.4g cd/m^2, maximum %.4g cd/m^2, foveal level %u (%.3g "
         "degrees), %.1f ms (device %.1f)\n",
         one_line(job.input).c_str(), p.extent.width, p.extent.height, shown.meaning.scale, double(p.curve.adaptation),
         double(p.curve.maximum), p.foveal_level, shown.meaning.fov, p.milliseconds, device);
-    print("  veil %.4g cd/m^2, threshold increment %.3g %%, background %.4g cd/m^2\n", shown.glare.veil,
-          shown.glare.increment, shown.glare.background);
+    apps::print("  veil %.4g cd/m^2, threshold increment %.3g %%, background %.4g cd/m^2\n", shown.glare.veil,
+                shown.glare.increment, shown.glare.background);
     if (p.pupil > 0)
-        print("  pupil %.2f mm, its needles and halo made on the host in %.1f ms\n", p.pupil, p.pattern_milliseconds);
-    for (const Timing& timing : p.timings) print("  %-24s %8.3f\n", timing.pass.c_str(), timing.milliseconds);
+        apps::print("  pupil %.2f mm, its needles and halo made on the host in %.1f ms\n", p.pupil,
+                    p.pattern_milliseconds);
+    for (const graph::Timing& timing : p.timings)
+        apps::print("  %-24s %8.3f\n", timing.pass.c_str(), timing.milliseconds);
 }
 
 void run(const TonemapArguments& arguments) {
-    const ToneChainSettings settings = tone_settings(arguments.tone);
-    check_target(arguments.glare, settings);
+    const render::ToneChainSettings settings = apps::tone_settings(arguments.tone);
+    apps::check_target(arguments.glare, settings);
     const Plan plan = plan_of(arguments);
-    const std::vector<OffscreenLamp> lamps = read_lamps(arguments.glare.lamps);
+    const std::vector<gpu_scene::OffscreenLamp> lamps = apps::read_lamps(arguments.glare.lamps);
     for (const std::string& output : arguments.outputs)
         if (output.ends_with('/') && !fs::is_directory(output))
             throw Error("-o " + one_line(output) + ": there is no such folder");
 
-    Device device({.select = arguments.device});
-    ToneMapper mapper(device);
-    std::unique_ptr<Video> film;
-    Progress progress("tone mapping", unsigned(plan.jobs.size()));
+    gpu::Device device({.select = arguments.device});
+    render::ToneMapper mapper(device);
+    std::unique_ptr<apps::Video> film;
+    apps::Progress progress("tone mapping", unsigned(plan.jobs.size()));
     size_t failed = 0;
     Notes notes;
     double held = 0;  // cd/m^2 of 1.0, of the first picture of a sequence that has a unit or light
@@ -252,7 +257,7 @@ void run(const TonemapArguments& arguments) {
             const TonemappedPicture shown = show(arguments, settings, lamps, mapper, job, !plan.film.empty(), held);
             const auto [width, height] = shown.picture.extent;
             if (!plan.film.empty() && !film)
-                film = std::make_unique<Video>(plan.film, width, height, plan.fps, settings.display);
+                film = std::make_unique<apps::Video>(plan.film, width, height, plan.fps, settings.display);
             write_outputs(arguments, settings, device, job, shown);
             if (film) film->add(shown.picture.display);
             notes.tell(job, shown.meaning, plan.sequence);
@@ -261,7 +266,7 @@ void run(const TonemapArguments& arguments) {
         } catch (const Error& error) {
             // Pictures that have nothing to do with each other do not wait for one that is damaged.
             if (plan.sequence || plan.jobs.size() == 1) throw;
-            print_error("vesper", error.what());
+            apps::print_error("vesper", error.what());
             ++failed;
         }
         progress.step();
@@ -274,8 +279,9 @@ void run(const TonemapArguments& arguments) {
 
 }  // namespace
 
-void add_tonemap(Command program) {
-    Command command = program.add_command("tonemap", "Show HDR pictures and films on a display (docs/tonemap.md)");
+void add_tonemap(apps::Command program) {
+    apps::Command command =
+        program.add_command("tonemap", "Show HDR pictures and films on a display (docs/tonemap.md)");
     const auto a = std::make_shared<TonemapArguments>();
     command.add_option("pictures", a->inputs, "OpenEXR or Radiance pictures, or frame.%04d.exr for a sequence")
         .required();
@@ -284,32 +290,32 @@ void add_tonemap(Command program) {
                     "OUT.png: codes; OUT.exr: cd/m^2 on the display; OUT.mp4; or a folder\n"
                     "A folder or %04d for several; may be given more than once")
         .required();
-    command.add_option("--layer", a->layer, kLayerHelp);
-    add_scale_options(command, a->scale);
+    command.add_option("--layer", a->layer, apps::kLayerHelp);
+    apps::add_scale_options(command, a->scale);
     command
         .add_option("--fps", a->fps,
                     "Pictures are a sequence of so many per second: the eye adapts from each to the next (default for "
                     "frame.%04d.exr: 30)")
-        .check(between(0.001, 10000.0));
+        .check(apps::between(0.001, 10000.0));
     command
         .add_option("--fov", a->fov,
                     "Angle the picture covers in height, degrees\n"
                     "Default: what the picture says, if Vesper or Radiance made it, or 40")
-        .check(between(0.1, 170.0));
+        .check(apps::between(0.1, 170.0));
     command.add_flag("--stats", a->statistics, "Print adaptation, glare and milliseconds of each picture");
     command.add_option("--device", a->device,
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
-    add_tone_options(command, a->tone);
-    add_glare_options(command, a->glare);
+    apps::add_tone_options(command, a->tone);
+    apps::add_glare_options(command, a->glare);
     command.footer(
         "Examples:\n  vesper tonemap night.exr --display projector -o night.png\n"
         "  vesper tonemap *.hdr --exposure 1 --operator reinhard -o shown/\n"
         "  vesper tonemap drive.%04d.exr --fps 60 --fov 35 -o drive.mp4\n"
         "  vesper tonemap night.exr --display hdr10 -o night-pq.png -o night-on-display.exr\n");
     command.callback([a, command] {
-        a->options = options_of(command, {"--output", "--stats"});
+        a->options = apps::options_of(command, {"--output", "--stats"});
         run(*a);
     });
 }
 
-}  // namespace vesper
+}  // namespace vesper::commands

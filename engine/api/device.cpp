@@ -16,7 +16,8 @@ VesperResult vesper_device_open(const VesperDeviceOptions* options, VesperDevice
         require(device, "no place for the device");
         const VesperDeviceOptions o =
             options ? known(options, "device options without their size") : VesperDeviceOptions{};
-        DeviceOptions opened{.select = o.select ? o.select : "", .validation = o.validation != 0, .on_message = {}};
+        gpu::DeviceOptions opened{
+            .select = o.select ? o.select : "", .validation = o.validation != 0, .on_message = {}};
         if (o.on_message)
             opened.on_message = [call = o.on_message, user = o.user](const std::string& message) {
                 call(message.c_str(), user);
@@ -28,8 +29,8 @@ void vesper_device_close(VesperDevice* device) { delete device; }
 const char* vesper_device_name(const VesperDevice* device) { return device ? device->name.c_str() : ""; }
 
 const char* const* vesper_device_extensions(uint32_t* count) {
-    if (count) *count = uint32_t(kDeviceExtensions.size());
-    return kDeviceExtensions.data();
+    if (count) *count = uint32_t(gpu::kDeviceExtensions.size());
+    return gpu::kDeviceExtensions.data();
 }
 
 VesperResult vesper_device_features(VkPhysicalDevice physical_device, VkPhysicalDeviceFeatures2* features,
@@ -37,11 +38,11 @@ VesperResult vesper_device_features(VkPhysicalDevice physical_device, VkPhysical
     return guarded(error, [&] {
         require(physical_device && features && features->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
                 "no physical device, or no features to set");
-        const std::string missing = missing_support(physical_device);
+        const std::string missing = gpu::missing_support(physical_device);
         VkPhysicalDeviceProperties properties;
         vkGetPhysicalDeviceProperties(physical_device, &properties);
         if (!missing.empty()) throw Error(std::string(properties.deviceName) + " has no " + missing);
-        enable_features(physical_device, *features);
+        gpu::enable_features(physical_device, *features);
     });
 }
 
@@ -54,8 +55,8 @@ VesperResult vesper_device_borrow(const VesperHostDevice* host, VesperDevice** d
         require(h.created_with && h.created_with->sType == VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                 "what the device was made with is missing");
         require(!h.lock_queue == !h.unlock_queue, "a queue is locked and unlocked, or neither");
-        BorrowedDevice given{h.instance,    h.physical_device, h.device, h.queue, h.queue_family,
-                             h.api_version, h.created_with,    {},       {}};
+        gpu::BorrowedDevice given{h.instance,    h.physical_device, h.device, h.queue, h.queue_family,
+                                  h.api_version, h.created_with,    {},       {}};
         if (h.lock_queue) {
             given.lock = [call = h.lock_queue, user = h.user] { call(user); };
             given.unlock = [call = h.unlock_queue, user = h.user] { call(user); };

@@ -63,7 +63,7 @@ constexpr std::array kLayouts{VK_IMAGE_LAYOUT_UNDEFINED,
                               VK_IMAGE_LAYOUT_PRESENT_SRC_KHR,
                               VK_IMAGE_LAYOUT_ATTACHMENT_FEEDBACK_LOOP_OPTIMAL_EXT};
 
-ExternalImage image_of(const VesperImage* given) {
+graph::ExternalImage image_of(const VesperImage* given) {
     const VesperImage i = known(given, "an image without its size");
     require(i.image != VK_NULL_HANDLE, "no image");
     for (const VkImageLayout layout : {i.layout_before, i.layout_after})
@@ -98,10 +98,10 @@ VesperResult result_of(VesperError* error, void (*call)(const void*), const void
     } catch (const OutOfHostMemory& out) {
         say(error, out.what());
         return VESPER_OUT_OF_MEMORY;
-    } catch (const DeviceLost& lost) {
+    } catch (const gpu::DeviceLost& lost) {
         say(error, lost.what());
         return VESPER_DEVICE_LOST;
-    } catch (const OutOfDeviceMemory& out) {
+    } catch (const gpu::OutOfDeviceMemory& out) {
         say(error, out.what());
         return VESPER_OUT_OF_DEVICE_MEMORY;
     } catch (const std::exception& failure) {
@@ -127,13 +127,13 @@ VkExtent2D extent_of(uint32_t width, uint32_t height) {
     return {width, height};
 }
 
-std::optional<ImageAngles> angles_of(const float (&edges)[4], VkExtent2D extent) {
+std::optional<vision::ImageAngles> angles_of(const float (&edges)[4], VkExtent2D extent) {
     if (std::all_of(edges, edges + 4, [](float edge) { return edge == 0; })) return {};
     require(std::all_of(edges, edges + 4, [](float edge) { return std::abs(edge) <= 100; }) && edges[0] < edges[1] &&
                 edges[2] < edges[3],
             "edges are tangents from -100 to 100, of the left less than of the right and of the bottom less than of "
             "the top");
-    return ImageAngles{int(extent.width), int(extent.height), {edges[0], edges[2]}, {edges[1], edges[3]}};
+    return vision::ImageAngles{int(extent.width), int(extent.height), {edges[0], edges[2]}, {edges[1], edges[3]}};
 }
 
 float seconds_of(float seconds) {
@@ -147,12 +147,12 @@ VesperOutputs outputs_of(const VesperOutputs* given) {
     return to;
 }
 
-Outputs wanted(const VesperOutputs& to) {
+render::Outputs wanted(const VesperOutputs& to) {
     return {
         .display = to.codes != nullptr, .scene = to.luminance != nullptr, .display_light = to.display_light != nullptr};
 }
 
-void give(const ToneMapped& frame, const VesperOutputs& to) {
+void give(const render::ToneMapped& frame, const VesperOutputs& to) {
     give(frame.display, to.codes), give(frame.scene, to.luminance), give(frame.display_light, to.display_light);
     if (to.report) give_known(report_of(frame), to.report);
 }
@@ -162,7 +162,7 @@ void check_report(const VesperFrameReport* report) {
             "a report without its size");
 }
 
-VesperFrameReport report_of(const ToneMapped& frame) {
+VesperFrameReport report_of(const render::ToneMapped& frame) {
     return {.size = sizeof(VesperFrameReport),
             .adaptation = frame.curve.adaptation,
             .log_average = frame.curve.log_average,
@@ -170,10 +170,10 @@ VesperFrameReport report_of(const ToneMapped& frame) {
             .milliseconds = frame.milliseconds};
 }
 
-VesperFrameReport report_of_submitted(const ToneMapped& frame) {
+VesperFrameReport report_of_submitted(const render::ToneMapped& frame) {
     VesperFrameReport report = report_of(frame);
     report.milliseconds = 0;
-    for (const Timing& pass : frame.timings) report.milliseconds += pass.milliseconds;
+    for (const graph::Timing& pass : frame.timings) report.milliseconds += pass.milliseconds;
     return report;
 }
 
@@ -200,8 +200,8 @@ shared::EyeState eye_of(const void* bytes, size_t size) {
     return kept.eye;
 }
 
-ExternalImage picture_image(const VesperImage* given) {
-    const ExternalImage image = image_of(given);
+graph::ExternalImage picture_image(const VesperImage* given) {
+    const graph::ExternalImage image = image_of(given);
     constexpr VkFormat formats[] = {VK_FORMAT_R32G32B32A32_SFLOAT, VK_FORMAT_R16G16B16A16_SFLOAT,
                                     VK_FORMAT_B10G11R11_UFLOAT_PACK32, VK_FORMAT_E5B9G9R9_UFLOAT_PACK32};
     require(std::ranges::find(formats, image.format) != std::end(formats),
@@ -210,16 +210,16 @@ ExternalImage picture_image(const VesperImage* given) {
     return image;
 }
 
-ExternalImage shown_image(const VesperImage* given, VkExtent2D extent) {
-    const ExternalImage image = image_of(given);
+graph::ExternalImage shown_image(const VesperImage* given, VkExtent2D extent) {
+    const graph::ExternalImage image = image_of(given);
     require(image.extent.width == extent.width && image.extent.height == extent.height,
             "what is shown has the extent of the image it is shown in");
-    require(shown_format(image.format).has_value(),
+    require(render::shown_format(image.format).has_value(),
             "pictures are shown in images of RGBA or BGRA, of 8 bits (UNORM or SRGB) or 10 bits");
     return image;
 }
 
-SubmitSemaphores semaphores_of(const VesperHandover* given) {
+graph::SubmitSemaphores semaphores_of(const VesperHandover* given) {
     if (!given) return {};
     const VesperHandover h = known(given, "a handover without its size");
     require((h.wait_count == 0 || h.waits) && (h.signal_count == 0 || h.signals), "a list of semaphores is missing");

@@ -17,23 +17,23 @@
 #include "scene/display_file.h"
 
 struct VesperDevice {
-    explicit VesperDevice(const vesper::DeviceOptions& options) : device(options), name(device.name()) {}
-    explicit VesperDevice(const vesper::BorrowedDevice& given) : device(given), name(device.name()) {}
-    vesper::Device device;
+    explicit VesperDevice(const vesper::gpu::DeviceOptions& options) : device(options), name(device.name()) {}
+    explicit VesperDevice(const vesper::gpu::BorrowedDevice& given) : device(given), name(device.name()) {}
+    vesper::gpu::Device device;
     std::string name;
 };
 
 struct VesperToneMapper {
     static constexpr const char* kNone = "no tone mapper";
-    explicit VesperToneMapper(vesper::Device& of) : device(of), engine(of) {}
-    const vesper::Device& device;
-    vesper::ToneMapper engine;
-    vesper::DisplayFinder displays;
+    explicit VesperToneMapper(vesper::gpu::Device& of) : device(of), engine(of) {}
+    const vesper::gpu::Device& device;
+    vesper::render::ToneMapper engine;
+    vesper::scene::DisplayFinder displays;
     std::optional<VesperFrameReport> report;  // of the last submitted frame that was finished, until it is asked for
 };
 
 struct VesperScene {
-    vesper::Scene scene;
+    vesper::scene::Scene scene;
     uint64_t version = 0;  // of what a renderer takes to the device
     std::map<std::pair<std::string, std::vector<uint8_t>>, uint32_t>
         distributions;       // of the scene, by their files and what was in those
@@ -42,13 +42,13 @@ struct VesperScene {
 
 struct VesperRenderer {
     static constexpr const char* kNone = "no renderer";
-    VesperRenderer(vesper::Device& of, const VesperScene& drawn)
+    VesperRenderer(vesper::gpu::Device& of, const VesperScene& drawn)
         : device(of), scene(drawn), version(drawn.version), engine(of, drawn.scene) {}
-    const vesper::Device& device;
+    const vesper::gpu::Device& device;
     const VesperScene& scene;
     uint64_t version;  // of the scene on the device
-    vesper::Renderer engine;
-    vesper::DisplayFinder displays;
+    vesper::render::Renderer engine;
+    vesper::scene::DisplayFinder displays;
     std::map<uint32_t, glm::mat4> places;     // of nodes that were put somewhere: node frame to world
     std::map<uint32_t, float> dimming;        // of lamps at nodes
     std::optional<VesperFrameReport> report;  // of the last submitted frame that was finished, until it is asked for
@@ -109,18 +109,19 @@ glm::mat4 place_of(const float* node_to_world);
 
 VkExtent2D extent_of(uint32_t width, uint32_t height);
 /// The edges of a picture that has any.
-std::optional<ImageAngles> angles_of(const float (&edges)[4], VkExtent2D extent);
+std::optional<vision::ImageAngles> angles_of(const float (&edges)[4], VkExtent2D extent);
 float seconds_of(float seconds);
-RenderSettings settings_of(const VesperToneSettings* given, DisplayFinder& displays);  ///< null: the defaults
+render::RenderSettings settings_of(const VesperToneSettings* given,
+                                   scene::DisplayFinder& displays);  ///< null: the defaults
 
 /// Where a frame goes, in arrays.
 VesperOutputs outputs_of(const VesperOutputs* given);
-Outputs wanted(const VesperOutputs& to);
-void give(const ToneMapped& frame, const VesperOutputs& to);
+render::Outputs wanted(const VesperOutputs& to);
+void give(const render::ToneMapped& frame, const VesperOutputs& to);
 /// A report that may be asked for, checked; that of a frame in arrays, and that of a submitted frame.
 void check_report(const VesperFrameReport* report);
-VesperFrameReport report_of(const ToneMapped& frame);
-VesperFrameReport report_of_submitted(const ToneMapped& frame);
+VesperFrameReport report_of(const render::ToneMapped& frame);
+VesperFrameReport report_of_submitted(const render::ToneMapped& frame);
 
 /// What the eye remembers, as bytes.
 void give_eye(const shared::EyeState& eye, void* bytes);
@@ -136,9 +137,9 @@ void finish(Handle& handle) {
 constexpr const char* kBorrowed = "images are those of a host's device (vesper_device_borrow)";
 /// Submits a frame. Where its settings need the frame before on the host, that one is finished first.
 template <class Handle, class... Arguments>
-void submit_frame(Handle& handle, const RenderSettings& settings, const Arguments&... arguments) {
+void submit_frame(Handle& handle, const render::RenderSettings& settings, const Arguments&... arguments) {
     require(handle.device.borrowed(), kBorrowed);
-    if (FrameQueue::needs_finished_frame(settings)) finish(handle);
+    if (render::FrameQueue::needs_finished_frame(settings)) finish(handle);
     handle.engine.submit(settings, arguments...);
     handle.report.reset();
 }
@@ -183,8 +184,8 @@ VesperResult set_eye(Handle* handle, const void* bytes, size_t size, VesperError
 }
 
 /// Images of the host's.
-ExternalImage picture_image(const VesperImage* given);
-ExternalImage shown_image(const VesperImage* given, VkExtent2D extent);
-SubmitSemaphores semaphores_of(const VesperHandover* given);
+graph::ExternalImage picture_image(const VesperImage* given);
+graph::ExternalImage shown_image(const VesperImage* given, VkExtent2D extent);
+graph::SubmitSemaphores semaphores_of(const VesperHandover* given);
 
 }  // namespace vesper::api

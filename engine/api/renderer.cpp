@@ -8,18 +8,18 @@ namespace vesper::api {
 namespace {
 
 // Everything where it stands at a time, but for what was put elsewhere, and what hangs on that.
-SceneFrame frame_of(const VesperRenderer& renderer, double seconds) {
-    const Scene& scene = renderer.scene.scene;
-    SceneFrame frame{placed_transforms(scene, seconds, renderer.places)};
+gpu_scene::SceneFrame frame_of(const VesperRenderer& renderer, double seconds) {
+    const scene::Scene& scene = renderer.scene.scene;
+    gpu_scene::SceneFrame frame{scene::placed_transforms(scene, seconds, renderer.places)};
     if (renderer.dimming.empty()) return frame;
     frame.dimming.assign(scene.nodes.size(), 1);
     for (const auto& [node, factor] : renderer.dimming) frame.dimming[node] = factor;
     return frame;
 }
 
-View view_of(const VesperView& v, const Scene& scene, const SceneFrame& frame) {
+gpu_scene::View view_of(const VesperView& v, const scene::Scene& scene, const gpu_scene::SceneFrame& frame) {
     const VkExtent2D extent = extent_of(v.width, v.height);
-    if (v.camera) return camera_view(scene, frame, v.camera, extent);
+    if (v.camera) return gpu_scene::camera_view(scene, frame, v.camera, extent);
     const auto angles = angles_of(v.edges, extent);
     require(finite(v.eye) && finite(v.forward) && finite(v.up) &&
                 (angles || (v.vertical_fov > 0 && v.vertical_fov < 3.1f)) && v.near_plane > 0 && v.near_plane < 1e6f,
@@ -28,14 +28,14 @@ View view_of(const VesperView& v, const Scene& scene, const SceneFrame& frame) {
     const glm::dvec3 eye(vector(v.eye)), forward = direction(v.forward, kTwo), up = direction(v.up, kTwo);
     require(glm::length(glm::cross(forward, up)) > 1e-6, kTwo);
     const glm::dmat4 world_to_view(glm::lookAt(eye, eye + forward, up));
-    if (angles) return View::of(*angles, world_to_view, v.near_plane);
-    return View::symmetric(extent, v.vertical_fov, world_to_view, v.near_plane);
+    if (angles) return gpu_scene::View::of(*angles, world_to_view, v.near_plane);
+    return gpu_scene::View::symmetric(extent, v.vertical_fov, world_to_view, v.near_plane);
 }
 
 /// What is drawn and from where.
 struct Seen {
-    SceneFrame frame;
-    View view;
+    gpu_scene::SceneFrame frame;
+    gpu_scene::View view;
 };
 Seen see(const VesperRenderer& renderer, const VesperView* view) {
     const VesperView v = known(view, "a view without its size");
@@ -89,7 +89,7 @@ VesperResult vesper_renderer_dim(VesperRenderer* renderer, uint32_t node, float 
         require(renderer, VesperRenderer::kNone);
         require_node(*renderer, node);
         require(factor >= 0 && factor <= 1e6f, "a lamp is dimmed by a factor of 0 to 1e6");
-        require(renderer->scene.scene.nodes[node].lamp != kNone, "there is no lamp at this node");
+        require(renderer->scene.scene.nodes[node].lamp != scene::kNone, "there is no lamp at this node");
         renderer->dimming[node] = factor;
     });
 }
@@ -99,12 +99,12 @@ VesperResult vesper_render(VesperRenderer* renderer, const VesperToneSettings* s
     return guarded(error, [&] {
         require(renderer, VesperRenderer::kNone);
         const VesperOutputs to = outputs_of(outputs);
-        const RenderSettings how = settings_of(settings, renderer->displays);
+        const render::RenderSettings how = settings_of(settings, renderer->displays);
         const float passed = seconds_of(seconds);
         const Seen seen = see(*renderer, view);
         finish(*renderer);  // what it left stays should this frame fail
         take_over_scene(*renderer);
-        const Frame frame = renderer->engine.render(how, seen.view, seen.frame, passed, wanted(to));
+        const render::Frame frame = renderer->engine.render(how, seen.view, seen.frame, passed, wanted(to));
         give(frame, to);
     });
 }
@@ -114,12 +114,12 @@ VesperResult vesper_render_image(VesperRenderer* renderer, const VesperToneSetti
                                  VesperError* error) {
     return guarded(error, [&] {
         require(renderer, VesperRenderer::kNone);
-        const RenderSettings how = settings_of(settings, renderer->displays);
+        const render::RenderSettings how = settings_of(settings, renderer->displays);
         const float passed = seconds_of(seconds);
-        const SubmitSemaphores semaphores = semaphores_of(handover);
+        const graph::SubmitSemaphores semaphores = semaphores_of(handover);
         const Seen seen = see(*renderer, view);
         require(renderer->device.borrowed(), kBorrowed);
-        const Outputs to{.display = false, .shown = shown_image(shown, seen.view.extent)};
+        const render::Outputs to{.display = false, .shown = shown_image(shown, seen.view.extent)};
         take_over_scene(*renderer);
         submit_frame(*renderer, how, seen.view, seen.frame, passed, to, semaphores);
     });

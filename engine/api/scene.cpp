@@ -29,7 +29,7 @@ std::pair<float, glm::vec3> split(const float rgb[3], const char* otherwise) {
     return {y, y > 0 ? colour / y : glm::vec3(1)};
 }
 
-Primitive primitive_of(const Scene& scene, const VesperMesh& m) {
+scene::Primitive primitive_of(const scene::Scene& scene, const VesperMesh& m) {
     require(m.material < scene.materials.size(), "the scene has no such material");
     require(m.vertex_count >= 3 && m.positions && m.index_count >= 3 && m.index_count % 3 == 0 && m.indices,
             "a mesh has positions, and three indices per triangle");
@@ -40,15 +40,15 @@ Primitive primitive_of(const Scene& scene, const VesperMesh& m) {
             "positions, normals and uvs are finite");
     require(std::all_of(m.indices, m.indices + m.index_count, [&](uint32_t i) { return i < m.vertex_count; }),
             "an index is less than the number of vertices");
-    Primitive made;
+    scene::Primitive made;
     made.material = m.material;
     made.vertices.resize(m.vertex_count);
     std::vector<char> missing(m.vertex_count);  // normals
     for (size_t i = 0; i < m.vertex_count; ++i) {
-        Vertex& vertex = made.vertices[i];
+        scene::Vertex& vertex = made.vertices[i];
         vertex.position = vector(m.positions + 3 * i);
         if (m.normals) {
-            vertex.normal = unit_or_up(vector(m.normals + 3 * i));
+            vertex.normal = scene::unit_or_up(vector(m.normals + 3 * i));
             missing[i] = vector(m.normals + 3 * i) == glm::vec3(0);
         }
         if (m.uvs) vertex.uv = {m.uvs[2 * i], m.uvs[2 * i + 1]};
@@ -56,9 +56,9 @@ Primitive primitive_of(const Scene& scene, const VesperMesh& m) {
     }
     made.indices.assign(m.indices, m.indices + m.index_count);
     if (!m.normals)
-        make_flat(made);
+        scene::make_flat(made);
     else if (std::find(missing.begin(), missing.end(), 1) != missing.end())
-        fill_normals(made, missing);
+        scene::fill_normals(made, missing);
     return made;
 }
 
@@ -75,14 +75,14 @@ glm::quat turned(const VesperLamp& lamp) {
 
 /// The number of the distribution of a file, one for all lamps while the file is as it was.
 uint32_t distribution_of(VesperScene& scene, const std::string& file) {
-    std::pair key(file, read_file(file, kMaxTableBytes));
+    std::pair key(file, io::read_file(file, photometry::kMaxTableBytes));
     if (const auto known = scene.distributions.find(key); known != scene.distributions.end()) return known->second;
-    scene.scene.distributions.push_back(read_distribution(file));
+    scene.scene.distributions.push_back(photometry::read_distribution(file));
     return scene.distributions[std::move(key)] = added(scene.scene.distributions.size());
 }
 
 /// A lamp, but for what was measured.
-Lamp lamp_of(const VesperLamp& l) {
+scene::Lamp lamp_of(const VesperLamp& l) {
     require(finite(l.position) && finite(l.axis) && finite(l.up) && finite(l.colour) && l.intensity >= 0 &&
                 std::isfinite(l.intensity),
             "a lamp has a place, an axis, at least 0 cd and a colour");
@@ -94,15 +94,17 @@ Lamp lamp_of(const VesperLamp& l) {
             "a lamp's opening is 0 to 1000 m wide and high");
     require((l.opening_width > 0) == (l.opening_height > 0), "a lamp's opening has a width and a height, or neither");
     require(!l.distribution || (l.inner_cone == 0 && l.outer_cone == 0), "a lamp has cones or a distribution");
-    Lamp lamp;
+    scene::Lamp lamp;
     lamp.intensity = l.intensity, lamp.colour = colour;
     lamp.inner_cone = l.inner_cone, lamp.outer_cone = l.outer_cone;
-    lamp.kind = l.distribution ? Lamp::Kind::Measured : l.outer_cone > 0 ? Lamp::Kind::Spot : Lamp::Kind::Point;
+    lamp.kind = l.distribution     ? scene::Lamp::Kind::Measured
+                : l.outer_cone > 0 ? scene::Lamp::Kind::Spot
+                                   : scene::Lamp::Kind::Point;
     if (l.opening_width > 0 && l.opening_height > 0) lamp.opening = {l.opening_width, l.opening_height, 0, false};
     return lamp;
 }
 
-void add(Scene& scene, Node node, uint32_t* number) {
+void add(scene::Scene& scene, scene::Node node, uint32_t* number) {
     scene.nodes.push_back(std::move(node));
     if (number) *number = added(scene.nodes.size());
 }
@@ -121,14 +123,14 @@ VesperResult vesper_scene_create(VesperScene** scene, VesperError* error) {
 VesperResult vesper_scene_read(const char* file, VesperScene** scene, VesperError* error) {
     return guarded(error, [&] {
         require(file && scene, "no file, or no place for the scene");
-        *scene = new VesperScene{read_gltf(file).scene, 0, {}};
+        *scene = new VesperScene{scene::read_gltf(file).scene, 0, {}};
     });
 }
 VesperResult vesper_scene_read_allowing(const char* file, const char* folder, VesperScene** scene, VesperError* error) {
     return guarded(error, [&] {
         require(file && folder && scene, "no file, no folder, or no place for the scene");
-        const AllowedFolder allowed(folder);
-        *scene = new VesperScene{read_gltf(file).scene, 0, {}};
+        const io::AllowedFolder allowed(folder);
+        *scene = new VesperScene{scene::read_gltf(file).scene, 0, {}};
     });
 }
 void vesper_scene_destroy(VesperScene* scene) { delete scene; }
@@ -145,7 +147,7 @@ VesperResult vesper_scene_add_material(VesperScene* scene, const VesperMaterial*
         require(fractions(m.base_colour) && m.metallic >= 0 && m.metallic <= 1 && m.roughness >= 0 && m.roughness <= 1,
                 "reflectance, metallic and roughness are 0 to 1");
         const auto [emitted, emission] = split(m.emission, "a material emits 0 to 1e9 cd/m^2");
-        Material made;
+        scene::Material made;
         made.base_colour = glm::vec4(vector(m.base_colour), 1);
         made.metallic = m.metallic, made.roughness = m.roughness;
         made.emission = emitted * emission;
@@ -179,7 +181,7 @@ VesperResult vesper_scene_add_node(VesperScene* scene, const char* name, uint32_
         require(
             mesh == VESPER_NONE || (mesh < scene->scene.meshes.size() && !scene->scene.meshes[mesh].primitives.empty()),
             "the scene has no such mesh");
-        Node made;
+        scene::Node made;
         made.name = name ? name : "";
         made.mesh = mesh;
         if (node_to_world) made.matrix = place_of(node_to_world);
@@ -192,11 +194,11 @@ VesperResult vesper_scene_add_lamp(VesperScene* scene, const VesperLamp* lamp, u
     return guarded(error, [&] {
         require(scene, "no scene");
         const VesperLamp l = known(lamp, "a lamp without its size");
-        Lamp made = lamp_of(l);
-        Node placed;
+        scene::Lamp made = lamp_of(l);
+        scene::Node placed;
         placed.name = "lamp", placed.lamp = uint32_t(scene->scene.lamps.size());
         placed.translation = vector(l.position);
-        if (made.kind != Lamp::Kind::Point) placed.rotation = turned(l);
+        if (made.kind != scene::Lamp::Kind::Point) placed.rotation = turned(l);
         if (l.distribution) {
             made.distribution = distribution_of(*scene, l.distribution);
             if (made.opening.length == 0) made.opening = scene->scene.distributions[made.distribution].opening;
@@ -224,19 +226,19 @@ VesperResult vesper_scene_attach(VesperScene* scene, uint32_t node, uint32_t to,
 VesperResult vesper_scene_remove(VesperScene* scene, uint32_t node, VesperError* error) {
     return guarded(error, [&] {
         require(scene, "no scene");
-        std::vector<Node>& nodes = scene->scene.nodes;
+        std::vector<scene::Node>& nodes = scene->scene.nodes;
         require(node < nodes.size(), "the scene has no such node");
         std::vector<bool> below(nodes.size());  // and the node itself
         scene->gone.resize(nodes.size());
         std::set<uint32_t> unused;  // meshes
         for (size_t i = node; i < nodes.size(); ++i) {
-            below[i] = i == node || (nodes[i].parent != kNone && below[nodes[i].parent]);
+            below[i] = i == node || (nodes[i].parent != scene::kNone && below[nodes[i].parent]);
             if (!below[i]) continue;
             scene->gone[i] = true;
             unused.insert(nodes[i].mesh);
-            nodes[i].mesh = nodes[i].lamp = nodes[i].camera = kNone;
+            nodes[i].mesh = nodes[i].lamp = nodes[i].camera = scene::kNone;
         }
-        for (const Node& left : nodes) unused.erase(left.mesh);  // kNone, too: that of the node itself
+        for (const scene::Node& left : nodes) unused.erase(left.mesh);  // kNone, too: that of the node itself
         for (const uint32_t mesh : unused) scene->scene.meshes[mesh].primitives = {};
         ++scene->version;
     });
@@ -248,7 +250,7 @@ VesperResult vesper_scene_set_sky(VesperScene* scene, const float illuminance[3]
         require(scene && illuminance && luminance, "no scene, or no light");
         const auto ambient = split(illuminance, "ambient light is 0 to 1e9 lx"),
                    sky = split(luminance, "a sky has 0 to 1e9 cd/m^2");
-        Scene& lit = scene->scene;
+        scene::Scene& lit = scene->scene;
         std::tie(lit.ambient_illuminance, lit.ambient_colour) = ambient;
         std::tie(lit.sky_luminance, lit.sky_colour) = sky;
         lit.environment.reset();

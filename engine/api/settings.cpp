@@ -8,25 +8,25 @@ namespace {
 
 struct Scattering {
     VesperGlare glare;
-    ScatterSettings::Model model;
+    gpu_scene::ScatterSettings::Model model;
 };
-constexpr Scattering kScatterings[] = {{VESPER_GLARE_CIE, ScatterSettings::Model::Cie},
-                                       {VESPER_GLARE_TEMPORAL, ScatterSettings::Model::Temporal},
-                                       {VESPER_GLARE_SPENCER, ScatterSettings::Model::Spencer},
-                                       {VESPER_GLARE_WARD, ScatterSettings::Model::Ward}};
+constexpr Scattering kScatterings[] = {{VESPER_GLARE_CIE, gpu_scene::ScatterSettings::Model::Cie},
+                                       {VESPER_GLARE_TEMPORAL, gpu_scene::ScatterSettings::Model::Temporal},
+                                       {VESPER_GLARE_SPENCER, gpu_scene::ScatterSettings::Model::Spencer},
+                                       {VESPER_GLARE_WARD, gpu_scene::ScatterSettings::Model::Ward}};
 constexpr uint32_t kAdaptTo[] = {shared::kAdaptAverage, shared::kAdaptGaze, shared::kAdaptGazeMean,
                                  shared::kAdaptTexel};  // from VESPER_ADAPT_AVERAGE on
 constexpr uint32_t kGamuts[] = {shared::kGamutLuminance, shared::kGamutChromaticity,
                                 shared::kGamutClip};  // by VesperGamut
-static_assert(VESPER_PUPIL_MESOPIC == int(SpencerState::Mesopic) &&
-              VESPER_PUPIL_SCOTOPIC == int(SpencerState::Scotopic));
+static_assert(VESPER_PUPIL_MESOPIC == int(vision::SpencerState::Mesopic) &&
+              VESPER_PUPIL_SCOTOPIC == int(vision::SpencerState::Scotopic));
 
 bool within(float value, float low, float high) { return value >= low && value <= high; }
 
 VesperToneSettings default_settings() {
-    const ToneChainSettings settings;
-    const ToneSettings& tone = settings.tone;
-    const Display& display = known_displays().front().display;
+    const render::ToneChainSettings settings;
+    const render::ToneSettings& tone = settings.tone;
+    const vision::Display& display = vision::known_displays().front().display;
     VesperToneSettings made{sizeof made};
     made.tone_operator = VESPER_IRAWAN, made.glare = VESPER_GLARE_NONE, made.bins = settings.histogram.bins;
     made.age = float(tone.observer.age), made.pigmentation = float(settings.scatter.eye.pigmentation);
@@ -41,9 +41,9 @@ VesperToneSettings default_settings() {
     return made;
 }
 
-Display display_of(const VesperToneSettings& s, DisplayFinder& displays) {
+vision::Display display_of(const VesperToneSettings& s, scene::DisplayFinder& displays) {
     if (s.display) return displays.find(s.display);
-    Display display = known_displays().front().display;
+    vision::Display display = vision::known_displays().front().display;
     display.peak = s.display_peak, display.black = s.display_black, display.ambient = s.display_ambient;
     display.gamma = s.display_gamma, display.reflection = s.display_reflection;
     return display;
@@ -51,13 +51,13 @@ Display display_of(const VesperToneSettings& s, DisplayFinder& displays) {
 
 }  // namespace
 
-RenderSettings settings_of(const VesperToneSettings* given, DisplayFinder& displays) {
+render::RenderSettings settings_of(const VesperToneSettings* given, scene::DisplayFinder& displays) {
     const VesperToneSettings s = given ? known(given, "tone settings without their size") : default_settings();
-    const auto is_operator = [&](const OperatorInfo& info) {
-        return info.tone_operator != Operator::Ldr && uint32_t(info.tone_operator) == s.tone_operator;
+    const auto is_operator = [&](const render::OperatorInfo& info) {
+        return info.tone_operator != render::Operator::Ldr && uint32_t(info.tone_operator) == s.tone_operator;
     };
     require(s.gamut <= VESPER_GAMUT_CLIP, "there is no such gamut");
-    require(std::ranges::any_of(operators(), is_operator), "there is no such tone operator");
+    require(std::ranges::any_of(render::operators(), is_operator), "there is no such tone operator");
     require(s.glare <= VESPER_GLARE_WARD, "there is no such glare");
     require(s.bins >= 1 && s.bins <= shared::kMaxBins, "a histogram has 1 to 256 bins");
     require(within(s.age, 1, 120) && within(s.pigmentation, 0, 1.5f),
@@ -72,20 +72,20 @@ RenderSettings settings_of(const VesperToneSettings* given, DisplayFinder& displ
     require(within(s.key, 1e-4f, 10) && within(s.white, 0, 1e9f) && within(s.black, 0, 1e9f),
             "a key is 1e-4 to 10, and luminances shown as white and black are 0 to 1e9 cd/m^2");
     require(s.white == 0 || s.white > s.black, "white is more than black");
-    RenderSettings settings;
-    settings.tone_operator = Operator(s.tone_operator);
-    settings.glare = s.glare == VESPER_GLARE_NONE  ? Glare::None
-                     : s.glare == VESPER_GLARE_LDR ? Glare::Ldr
-                                                   : Glare::Scatter;
+    render::RenderSettings settings;
+    settings.tone_operator = render::Operator(s.tone_operator);
+    settings.glare = s.glare == VESPER_GLARE_NONE  ? render::Glare::None
+                     : s.glare == VESPER_GLARE_LDR ? render::Glare::Ldr
+                                                   : render::Glare::Scatter;
     for (const Scattering& one : kScatterings)
         if (one.glare == VesperGlare(s.glare)) settings.scatter.model = one.model;
     settings.scatter.eye = {double(s.age), double(s.pigmentation)};
-    settings.scatter.state = SpencerState(s.pupil);
+    settings.scatter.state = vision::SpencerState(s.pupil);
     settings.scatter.aperture = {s.eye_seed, s.lashes != 0};
     settings.histogram.bins = s.bins;
     settings.histogram.log10_low = std::log10(s.histogram_low),
     settings.histogram.log10_high = std::log10(s.histogram_high);
-    ToneSettings& tone = settings.tone;
+    render::ToneSettings& tone = settings.tone;
     tone.observer.age = s.age, tone.observer.low_vision = s.low_vision, tone.observer.use_rods = s.rods;
     tone.gaze = {s.gaze[0], s.gaze[1]};
     tone.colour_loss = s.colour_loss, tone.acuity_loss = s.acuity_loss, tone.purkinje = s.purkinje;
@@ -95,7 +95,7 @@ RenderSettings settings_of(const VesperToneSettings* given, DisplayFinder& displ
     tone.operators.linear.low = s.black;
     if (s.adapt_to != VESPER_ADAPT_AS_OPERATOR) tone.adapt_to = kAdaptTo[s.adapt_to - VESPER_ADAPT_AVERAGE];
     settings.display = display_of(s, displays);
-    check_display(settings.display);
+    vision::check_display(settings.display);
     return settings;
 }
 
@@ -104,7 +104,7 @@ extern "C" {
 VesperResult vesper_display_bits(const char* display, uint32_t* bits, VesperError* error) {
     return guarded(error, [&] {
         require(display && bits, "no display, or no place for its bits");
-        *bits = uint32_t(find_display(display).bits);
+        *bits = uint32_t(scene::find_display(display).bits);
     });
 }
 

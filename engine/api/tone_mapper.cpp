@@ -31,16 +31,16 @@ VesperResult vesper_tone_map(VesperToneMapper* mapper, const VesperToneSettings*
         require(p.values && (p.channels == 3 || p.channels == 4), "a picture has values, of 3 or 4 channels");
         const auto angles = angles_of(p.edges, extent);
         check_picture(p.scale, p.vertical_fov, angles.has_value());
-        const HostPicture host{.extent = extent,
-                               .values = {p.values, size_t{p.width} * p.height * p.channels},
-                               .channels = p.channels,
-                               .scale = p.scale,
-                               .vertical_fov = double(p.vertical_fov),
-                               .angles = angles ? &*angles : nullptr};
-        const RenderSettings how = settings_of(settings, mapper->displays);
+        const render::HostPicture host{.extent = extent,
+                                       .values = {p.values, size_t{p.width} * p.height * p.channels},
+                                       .channels = p.channels,
+                                       .scale = p.scale,
+                                       .vertical_fov = double(p.vertical_fov),
+                                       .angles = angles ? &*angles : nullptr};
+        const render::RenderSettings how = settings_of(settings, mapper->displays);
         const float passed = seconds_of(seconds);
         finish(*mapper);  // what it left stays should this picture fail
-        const ToneMapped shown = mapper->engine.map(how, host, passed, wanted(to));
+        const render::ToneMapped shown = mapper->engine.map(how, host, passed, wanted(to));
         give(shown, to);
     });
 }
@@ -51,11 +51,11 @@ VesperResult vesper_tone_map_image(VesperToneMapper* mapper, const VesperToneSet
     return guarded(error, [&] {
         require(mapper, VesperToneMapper::kNone);
         const VesperImagePicture p = known(picture, "a picture without its size");
-        const ExternalImage from = picture_image(p.image);
+        const graph::ExternalImage from = picture_image(p.image);
         const auto angles = angles_of(p.edges, from.extent);
         check_picture(p.scale, p.vertical_fov, angles.has_value());
-        const DevicePicture given{from, p.scale, double(p.vertical_fov), angles ? &*angles : nullptr};
-        const ExternalImage to = shown_image(shown, given.image.extent);
+        const render::DevicePicture given{from, p.scale, double(p.vertical_fov), angles ? &*angles : nullptr};
+        const graph::ExternalImage to = shown_image(shown, given.image.extent);
         require(to.image != given.image.image, "a picture is shown in another image");
         submit_frame(*mapper, settings_of(settings, mapper->displays), given, to, seconds_of(seconds),
                      semaphores_of(handover));

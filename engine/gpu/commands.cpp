@@ -1,6 +1,6 @@
 #include "gpu/commands.h"
 
-namespace vesper {
+namespace vesper::gpu {
 
 CommandBuffer::CommandBuffer(const Device& device, VkCommandPoolCreateFlags flags) : device_(device.handle()) {
     const VkCommandPoolCreateInfo info{
@@ -62,4 +62,4 @@ void record_upload(VkCommandBuffer commands, VkBuffer from, VkImage image, uint3
     if (part.last) change(copy, sample, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu

@@ -5,7 +5,7 @@
 
 #include "gpu/device.h"
 
-namespace vesper {
+namespace vesper::gpu {
 
 /// A primary command buffer with a pool of its own.
 class CommandBuffer {
@@ -42,4 +42,4 @@ struct UploadPart {
 void record_upload(VkCommandBuffer commands, VkBuffer from, VkImage image, uint32_t levels,
                    std::span<const VkBufferImageCopy> copies, UploadPart part = {});
 
-}  // namespace vesper
+}  // namespace vesper::gpu

@@ -15,7 +15,7 @@
 #include "gpu/commands.h"
 #include "gpu/requirements.h"
 
-namespace vesper {
+namespace vesper::gpu {
 namespace {
 
 constexpr const char* kInstall =
@@ -213,7 +213,7 @@ std::optional<uint32_t> Device::queue_family(VkPhysicalDevice device) const {
 }
 
 std::string Device::missing(VkPhysicalDevice device) const {
-    const std::string reason = vesper::missing(device);
+    const std::string reason = gpu::missing(device);
     if (!reason.empty() || !presentation_) return reason;
     if (!has_extension(device, VK_KHR_SWAPCHAIN_EXTENSION_NAME)) return "no VK_KHR_swapchain";
     return queue_family(device) ? "" : "cannot show pictures in this window system";
@@ -374,4 +374,4 @@ OwnedFence make_fence(const Device& device, VkFenceCreateFlags flags) {
     return {device.handle(), fence};
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu

@@ -14,7 +14,7 @@
 
 #include "base/error.h"
 
-namespace vesper {
+namespace vesper::gpu {
 
 /// The device is gone, and all that was made on it.
 struct DeviceLost : Error {
@@ -166,4 +166,4 @@ private:
 using OwnedFence = Owned<VkFence, vkDestroyFence>;
 OwnedFence make_fence(const Device& device, VkFenceCreateFlags flags = 0);
 
-}  // namespace vesper
+}  // namespace vesper::gpu

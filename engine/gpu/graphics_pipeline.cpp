@@ -3,7 +3,7 @@
 #include <iterator>
 #include <string>
 
-namespace vesper {
+namespace vesper::gpu {
 namespace {
 
 OwnedPipeline make_pipeline(const Device& device, const GraphicsShaders& shaders, const GraphicsVariant& variant,
@@ -103,4 +103,4 @@ const GraphicsPipeline& GraphicsPipelineCache::get(const GraphicsShaders& shader
     return pipelines_.emplace(std::move(key), GraphicsPipeline(device_, shaders, variant)).first->second;
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu

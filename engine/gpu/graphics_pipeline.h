@@ -9,7 +9,7 @@
 
 #include "gpu/kernel.h"
 
-namespace vesper {
+namespace vesper::gpu {
 
 /// A vertex and a fragment shader that are embedded in the program, and what they read.
 struct GraphicsShaders {
@@ -67,4 +67,4 @@ private:
     mutable std::map<Key, GraphicsPipeline> pipelines_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::gpu

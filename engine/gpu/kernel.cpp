@@ -1,6 +1,6 @@
 #include "gpu/kernel.h"
 
-namespace vesper {
+namespace vesper::gpu {
 
 OwnedShaderModule make_shader(const Device& device, std::span<const uint32_t> spirv) {
     const VkShaderModuleCreateInfo info{
@@ -67,4 +67,4 @@ Kernel::Kernel(const Device& device, const std::string& shader, std::span<const 
     pipeline_ = {device.handle(), pipeline};
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu

@@ -10,7 +10,7 @@
 #include "gpu/device.h"
 #include "gpu/kernel_interface.h"
 
-namespace vesper {
+namespace vesper::gpu {
 
 using OwnedSetLayout = Owned<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;
 using OwnedPipelineLayout = Owned<VkPipelineLayout, vkDestroyPipelineLayout>;
@@ -65,4 +65,4 @@ private:
     OwnedPipeline pipeline_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::gpu

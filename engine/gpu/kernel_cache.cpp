@@ -1,6 +1,6 @@
 #include "gpu/kernel_cache.h"
 
-namespace vesper {
+namespace vesper::gpu {
 
 const Kernel& KernelCache::get(const Shader& shader, std::initializer_list<uint32_t> constants) const {
     Key key{shader.spirv.data(), constants};
@@ -9,4 +9,4 @@ const Kernel& KernelCache::get(const Shader& shader, std::initializer_list<uint3
     return kernels_.emplace(std::move(key), Kernel(device_, shader.name, shader.spirv, constants)).first->second;
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu

@@ -9,7 +9,7 @@
 
 #include "gpu/kernel.h"
 
-namespace vesper {
+namespace vesper::gpu {
 
 /// A compute shader that is embedded in the program.
 struct Shader {
@@ -34,4 +34,4 @@ private:
     mutable std::map<Key, Kernel> kernels_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::gpu

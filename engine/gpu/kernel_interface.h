@@ -9,7 +9,7 @@
 
 #include <vulkan/vulkan_core.h>
 
-namespace vesper {
+namespace vesper::gpu {
 
 /// Bindings, push constants and workgroup of a compute shader.
 struct KernelInterface {
@@ -32,4 +32,4 @@ struct BlockMember {
 /// Every named member of every structure with explicit layout, for comparing with offsetof.
 std::vector<BlockMember> block_members(std::span<const uint32_t> spirv);
 
-}  // namespace vesper
+}  // namespace vesper::gpu

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace vesper {
+namespace vesper::gpu {
 namespace {
 
 constexpr uint64_t kBlockBytes = 16ull << 20;
@@ -129,4 +129,4 @@ std::pair<VkDeviceMemory, uint64_t> Arena::place(const VkMemoryRequirements& nee
     return {blocks_.back().memory.get(), 0};
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu

@@ -7,7 +7,7 @@
 
 #include "gpu/device.h"
 
-namespace vesper {
+namespace vesper::gpu {
 
 using OwnedBuffer = Owned<VkBuffer, vkDestroyBuffer>;
 using OwnedImage = Owned<VkImage, vkDestroyImage>;
@@ -88,4 +88,4 @@ private:
     uint64_t bytes_ = 0;
 };
 
-}  // namespace vesper
+}  // namespace vesper::gpu

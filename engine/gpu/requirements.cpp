@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 
-namespace vesper {
+namespace vesper::gpu {
 namespace {
 
 /// Where a feature is in a structure.
@@ -165,4 +165,4 @@ bool is_queue_family(VkPhysicalDevice device, uint32_t family) {
     return family < count && (families[family].queueFlags & wanted) == wanted;
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu

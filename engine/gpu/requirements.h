@@ -7,7 +7,7 @@
 
 #include <vulkan/vulkan.h>
 
-namespace vesper {
+namespace vesper::gpu {
 
 constexpr uint32_t kVulkanVersion = VK_API_VERSION_1_3;
 constexpr std::array<const char*, 1> kDeviceExtensions{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
@@ -29,4 +29,4 @@ bool has_extension(VkPhysicalDevice, const char* name);
 /// Whether a queue family is for graphics and compute.
 bool is_queue_family(VkPhysicalDevice, uint32_t family);
 
-}  // namespace vesper
+}  // namespace vesper::gpu

@@ -12,7 +12,7 @@
 
 #include "base/error.h"
 
-namespace vesper {
+namespace vesper::gpu {
 namespace {
 
 // The parts of the SPIR-V specification (unified1) that are read.
@@ -326,4 +326,4 @@ KernelInterface read_interface(const std::string& name, std::span<const uint32_t
 
 std::vector<BlockMember> block_members(std::span<const uint32_t> spirv) { return Module(spirv).members(); }
 
-}  // namespace vesper
+}  // namespace vesper::gpu

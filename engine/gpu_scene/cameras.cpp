@@ -7,14 +7,14 @@
 
 #include "base/error.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 namespace {
 
-Bounds world_bounds(const Scene& scene, const SceneFrame& frame) {
-    Bounds bounds;
+scene::Bounds world_bounds(const scene::Scene& scene, const SceneFrame& frame) {
+    scene::Bounds bounds;
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
-        if (scene.nodes[i].mesh == kNone) continue;
-        for (const Primitive& primitive : scene.meshes[scene.nodes[i].mesh].primitives) {
+        if (scene.nodes[i].mesh == scene::kNone) continue;
+        for (const scene::Primitive& primitive : scene.meshes[scene.nodes[i].mesh].primitives) {
             if (primitive.bounds.empty()) continue;
             for (int corner = 0; corner < 8; ++corner) {
                 const glm::vec3 c(corner & 1 ? primitive.bounds.high.x : primitive.bounds.low.x,
@@ -27,9 +27,9 @@ Bounds world_bounds(const Scene& scene, const SceneFrame& frame) {
     return bounds;
 }
 
-View framing_view(const Scene& scene, const SceneFrame& frame, VkExtent2D extent) {
+View framing_view(const scene::Scene& scene, const SceneFrame& frame, VkExtent2D extent) {
     constexpr float kFov = 0.6435f;  // rad, the default of Camera
-    Bounds bounds = world_bounds(scene, frame);
+    scene::Bounds bounds = world_bounds(scene, frame);
     if (bounds.empty()) bounds.add({-1, -1, -1}), bounds.add({1, 1, 1});
     const glm::vec3 centre = (bounds.low + bounds.high) * 0.5f;
     const float radius = std::max(1e-3f, glm::length(bounds.high - centre));
@@ -53,18 +53,18 @@ glm::dmat4 view_from(const glm::dmat4& world) {
 
 }  // namespace
 
-std::vector<std::string> camera_names(const Scene& scene) {
+std::vector<std::string> camera_names(const scene::Scene& scene) {
     std::vector<std::string> names;
-    for (const Node& node : scene.nodes)
-        if (node.camera != kNone)
+    for (const scene::Node& node : scene.nodes)
+        if (node.camera != scene::kNone)
             names.push_back(scene.cameras[node.camera].name.empty() ? node.name : scene.cameras[node.camera].name);
     return names;
 }
 
-View camera_view(const Scene& scene, const SceneFrame& frame, const std::string& name, VkExtent2D extent) {
+View camera_view(const scene::Scene& scene, const SceneFrame& frame, const std::string& name, VkExtent2D extent) {
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
-        if (scene.nodes[i].camera == kNone) continue;
-        const Camera& camera = scene.cameras[scene.nodes[i].camera];
+        if (scene.nodes[i].camera == scene::kNone) continue;
+        const scene::Camera& camera = scene.cameras[scene.nodes[i].camera];
         if (!name.empty() && name != camera.name && name != scene.nodes[i].name) continue;
         return View::symmetric(extent, camera.vertical_fov, view_from(frame.world[i]), camera.near);
     }
@@ -75,4 +75,4 @@ View camera_view(const Scene& scene, const SceneFrame& frame, const std::string&
                 (known.empty() ? "none" : known));
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace vesper {
+namespace vesper::gpu_scene {
 namespace {
 
 constexpr uint32_t kMantissaBits = 23;
@@ -11,8 +11,8 @@ constexpr float kNever = 2;                      // no light is
 constexpr uint32_t kMinBits = 4, kMaxBits = 12;  // of the mantissa that tell cells apart
 
 /// Displayed light from which on the code is i + 1 or more, ascending: that of a code half a step below it.
-std::vector<float> thresholds_of(const Display& display) {
-    const DisplayCurve curve(display);
+std::vector<float> thresholds_of(const vision::Display& display) {
+    const vision::DisplayCurve curve(display);
     const double black = double(display.black), peak = double(display.peak), largest = display.largest_code();
     std::vector<float> thresholds;
     for (double code = 0.5; code < largest; ++code) {
@@ -50,7 +50,7 @@ Encoding cells_of(const std::vector<float>& thresholds, uint32_t mantissa, bool&
 
 }  // namespace
 
-Encoding make_encoding(const Display& display) {
+Encoding make_encoding(const vision::Display& display) {
     const std::vector<float> thresholds = thresholds_of(display);
     Encoding made;
     bool exact = false;
@@ -60,4 +60,4 @@ Encoding make_encoding(const Display& display) {
     return made;
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

@@ -8,13 +8,13 @@
 #include "shared/encode.h"
 #include "vision/display.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 
 /// Cells of displayed light and how they are found, see shared/encode.h.
 struct Encoding {
     std::vector<glm::vec4> cells;  ///< texels, rgba32f
     shared::EncodePush push;
 };
-Encoding make_encoding(const Display&);
+Encoding make_encoding(const vision::Display&);
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

@@ -7,17 +7,18 @@
 #include "shared/corona.h"
 #include "shared/tone.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 
-static_assert(GlarePattern::kColumns == int(shared::kPatternColumns) &&
-              GlarePattern::kRows == int(shared::kPatternRows) && GlarePattern::kReach == int(shared::kPatternReach));
+static_assert(vision::GlarePattern::kColumns == int(shared::kPatternColumns) &&
+              vision::GlarePattern::kRows == int(shared::kPatternRows) &&
+              vision::GlarePattern::kReach == int(shared::kPatternReach));
 
-std::vector<glm::vec4> corona_texels(const GlarePattern& pattern) {
+std::vector<glm::vec4> corona_texels(const vision::GlarePattern& pattern) {
     constexpr size_t kColumns = shared::kPatternColumns, kStride = shared::kPatternStride;
     constexpr int kRows = int(shared::kPatternRows);
     std::vector<glm::vec4> texels(size_t(kRows) * kStride);
     for (int row = 0; row < kRows; ++row) {
-        const auto angle = float(GlarePattern::angle(row + 0.5)), square = angle * angle;
+        const auto angle = float(vision::GlarePattern::angle(row + 0.5)), square = angle * angle;
         const glm::vec3 ring = square * pattern.ring[size_t(row)], needles = square * pattern.needles[size_t(row)];
         glm::vec4* at = &texels[size_t(row) * kStride];
         for (size_t i = 0; i < kColumns; ++i)
@@ -49,17 +50,17 @@ std::vector<glm::vec4> corona_texels(const GlarePattern& pattern) {
 const Corona& CoronaCache::at(const ScatterSettings& settings, double pupil, double seconds) {
     const bool moves = settings.model == ScatterSettings::Model::Temporal;
     const double rest = pupil > 0 ? pupil : double(shared::kFirstPupil);
-    const Moment moment{settings, moves ? restless_pupil(rest, seconds, settings.aperture.seed) : 0,
+    const Moment moment{settings, moves ? vision::restless_pupil(rest, seconds, settings.aperture.seed) : 0,
                         moves ? seconds : 0};
     corona_.milliseconds = 0;
     if (moment_ == moment) return corona_;
     const Stopwatch watch;
-    const EyeScatter smooth = eye_scatter(settings);
+    const vision::EyeScatter smooth = eye_scatter(settings);
     if (moves) {
         if (!aperture_ || !(moment_->settings.aperture == settings.aperture)) aperture_.emplace(settings.aperture);
-        corona_.texels = corona_texels(temporal_pattern(smooth, *aperture_, moment.pupil, seconds));
+        corona_.texels = corona_texels(vision::temporal_pattern(smooth, *aperture_, moment.pupil, seconds));
     } else {
-        corona_.texels = corona_texels(spencer_pattern(smooth, settings.state, settings.aperture.seed));
+        corona_.texels = corona_texels(vision::spencer_pattern(smooth, settings.state, settings.aperture.seed));
     }
     corona_.pupil = moment.pupil;
     corona_.milliseconds = watch.milliseconds();
@@ -67,4 +68,4 @@ const Corona& CoronaCache::at(const ScatterSettings& settings, double pupil, dou
     return corona_;
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

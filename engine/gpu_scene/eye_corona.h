@@ -9,7 +9,7 @@
 #include "gpu_scene/eye_scatter.h"
 #include "vision/glare_pattern.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 
 /// What the eye has about a lamp in a frame.
 struct Corona {
@@ -19,7 +19,7 @@ struct Corona {
 };
 
 /// The texels of a pattern, with its means.
-std::vector<glm::vec4> corona_texels(const GlarePattern&);
+std::vector<glm::vec4> corona_texels(const vision::GlarePattern&);
 
 /// Makes the pattern of each frame, or keeps that of the last one.
 class CoronaCache {
@@ -34,8 +34,8 @@ private:
         bool operator==(const Moment&) const = default;
     };
     std::optional<Moment> moment_;
-    std::optional<EyeAperture> aperture_;
+    std::optional<vision::EyeAperture> aperture_;
     Corona corona_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

@@ -8,15 +8,16 @@
 #include "shared/eye_scatter.h"
 #include "vision/glare_pattern.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 namespace {
 
 using glm::dvec2, glm::dvec3;
 
-static_assert(kScatterMargin == int(shared::kScatterUpMargin) && kScatterReach == int(shared::kScatterDownMargin));
+static_assert(vision::kScatterMargin == int(shared::kScatterUpMargin) &&
+              vision::kScatterReach == int(shared::kScatterDownMargin));
 
 // Taps of all levels, each in texels of its own.
-std::vector<glm::vec4> padded_taps(const ScatterFit& fit) {
+std::vector<glm::vec4> padded_taps(const vision::ScatterFit& fit) {
     const auto taps = size_t(fit.taps());
     std::vector<glm::vec4> texels;
     for (size_t first = 0; first < fit.kernels.size(); first += taps)
@@ -38,23 +39,26 @@ std::vector<glm::vec4> transposed(const std::vector<float>& matrix, size_t rows)
 
 }  // namespace
 
-EyeScatter eye_scatter(const ScatterSettings& settings) {
+vision::EyeScatter eye_scatter(const ScatterSettings& settings) {
     if (settings.model == ScatterSettings::Model::Spencer)
-        return EyeScatter([state = settings.state](double theta) { return spencer_veil(theta, state); });
-    if (settings.model == ScatterSettings::Model::Ward) return EyeScatter(ward_veil);
-    return EyeScatter([eye = settings.eye](double theta) { return cie_total_glare(theta, eye); });
+        return vision::EyeScatter(
+            [state = settings.state](double theta) { return vision::spencer_veil(theta, state); });
+    if (settings.model == ScatterSettings::Model::Ward) return vision::EyeScatter(vision::ward_veil);
+    return vision::EyeScatter([eye = settings.eye](double theta) { return vision::cie_total_glare(theta, eye); });
 }
 
-glm::ivec2 scatter_down_strip(const Device& device) { return device.is_cpu() ? glm::ivec2(4, 32) : glm::ivec2(1, 2); }
+glm::ivec2 scatter_down_strip(const gpu::Device& device) {
+    return device.is_cpu() ? glm::ivec2(4, 32) : glm::ivec2(1, 2);
+}
 
-GpuScatter::GpuScatter(const Device& device, const ScatterSettings& settings, const ImageAngles& image)
+GpuScatter::GpuScatter(const gpu::Device& device, const ScatterSettings& settings, const vision::ImageAngles& image)
     : settings_(settings), image_(image), psf_(eye_scatter(settings)), arena_(device) {
-    const ScatterFit fit = fit_scatter(psf_, image, scatter_down_strip(device));
+    const vision::ScatterFit fit = vision::fit_scatter(psf_, image, scatter_down_strip(device));
     levels_ = fit.levels;
     reach_ = fit.reach;
     nodes_ = fit.nodes;
     edge_x_ = fit.edge.x, edge_y_ = fit.edge.y;
-    const auto upload = [&](const auto& values, OwnedBuffer& buffer) {
+    const auto upload = [&](const auto& values, gpu::OwnedBuffer& buffer) {
         const auto bytes = std::as_bytes(std::span(values));
         buffer = upload_buffer(device, arena_, bytes, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
         return Texels{buffer.get(), bytes.size()};
@@ -67,11 +71,11 @@ GpuScatter::GpuScatter(const Device& device, const ScatterSettings& settings, co
 std::vector<glm::vec4> GpuScatter::lamps_of(int level, const std::vector<OffscreenLamp>& lamps) const {
     std::vector<glm::vec4> texels;
     for (const OffscreenLamp& lamp : lamps) {
-        const std::optional<ScatterEntry> entry = scatter_entry(image_, lamp.direction);
+        const std::optional<vision::ScatterEntry> entry = vision::scatter_entry(image_, lamp.direction);
         if (!entry || entry->level != level) continue;
         // Luminance of a pixel there, times the part of a texel that the pixel is.
         const dvec2 pixel = image_.pixel();
-        const double solid_angle = pixel.x * pixel.y * steradians_per_area(entry->tangents);
+        const double solid_angle = pixel.x * pixel.y * vision::steradians_per_area(entry->tangents);
         texels.emplace_back(entry->pixels / std::exp2(level), 0, 0);
         texels.emplace_back(lamp.illuminance / (solid_angle * std::exp2(2 * level)), 0);
     }
@@ -81,14 +85,14 @@ std::vector<glm::vec4> GpuScatter::lamps_of(int level, const std::vector<Offscre
 std::vector<glm::vec4> GpuScatter::far_veil(const std::vector<OffscreenLamp>& lamps) const {
     std::vector<OffscreenLamp> far;
     for (const OffscreenLamp& lamp : lamps)
-        if (lamp.direction.z < 0 && !scatter_entry(image_, lamp.direction))
+        if (lamp.direction.z < 0 && !vision::scatter_entry(image_, lamp.direction))
             far.push_back({glm::normalize(lamp.direction), lamp.illuminance});
-    const glm::ivec2 rows = scatter_size(image_, levels_) + 2 * kScatterReach;
+    const glm::ivec2 rows = vision::scatter_size(image_, levels_) + 2 * vision::kScatterReach;
     std::vector<glm::vec4> veil(size_t(rows.x * rows.y), glm::vec4(0));
     for (int y = 0; y < rows.y && !far.empty(); ++y)
         for (int x = 0; x < rows.x; ++x) {
-            const dvec3 to =
-                glm::normalize(dvec3(image_.at(std::exp2(levels_) * (dvec2(x, y) - double(kScatterReach) + 0.5)), -1));
+            const dvec3 to = glm::normalize(
+                dvec3(image_.at(std::exp2(levels_) * (dvec2(x, y) - double(vision::kScatterReach) + 0.5)), -1));
             dvec3 sum(0);
             for (const OffscreenLamp& lamp : far) {
                 const double theta =
@@ -101,7 +105,7 @@ std::vector<glm::vec4> GpuScatter::far_veil(const std::vector<OffscreenLamp>& la
 }
 
 const GpuScatter& ScatterCache::at(const ScatterSettings& settings, const View& view) {
-    const ImageAngles image = angles_of(view);
+    const vision::ImageAngles image = angles_of(view);
     const auto known = std::find_if(fits_.begin(), fits_.end(), [&](const GpuScatter& fit) {
         return fit.settings() == settings && fit.image() == image;
     });
@@ -120,4 +124,4 @@ bool ScatterCache::has(const ScatterSettings& settings, const View& view) const 
     });
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

@@ -9,15 +9,15 @@
 #include "vision/eye_aperture.h"
 #include "vision/scatter_fit.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 
 /// Which published function scatters, and in whose eye.
 struct ScatterSettings {
     enum class Model : uint8_t { Cie, Spencer, Ward, Temporal };
     Model model = Model::Cie;
-    ScatteringEye eye;                            ///< CIE; Temporal, whose mean it is
-    SpencerState state = SpencerState::Photopic;  ///< Spencer
-    ApertureSettings aperture;                    ///< Temporal; Spencer's needles have its seed
+    vision::ScatteringEye eye;                                    ///< CIE; Temporal, whose mean it is
+    vision::SpencerState state = vision::SpencerState::Photopic;  ///< Spencer
+    vision::ApertureSettings aperture;                            ///< Temporal; Spencer's needles have its seed
 
     /// Whether bright lamps have needles and a halo (vision/glare_pattern.h).
     bool has_corona() const { return model == Model::Spencer || model == Model::Temporal; }
@@ -25,9 +25,9 @@ struct ScatterSettings {
 };
 
 /// What is smooth of the function.
-EyeScatter eye_scatter(const ScatterSettings&);
+vision::EyeScatter eye_scatter(const ScatterSettings&);
 /// Texels that one invocation of scatter_down.comp does; of rows at most so many.
-glm::ivec2 scatter_down_strip(const Device&);
+glm::ivec2 scatter_down_strip(const gpu::Device&);
 
 /// Light of a lamp outside of the picture, which is not in its pixels. It scatters nothing from behind the plane of the
 /// eye.
@@ -39,7 +39,7 @@ struct OffscreenLamp {
 /// The fit of one function to one view, on the device.
 class GpuScatter {
 public:
-    GpuScatter(const Device&, const ScatterSettings&, const ImageAngles&);
+    GpuScatter(const gpu::Device&, const ScatterSettings&, const vision::ImageAngles&);
 
     /// A buffer of texels.
     struct Texels {
@@ -47,12 +47,12 @@ public:
         uint64_t bytes;
     };
     const ScatterSettings& settings() const { return settings_; }
-    const ImageAngles& image() const { return image_; }
+    const vision::ImageAngles& image() const { return image_; }
     int levels() const { return levels_; }
     int reach() const { return reach_; }
     glm::ivec2 nodes() const { return nodes_; }
-    const EdgeLight::Axis& edge_x() const { return edge_x_; }
-    const EdgeLight::Axis& edge_y() const { return edge_y_; }
+    const vision::EdgeLight::Axis& edge_x() const { return edge_x_; }
+    const vision::EdgeLight::Axis& edge_y() const { return edge_y_; }
     Texels taps() const { return taps_texels_; }  ///< rgba32f, node by node, level by level (shared/eye_scatter.h)
     Texels edge() const { return edge_texels_; }  ///< r32f, EdgeLight::kept
     Texels top() const { return top_texels_; }    ///< rgba32f, for each texel that gives those that take, by four
@@ -65,13 +65,13 @@ public:
 
 private:
     ScatterSettings settings_;
-    ImageAngles image_;
-    EyeScatter psf_;
-    int levels_ = 1, reach_ = kTapReach;
-    EdgeLight::Axis edge_x_, edge_y_;
+    vision::ImageAngles image_;
+    vision::EyeScatter psf_;
+    int levels_ = 1, reach_ = vision::kTapReach;
+    vision::EdgeLight::Axis edge_x_, edge_y_;
     glm::ivec2 nodes_{2};
-    Arena arena_;
-    OwnedBuffer taps_, top_, edge_;
+    gpu::Arena arena_;
+    gpu::OwnedBuffer taps_, top_, edge_;
     Texels taps_texels_{}, top_texels_{}, edge_texels_{};
 };
 
@@ -79,15 +79,15 @@ private:
 class ScatterCache {
 public:
     /// Of `most` views.
-    explicit ScatterCache(const Device& device, size_t most = 1) : device_(&device), most_(most) {}
+    explicit ScatterCache(const gpu::Device& device, size_t most = 1) : device_(&device), most_(most) {}
     const GpuScatter& at(const ScatterSettings&, const View&);
     /// Whether at() would give one that there is.
     bool has(const ScatterSettings&, const View&) const;
 
 private:
-    const Device* device_;
+    const gpu::Device* device_;
     size_t most_;
     std::list<GpuScatter> fits_;  // the last one first
 };
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

@@ -11,7 +11,7 @@
 #include "shared/retro.h"
 #include "shared/shade.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 namespace {
 
 template <class T>
@@ -24,20 +24,21 @@ struct InDiffuse {
     float reflectance, plain;
 };
 
-std::vector<InDiffuse> in_diffuse(const Scene& scene) {
+std::vector<InDiffuse> in_diffuse(const scene::Scene& scene) {
     std::vector<InDiffuse> roads;
     for (size_t i = 0; i < scene.reflection_tables.size(); ++i) {
-        const ReflectionTable table = rendered_table(scene, i);
-        roads.push_back({reflectance_in_diffuse(table), float(diffuse_luminance_coefficient(without_sheen(table)) /
-                                                              diffuse_luminance_coefficient(table))});
+        const photometry::ReflectionTable table = rendered_table(scene, i);
+        roads.push_back({reflectance_in_diffuse(table),
+                         float(photometry::diffuse_luminance_coefficient(photometry::without_sheen(table)) /
+                               photometry::diffuse_luminance_coefficient(table))});
     }
     return roads;
 }
 
 // A road with a table as the G-buffer holds it (shared/shade.h): the table says how much it reflects, the texture only
 // and colours of vertices only where there is more and where less than in the mean of the surfaces that show it.
-Material as_road(const Scene& scene, InDiffuse road, const MaterialUse& use, Material m) {
-    const double mean = mean_reflectance(scene, m, use);
+scene::Material as_road(const scene::Scene& scene, InDiffuse road, const scene::MaterialUse& use, scene::Material m) {
+    const double mean = scene::mean_reflectance(scene, m, use);
     const glm::vec3 colour = mean > 0 ? glm::vec3(glm::dvec3(m.base_colour) / mean) : glm::vec3(1);
     m.base_colour = glm::vec4(colour * road.reflectance, m.base_colour.a);
     m.metallic = shared::kRoadKind - float(m.reflection_table);
@@ -47,7 +48,7 @@ Material as_road(const Scene& scene, InDiffuse road, const MaterialUse& use, Mat
 }
 
 // A retroreflective surface as the G-buffer holds it (shared/retro.h).
-Material as_sheet(Material m) {
+scene::Material as_sheet(scene::Material m) {
     m.metallic = shared::kRetroCode + float(m.retroreflector);
     m.roughness = std::min(m.roughness, 0.999f);  // not matt: lamps count by what they give a surface facing them
     m.metallic_roughness_texture = {};
@@ -66,11 +67,12 @@ Sphere sphere_of(const GpuScene::Part& part, const glm::mat4& m) {
     return {glm::vec3(m * glm::vec4(part.centre, 1)), part.radius * largest_stretch(m)};
 }
 
-OwnedBuffer upload_buffer(const Device& device, Arena& arena, std::span<const std::byte> bytes,
-                          VkBufferUsageFlags usage) {
-    OwnedBuffer buffer = make_buffer(device, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+gpu::OwnedBuffer upload_buffer(const gpu::Device& device, gpu::Arena& arena, std::span<const std::byte> bytes,
+                               VkBufferUsageFlags usage) {
+    gpu::OwnedBuffer buffer = gpu::make_buffer(device, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     arena.bind(buffer.get());
-    const HostBuffer staging(device, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostBuffer::Direction::ToDevice);
+    const gpu::HostBuffer staging(device, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                  gpu::HostBuffer::Direction::ToDevice);
     std::memcpy(staging.data(), bytes.data(), bytes.size());
     staging.flush();
     device.run_once([&](VkCommandBuffer commands) {
@@ -80,7 +82,7 @@ OwnedBuffer upload_buffer(const Device& device, Arena& arena, std::span<const st
     return buffer;
 }
 
-GpuScene::GpuScene(const Device& device, const Scene& scene, PictureFormat pictures)
+GpuScene::GpuScene(const gpu::Device& device, const scene::Scene& scene, PictureFormat pictures)
     : arena_(device), textures_(device, arena_, pictures) {
     const Budget budget("preparing " + (scene.name.empty() ? "the scene" : one_line(scene.name)));
     upload_geometry(device, scene);
@@ -88,19 +90,20 @@ GpuScene::GpuScene(const Device& device, const Scene& scene, PictureFormat pictu
     make_surfaces(scene);
 }
 
-void GpuScene::upload_geometry(const Device& device, const Scene& scene) {
-    std::vector<Vertex> vertices;
+void GpuScene::upload_geometry(const gpu::Device& device, const scene::Scene& scene) {
+    std::vector<scene::Vertex> vertices;
     std::vector<uint32_t> indices;
-    for (const Mesh& mesh : scene.meshes) {
+    for (const scene::Mesh& mesh : scene.meshes) {
         mesh_parts_.emplace_back(uint32_t(parts_.size()), uint32_t(mesh.primitives.size()));
-        for (const Primitive& primitive : mesh.primitives) {
+        for (const scene::Primitive& primitive : mesh.primitives) {
             const glm::vec3 centre =
                 primitive.bounds.empty() ? glm::vec3(0) : (primitive.bounds.low + primitive.bounds.high) * 0.5f;
             const float radius = primitive.bounds.empty() ? 0 : glm::length(primitive.bounds.high - centre);
             parts_.push_back({primitive.material, uint32_t(indices.size()), uint32_t(primitive.indices.size()),
                               int32_t(vertices.size()), centre, radius});
             // On the device, and on the way there.
-            spend(2 * (primitive.vertices.size() * sizeof(Vertex) + primitive.indices.size() * sizeof(uint32_t)));
+            spend(2 *
+                  (primitive.vertices.size() * sizeof(scene::Vertex) + primitive.indices.size() * sizeof(uint32_t)));
             vertices.insert(vertices.end(), primitive.vertices.begin(), primitive.vertices.end());
             indices.insert(indices.end(), primitive.indices.begin(), primitive.indices.end());
         }
@@ -110,30 +113,31 @@ void GpuScene::upload_geometry(const Device& device, const Scene& scene) {
     indices_ = upload_buffer(device, arena_, bytes_of(indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
 }
 
-void GpuScene::place(const Scene& scene) {
+void GpuScene::place(const scene::Scene& scene) {
     for (uint32_t i = 0; i < scene.nodes.size(); ++i) {
-        if (scene.nodes[i].mesh == kNone) continue;
+        if (scene.nodes[i].mesh == scene::kNone) continue;
         const auto [first, count] = mesh_parts_[scene.nodes[i].mesh];
         placements_.push_back({i, first, count});
         for (uint32_t p = first; p < first + count; ++p) triangles_ += parts_[p].index_count / 3;
     }
 }
 
-void GpuScene::make_surfaces(const Scene& scene) {
+void GpuScene::make_surfaces(const scene::Scene& scene) {
     const std::vector<InDiffuse> roads = in_diffuse(scene);
-    const std::vector<MaterialUse> uses = roads.empty() ? std::vector<MaterialUse>{} : material_uses(scene);
+    const std::vector<scene::MaterialUse> uses =
+        roads.empty() ? std::vector<scene::MaterialUse>{} : scene::material_uses(scene);
     for (size_t i = 0; i < scene.materials.size(); ++i) {
-        const Material& stated = scene.materials[i];
-        Material m = stated.reflection_table != kNone
-                         ? as_road(scene, roads.at(stated.reflection_table), uses[i], stated)
-                     : stated.retroreflector != kNone ? as_sheet(stated)
-                                                      : stated;
+        const scene::Material& stated = scene.materials[i];
+        scene::Material m = stated.reflection_table != scene::kNone
+                                ? as_road(scene, roads.at(stated.reflection_table), uses[i], stated)
+                            : stated.retroreflector != scene::kNone ? as_sheet(stated)
+                                                                    : stated;
         // Opacity passes through half floats, which may be half a step (2^-11 of the value) less than the code said.
         m.alpha_cutoff *= 1 - 0x1p-11f;
-        const bool masks = m.alpha == Material::Alpha::Mask && m.alpha_cutoff > 0 && m.base_colour.a > 0;
+        const bool masks = m.alpha == scene::Material::Alpha::Mask && m.alpha_cutoff > 0 && m.base_colour.a > 0;
         const float cutoff = masks ? m.alpha_cutoff / m.base_colour.a : 0;  // of the texture
         float unit = 1;
-        const VkDescriptorImageInfo emission = m.emission_picture.image != kNone
+        const VkDescriptorImageInfo emission = m.emission_picture.image != scene::kNone
                                                    ? textures_.get_picture(scene, m.emission_picture, unit)
                                                    : textures_.get(scene, m.emission_texture, Decode::Srgb);
         m.emission *= unit;
@@ -155,4 +159,4 @@ float GpuScene::farthest_depth(const SceneFrame& frame, const View& view) const 
     return farthest;
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

@@ -10,7 +10,7 @@
 #include "scene/scene.h"
 #include "scene/tunnel.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 
 /// Light that comes from no lamp.
 struct AmbientLight {
@@ -23,7 +23,7 @@ struct SceneFrame {
     std::vector<glm::dmat4> world;        ///< per node, see world_transforms
     std::vector<float> dimming;           ///< per node, factor on the intensity of its lamp, >= 0; empty: 1 everywhere
     std::optional<AmbientLight> ambient;  ///< in place of the scene's
-    std::vector<Tunnel> tunnels;          ///< that it does not reach into
+    std::vector<scene::Tunnel> tunnels;   ///< that it does not reach into
 
     float dimming_of(uint32_t node) const { return dimming.empty() ? 1 : dimming[node]; }
 };
@@ -45,11 +45,11 @@ public:
         uint32_t first_part, part_count;
     };
     struct Surface {
-        Material material;
+        scene::Material material;
         VkDescriptorImageInfo textures[3];  ///< base colour, metallic-roughness, emission
     };
 
-    GpuScene(const Device& device, const Scene& scene, PictureFormat pictures = PictureFormat::Float);
+    GpuScene(const gpu::Device& device, const scene::Scene& scene, PictureFormat pictures = PictureFormat::Float);
 
     const std::vector<Part>& parts() const { return parts_; }
     const std::vector<Placement>& placements() const { return placements_; }
@@ -62,12 +62,12 @@ public:
     uint64_t bytes() const { return arena_.bytes(); }  ///< of device memory
 
 private:
-    void upload_geometry(const Device& device, const Scene& scene);
-    void place(const Scene& scene);
-    void make_surfaces(const Scene& scene);
+    void upload_geometry(const gpu::Device& device, const scene::Scene& scene);
+    void place(const scene::Scene& scene);
+    void make_surfaces(const scene::Scene& scene);
 
-    Arena arena_;
-    OwnedBuffer vertices_, indices_;
+    gpu::Arena arena_;
+    gpu::OwnedBuffer vertices_, indices_;
     TextureStore textures_;
     std::vector<Part> parts_;
     std::vector<std::pair<uint32_t, uint32_t>> mesh_parts_;  // first part and number of parts of each mesh
@@ -84,7 +84,7 @@ struct Sphere {
 Sphere sphere_of(const GpuScene::Part& part, const glm::mat4& transform);
 
 /// Copies bytes into a new device-local buffer, by way of a host buffer, and waits.
-OwnedBuffer upload_buffer(const Device& device, Arena& arena, std::span<const std::byte> bytes,
-                          VkBufferUsageFlags usage);
+gpu::OwnedBuffer upload_buffer(const gpu::Device& device, gpu::Arena& arena, std::span<const std::byte> bytes,
+                               VkBufferUsageFlags usage);
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

@@ -10,8 +10,10 @@
 #include "base/error.h"
 #include "shared/tables.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 namespace {
+
+using photometry::Goniometry;
 
 constexpr size_t kMostTexels = size_t(1) << 24;  // a float counts them exactly
 constexpr int64_t kUnit = 1000;                  // nodes are whole multiples of 1/1000 degree, or of tan(gamma)
@@ -66,7 +68,7 @@ struct Range {
     bool around, to_start, to_end;  // azimuth is periodic; the pole, and its opposite, are in the range
 };
 
-Range range_of(const Distribution& d) {
+Range range_of(const photometry::Distribution& d) {
     std::vector<double> azimuth, polar;
     switch (d.goniometry) {
         case Goniometry::CGamma:
@@ -90,7 +92,7 @@ Range range_of(const Distribution& d) {
 // Values at the nodes; beyond them what goes on around, stays at a pole, or is nothing.
 class Grid {
 public:
-    Grid(const Distribution& d, const Range& range, double largest) : range_(range) {
+    Grid(const photometry::Distribution& d, const Range& range, double largest) : range_(range) {
         // A node at the very end of the file's range must not fall outside it by rounding.
         const auto within = [](double value, const Nodes& nodes) {
             const double margin = 1e-9 * (nodes.at(nodes.count - 1) - nodes.low);
@@ -99,10 +101,10 @@ public:
         for (uint32_t i = 0; i < range.azimuth.count; ++i)
             for (uint32_t j = 0; j < range.polar.count; ++j)
                 values_.push_back(float(
-                    intensity(d,
-                              direction(d.goniometry,
-                                        range.around ? range.azimuth.at(i) : within(range.azimuth.at(i), range.azimuth),
-                                        within(range.polar.at(j), range.polar))) /
+                    photometry::intensity(
+                        d, direction(d.goniometry,
+                                     range.around ? range.azimuth.at(i) : within(range.azimuth.at(i), range.azimuth),
+                                     within(range.polar.at(j), range.polar))) /
                     largest));
     }
 
@@ -193,9 +195,9 @@ void append_windows(const Bins& bins, std::vector<glm::vec4>& texels) {
         for (size_t i = 0; i < row.size(); i += 4) texels.emplace_back(row[i], row[i + 1], row[i + 2], row[i + 3]);
 }
 
-IntensityTables::Intensities add_intensities(const Distribution& d, std::vector<glm::vec4>& texels) {
+IntensityTables::Intensities add_intensities(const photometry::Distribution& d, std::vector<glm::vec4>& texels) {
     IntensityTables::Intensities table;
-    const double largest = largest_intensity(d);
+    const double largest = photometry::largest_intensity(d);
     table.largest = float(largest), table.goniometry = d.goniometry;
     if (!(largest > 0)) return table;
     const Range range = range_of(d);
@@ -223,7 +225,7 @@ IntensityTables::Intensities add_intensities(const Distribution& d, std::vector<
 }
 
 // Adds the cells of a table, `budget` of them at most, and returns what its head says.
-glm::vec4 add_road(const ReflectionTable& table, size_t budget, std::vector<glm::vec4>& texels) {
+glm::vec4 add_road(const photometry::ReflectionTable& table, size_t budget, std::vector<glm::vec4>& texels) {
     const auto nodes = [](const std::vector<double>& values, uint32_t most) {
         const double finest = values.back() * kUnit / most;
         return nodes_of(values, 0, values.back(), {finest, finest});
@@ -240,7 +242,8 @@ glm::vec4 add_road(const ReflectionTable& table, size_t budget, std::vector<glm:
     const double last = table.tan_gamma.back();
     const double scale = std::numbers::pi / reflectance_in_diffuse(table);
     const auto value = [&](uint32_t t, uint32_t b) {
-        return float(scale * reduced_luminance_coefficient(table, std::min(tan_gamma.at(t), last), beta.at(b)));
+        return float(scale *
+                     photometry::reduced_luminance_coefficient(table, std::min(tan_gamma.at(t), last), beta.at(b)));
     };
     const glm::vec4 head(cells.x / last, last, cells.y / std::numbers::pi, texels.size());
     for (uint32_t t = 0; t < cells.x; ++t)
@@ -251,26 +254,27 @@ glm::vec4 add_road(const ReflectionTable& table, size_t budget, std::vector<glm:
 
 }  // namespace
 
-ReflectionTable rendered_table(const Scene& scene, size_t index) {
-    const ReflectionTable& table = scene.reflection_tables.at(index);
-    return scene.beyond_tables ? extended(table) : table;
+photometry::ReflectionTable rendered_table(const scene::Scene& scene, size_t index) {
+    const photometry::ReflectionTable& table = scene.reflection_tables.at(index);
+    return scene.beyond_tables ? photometry::extended(table) : table;
 }
 
-float reflectance_in_diffuse(const ReflectionTable& rendered) {
+float reflectance_in_diffuse(const photometry::ReflectionTable& rendered) {
     // Normal numbers of half floats: a table that is darker or brighter than any road is as the texels say, which are
     // relative to this.
-    const double wanted = std::clamp(std::numbers::pi * diffuse_luminance_coefficient(rendered), 0x1p-14, 65504.0);
+    const double wanted =
+        std::clamp(std::numbers::pi * photometry::diffuse_luminance_coefficient(rendered), 0x1p-14, 65504.0);
     return glm::unpackHalf1x16(glm::packHalf1x16(float(wanted)));
 }
 
-IntensityTables intensity_tables(const Scene& scene) {
+IntensityTables intensity_tables(const scene::Scene& scene) {
     IntensityTables tables;
     const auto check_size = [&] {
         if (tables.texels.size() > kMostTexels)
             throw Error("the scene's light distributions need more than " + std::to_string(kMostTexels) +
                         " texels in all");
     };
-    for (const Distribution& d : scene.distributions)
+    for (const photometry::Distribution& d : scene.distributions)
         tables.intensities.push_back(add_intensities(d, tables.texels)), check_size();
     if (const size_t count = scene.reflection_tables.size()) {
         tables.roads = uint32_t(tables.texels.size());
@@ -283,4 +287,4 @@ IntensityTables intensity_tables(const Scene& scene) {
     return tables;
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

@@ -8,13 +8,13 @@
 #include "photometry/reflection_table.h"
 #include "scene/scene.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 
 /// Every table of a scene, in one buffer of texels. Tables are shared: a thousand lamps of one make need one.
 struct IntensityTables {
     struct Intensities {
         float largest = 0;  ///< cd, what the values are relative to
-        Goniometry goniometry = Goniometry::CGamma;
+        photometry::Goniometry goniometry = photometry::Goniometry::CGamma;
         uint32_t first = 0;   ///< texel of the first cell; shared::kWindowTexels before it are those of its windows
         glm::uvec2 cells{0};  ///< of azimuth and of the angle from the pole, those outside the range included
         glm::dvec2 low{0}, step{1};  ///< angles of the first node, rad, and between nodes
@@ -28,12 +28,12 @@ struct IntensityTables {
 /// Grids whose nodes include every angle of the file, so that the interpolation between them is the file's own and
 /// nothing is lost but what floats round. A file whose angles have no common divisor of at least 0.02 degrees gets
 /// nodes 0.1 degrees apart; a road's table whose nodes have none gets nodes kMostRoadCells to its range.
-IntensityTables intensity_tables(const Scene& scene);
+IntensityTables intensity_tables(const scene::Scene& scene);
 
 /// A reflection table as it is rendered.
-ReflectionTable rendered_table(const Scene& scene, size_t index);
+photometry::ReflectionTable rendered_table(const scene::Scene& scene, size_t index);
 /// pi Qd, what a road reflects of light from all sides, as a half float: the G-buffer holds it, and tables are relative
 /// to it.
-float reflectance_in_diffuse(const ReflectionTable& rendered);
+float reflectance_in_diffuse(const photometry::ReflectionTable& rendered);
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

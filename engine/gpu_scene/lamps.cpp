@@ -4,16 +4,16 @@
 
 #include "scene/lamp.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 namespace {
 
-int order(Lamp::Kind kind) {
+int order(scene::Lamp::Kind kind) {
     switch (kind) {
-        case Lamp::Kind::CosinePower:
+        case scene::Lamp::Kind::CosinePower:
             return 1;
-        case Lamp::Kind::Measured:
+        case scene::Lamp::Kind::Measured:
             return 2;
-        case Lamp::Kind::Directional:
+        case scene::Lamp::Kind::Directional:
             return 3;
         default:
             return 0;
@@ -30,13 +30,13 @@ glm::vec3 unit(glm::vec4 column, glm::vec3 otherwise) {
 void place_table(shared::Lamp& lamp, const IntensityTables::Intensities& table, glm::vec3 x, glm::vec3 y, glm::vec3 z) {
     glm::vec3 turn;  // where azimuth goes from `start`
     switch (table.goniometry) {
-        case Goniometry::CGamma:
+        case photometry::Goniometry::CGamma:
             lamp.start = x, lamp.pole = -z, turn = y;
             break;
-        case Goniometry::TypeA:
+        case photometry::Goniometry::TypeA:
             lamp.start = -z, lamp.pole = y, turn = x;
             break;
-        case Goniometry::TypeB:
+        case photometry::Goniometry::TypeB:
             lamp.start = -z, lamp.pole = x, turn = -y;
             break;
     }
@@ -54,10 +54,10 @@ void place_table(shared::Lamp& lamp, const IntensityTables::Intensities& table, 
 
 }  // namespace
 
-std::vector<PlacedLamp> placed_lamps(const Scene& scene) {
+std::vector<PlacedLamp> placed_lamps(const scene::Scene& scene) {
     std::vector<PlacedLamp> placed;
     for (uint32_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].lamp != kNone) placed.push_back({scene.lamps[scene.nodes[i].lamp], i});
+        if (scene.nodes[i].lamp != scene::kNone) placed.push_back({scene.lamps[scene.nodes[i].lamp], i});
     std::stable_sort(placed.begin(), placed.end(),
                      [](const PlacedLamp& a, const PlacedLamp& b) { return order(a.lamp.kind) < order(b.lamp.kind); });
     return placed;
@@ -67,14 +67,14 @@ LampList lamp_list(const std::vector<PlacedLamp>& lamps, const IntensityTables& 
                    const View& view) {
     LampList list;
     for (const PlacedLamp& placed : lamps) {
-        const Lamp& lamp = placed.lamp;
-        const bool measured = lamp.kind == Lamp::Kind::Measured;
+        const scene::Lamp& lamp = placed.lamp;
+        const bool measured = lamp.kind == scene::Lamp::Kind::Measured;
         const float intensity = lamp.intensity * frame.dimming_of(placed.node);
         if (!(intensity > 0) || (measured && !(tables.intensities.at(lamp.distribution).largest > 0))) continue;
         const glm::mat4 m = view.from(frame.world[placed.node]);
         const glm::vec3 x = unit(m[0], {1, 0, 0}), y = unit(m[1], {0, 0, -1}), z = unit(m[2], {0, 1, 0});
-        const bool power = lamp.kind == Lamp::Kind::CosinePower;
-        const glm::vec2 lobe = power ? glm::vec2(lamp.exponent, 0) : glm::vec2(cone_ramp(lamp));
+        const bool power = lamp.kind == scene::Lamp::Kind::CosinePower;
+        const glm::vec2 lobe = power ? glm::vec2(lamp.exponent, 0) : glm::vec2(scene::cone_ramp(lamp));
         shared::Lamp made{.position = glm::vec3(m[3]),
                           .intensity = intensity,
                           .axis = -z,
@@ -114,4 +114,4 @@ void set_to_one(LampList& list, float reference_distance) {
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

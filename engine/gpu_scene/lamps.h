@@ -9,7 +9,7 @@
 #include "scene/scene.h"
 #include "shared/lamp.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 
 /// Lights in the view frame, sorted by kind as shared::LampCounts says.
 struct LampList {
@@ -22,10 +22,10 @@ struct LampList {
 
 /// A lamp of a scene placed at a node.
 struct PlacedLamp {
-    Lamp lamp;
+    scene::Lamp lamp;
     uint32_t node;
 };
-std::vector<PlacedLamp> placed_lamps(const Scene& scene);
+std::vector<PlacedLamp> placed_lamps(const scene::Scene& scene);
 
 /// Lights at the poses of a frame, as the view sees them. Lamps of no intensity are left out.
 LampList lamp_list(const std::vector<PlacedLamp>& lamps, const IntensityTables& tables, const SceneFrame& frame,
@@ -35,4 +35,4 @@ LampList lamp_list(const std::vector<PlacedLamp>& lamps, const IntensityTables& 
 /// with 1.0, and of a colour whose largest component is 1.
 void set_to_one(LampList& list, float reference_distance);
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

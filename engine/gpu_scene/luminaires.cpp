@@ -11,7 +11,7 @@
 #include "gpu_scene/silhouette.h"
 #include "scene/lamp.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 namespace {
 
 using glm::dvec2, glm::dvec3;
@@ -25,8 +25,8 @@ glm::dquat turn(dvec3 from, dvec3 to, dvec3 spare) {
 }
 
 // The normal a flat opening is drawn with, so that the eye sees at least kGrazing of it. A point lamp faces the eye.
-dvec3 seen_normal(const Lamp& lamp, dvec3 normal, dvec3 up, dvec3 to_eye) {
-    if (lamp.kind == Lamp::Kind::Point) return to_eye;
+dvec3 seen_normal(const scene::Lamp& lamp, dvec3 normal, dvec3 up, dvec3 to_eye) {
+    if (lamp.kind == scene::Lamp::Kind::Point) return to_eye;
     const double cosine = glm::dot(normal, to_eye);
     if (cosine >= kGrazing) return normal;
     const dvec3 sideways = normal - cosine * to_eye;
@@ -42,8 +42,9 @@ struct Aim {
 };
 
 // Nothing where the eye gets no light from there.
-std::optional<Aim> aim_of(const Lamp& lamp, float dimming, const std::vector<Distribution>& distributions,
-                          const glm::mat4& m, const View& view) {
+std::optional<Aim> aim_of(const scene::Lamp& lamp, float dimming,
+                          const std::vector<photometry::Distribution>& distributions, const glm::mat4& m,
+                          const View& view) {
     const dvec3 centre(m[3]);
     const dvec3 columns[] = {dvec3(m[0]), dvec3(m[1]), dvec3(m[2])};
     for (const dvec3& column : columns)
@@ -54,7 +55,7 @@ std::optional<Aim> aim_of(const Lamp& lamp, float dimming, const std::vector<Dis
     if (!(distance > 1e-6) || -centre.z + half_diagonal < view.near) return std::nullopt;
     const dvec3 to_eye = -centre / distance;
     const dvec3 direction(glm::dot(right, to_eye), glm::dot(up, to_eye), glm::dot(back, to_eye));
-    const double candela = double(dimming) * luminous_intensity(lamp, distributions, direction);
+    const double candela = double(dimming) * scene::luminous_intensity(lamp, distributions, direction);
     if (!(candela > 0)) return std::nullopt;
     return Aim{centre, right, up, back, to_eye, distance, candela};
 }
@@ -67,13 +68,13 @@ struct Seen {
     double hidden;     // m
 };
 
-Seen look_at(const Lamp& lamp, const Aim& aim, const View& view) {
+Seen look_at(const scene::Lamp& lamp, const Aim& aim, const View& view) {
     const dvec3 normal = seen_normal(lamp, -aim.back, aim.up, aim.to_eye);
     const glm::dquat turned = turn(-aim.back, normal, aim.up);
     // Axes of a sheared node are not at right angles; those of the opening are.
     const dvec3 across = turned * glm::normalize(aim.right - glm::dot(aim.right, aim.back) * aim.back),
                 along = glm::cross(normal, across);
-    const LuminousOpening& o = lamp.opening;
+    const photometry::LuminousOpening& o = lamp.opening;
     const Opening opening{aim.centre, 0.5 * o.length * across, 0.5 * o.width * along, o.round};
     Silhouette silhouette = project(opening, view, kSmallest);
     const double luminance = aim.candela / (o.area() * glm::dot(normal, aim.to_eye) * silhouette.widening);
@@ -173,10 +174,10 @@ void add(LuminaireList& list, std::vector<Touched>& touched, const Seen& seen, g
 
 }  // namespace
 
-LuminaireSet placed_luminaires(const Scene& scene) {
+LuminaireSet placed_luminaires(const scene::Scene& scene) {
     LuminaireSet set;
     for (const PlacedLamp& placed : placed_lamps(scene))
-        if (placed.lamp.kind != Lamp::Kind::Directional) set.lamps.push_back(placed);
+        if (placed.lamp.kind != scene::Lamp::Kind::Directional) set.lamps.push_back(placed);
     if (!set.lamps.empty()) set.distributions = scene.distributions;
     return set;
 }
@@ -186,7 +187,7 @@ LuminaireList luminaire_list(const LuminaireSet& set, const SceneFrame& frame, c
     LuminaireList list;
     std::vector<Touched> touched;
     for (const PlacedLamp& placed : set.lamps) {
-        const Lamp& lamp = placed.lamp;
+        const scene::Lamp& lamp = placed.lamp;
         const uint32_t node = placed.node;
         const std::optional<Aim> aim =
             aim_of(lamp, frame.dimming_of(node), set.distributions, view.from(frame.world[node]), view);
@@ -229,4 +230,4 @@ LuminaireList luminaire_list(const LuminaireSet& set, const SceneFrame& frame, c
     return list;
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

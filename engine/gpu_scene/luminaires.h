@@ -7,14 +7,14 @@
 #include "gpu_scene/lamps.h"
 #include "shared/luminaire.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 
 /// The lamps of a scene that have a place. Keeps no reference to the Scene.
 struct LuminaireSet {
     std::vector<PlacedLamp> lamps;
-    std::vector<Distribution> distributions;
+    std::vector<photometry::Distribution> distributions;
 };
-LuminaireSet placed_luminaires(const Scene& scene);
+LuminaireSet placed_luminaires(const scene::Scene& scene);
 
 /// A flat opening seen at less than this angle to its plane is drawn as if turned to it: its intensity there comes from
 /// what is not flat, and would be of infinite luminance.
@@ -53,4 +53,4 @@ struct LuminaireList {
 LuminaireList luminaire_list(const LuminaireSet& set, const SceneFrame& frame, const View& view,
                              std::optional<float> white = {});
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

@@ -8,12 +8,12 @@
 
 #include "shared/retro.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 namespace {
 
-static_assert(shared::kRetroRamps == kMaxRetroNodes);
+static_assert(shared::kRetroRamps == photometry::kMaxRetroNodes);
 
-void append(std::vector<glm::vec4>& texels, const Retroreflector& r) {
+void append(std::vector<glm::vec4>& texels, const photometry::Retroreflector& r) {
     // A ramp that is not needed starts beyond every angle.
     std::vector<shared::RetroRamp> ramps(shared::kRetroRamps, {4, 0, 0, 0});
     for (size_t i = 0; i < r.observation.size(); ++i) {
@@ -42,12 +42,12 @@ void append(std::vector<glm::vec4>& texels, const Retroreflector& r) {
 
 }  // namespace
 
-std::vector<glm::vec4> retro_texels(std::span<const Retroreflector> classes) {
+std::vector<glm::vec4> retro_texels(std::span<const photometry::Retroreflector> classes) {
     std::vector<glm::vec4> texels;
-    for (const Retroreflector& r : classes) append(texels, r);
+    for (const photometry::Retroreflector& r : classes) append(texels, r);
     while (texels.size() < shared::kRetroClasses * shared::kRetroTexels)
-        append(texels, Retroreflector{"none", {0, 1}, {1e-6, 1e-7}, {0}, {0}, false});
+        append(texels, photometry::Retroreflector{"none", {0, 1}, {1e-6, 1e-7}, {0}, {0}, false});
     return texels;
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

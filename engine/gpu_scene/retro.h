@@ -8,9 +8,9 @@
 
 #include "photometry/retroreflection.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 
 /// The texels of shared/retro.h; always of kRetroClasses classes, so that no index leaves the buffer.
-std::vector<glm::vec4> retro_texels(std::span<const Retroreflector>);
+std::vector<glm::vec4> retro_texels(std::span<const photometry::Retroreflector>);
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

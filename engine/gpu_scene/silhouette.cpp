@@ -5,7 +5,7 @@
 
 #include "base/angle.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 namespace {
 
 using glm::dmat2, glm::dvec2, glm::dvec3;
@@ -91,4 +91,4 @@ Silhouette project(const Opening& opening, const View& view, double smallest) {
     return silhouette;
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

@@ -5,7 +5,7 @@
 
 #include "gpu_scene/view.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 
 /// A rectangle, or an ellipse, in the view frame.
 struct Opening {
@@ -23,4 +23,4 @@ struct Silhouette {
 /// same area, within 0.05 px of it up to 300 px in radius. Half axes of less than `smallest` px are widened to that.
 Silhouette project(const Opening& opening, const View& view, double smallest);
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

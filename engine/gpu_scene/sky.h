@@ -7,9 +7,9 @@
 
 #include "photometry/sky_map.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 
 /// The texels of shared/sky.h.
-std::vector<glm::vec4> sky_texels(const SkyMap&);
+std::vector<glm::vec4> sky_texels(const photometry::SkyMap&);
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

@@ -11,7 +11,7 @@
 #include "gpu/commands.h"
 #include "scene/reflectance.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 namespace {
 
 constexpr uint64_t kStaging = 64 << 20;  // bytes between host and device
@@ -30,11 +30,11 @@ Tap taps(uint32_t to, uint32_t count, uint32_t size) {
     return tap;
 }
 
-VkSamplerAddressMode address_mode(Wrap wrap) {
+VkSamplerAddressMode address_mode(scene::Wrap wrap) {
     switch (wrap) {
-        case Wrap::Mirror:
+        case scene::Wrap::Mirror:
             return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
-        case Wrap::Clamp:
+        case scene::Wrap::Clamp:
             return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
         default:
             return VK_SAMPLER_ADDRESS_MODE_REPEAT;
@@ -63,7 +63,7 @@ Rows decoded_rows(const Image& image, std::vector<float> table, bool linear_alph
 }
 
 /// A luminance picture divided by `unit`.
-Rows picture_rows(const LuminancePicture& picture, float unit) {
+Rows picture_rows(const photometry::LuminancePicture& picture, float unit) {
     return {picture.width, picture.height, [&picture, unit](uint32_t y, float* to) {
                 const float* from = picture.rgb.data() + size_t(y) * picture.width * 3;
                 for (size_t i = 0; i < picture.width; ++i, from += 3, to += 4)
@@ -142,7 +142,7 @@ void cover(Level& level, float cutoff, double part) {
     for (size_t i = 3; i < level.rgba.size(); i += 4) level.rgba[i] = std::min(level.rgba[i] * scale, 1.0f);
 }
 
-bool filters_floats(const Device& device) {
+bool filters_floats(const gpu::Device& device) {
     VkFormatProperties properties{};
     vkGetPhysicalDeviceFormatProperties(device.physical(), VK_FORMAT_R32G32B32A32_SFLOAT, &properties);
     return properties.optimalTilingFeatures & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
@@ -164,12 +164,13 @@ void pack(VkFormat format, const glm::vec4& texel, std::byte* to) {
 
 }  // namespace
 
-std::vector<float> decode_table(Decode decode, const Transfer& transfer) {
+std::vector<float> decode_table(Decode decode, const scene::Transfer& transfer) {
     std::array<double, 256> linear;
     if (decode == Decode::Data)
         for (size_t code = 0; code < 256; ++code) linear[code] = double(code) / 255;
     else
-        linear = linear_codes(decode == Decode::Colour ? transfer : Transfer{.kind = Transfer::Kind::Srgb});
+        linear = scene::linear_codes(decode == Decode::Colour ? transfer
+                                                              : scene::Transfer{.kind = scene::Transfer::Kind::Srgb});
     std::vector<float> table;
     for (const double value : linear) table.push_back(float(value));
     return table;
@@ -207,16 +208,17 @@ std::vector<Level> masked_levels(Level base, float cutoff) {
     return levels;
 }
 
-TextureStore::TextureStore(const Device& device, Arena& arena, PictureFormat pictures)
+TextureStore::TextureStore(const gpu::Device& device, gpu::Arena& arena, PictureFormat pictures)
     : device_(&device), arena_(&arena), picture_format_(filters_floats(device) ? pictures : PictureFormat::Half) {}
 
-VkDescriptorImageInfo TextureStore::get(const Scene& scene, const TextureUse& use, Decode decode, float cutoff) {
-    const auto key =
-        std::tuple(use.image, use.image == kNone ? Decode::Data : decode, use.image == kNone ? 0.0f : cutoff);
+VkDescriptorImageInfo TextureStore::get(const scene::Scene& scene, const scene::TextureUse& use, Decode decode,
+                                        float cutoff) {
+    const auto key = std::tuple(use.image, use.image == scene::kNone ? Decode::Data : decode,
+                                use.image == scene::kNone ? 0.0f : cutoff);
     auto found = textures_.find(key);
     if (found == textures_.end()) {
         const Image white{"white", 1, 1, {255, 255, 255, 255}};
-        const Image& image = use.image == kNone ? white : scene.images[use.image];
+        const Image& image = use.image == scene::kNone ? white : scene.images[use.image];
         const bool data = std::get<Decode>(key) == Decode::Data;
         const Rows base = decoded_rows(image, decode_table(std::get<Decode>(key), scene.transfer), !data);
         const VkFormat format = data ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R16G16B16A16_SFLOAT;
@@ -226,10 +228,10 @@ VkDescriptorImageInfo TextureStore::get(const Scene& scene, const TextureUse& us
     return {sampler(use), found->second.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 }
 
-VkDescriptorImageInfo TextureStore::get_picture(const Scene& scene, const TextureUse& use, float& unit) {
+VkDescriptorImageInfo TextureStore::get_picture(const scene::Scene& scene, const scene::TextureUse& use, float& unit) {
     auto found = pictures_.find(use.image);
     if (found == pictures_.end()) {
-        const LuminancePicture& picture = scene.luminance_pictures[use.image];
+        const photometry::LuminancePicture& picture = scene.luminance_pictures[use.image];
         const bool whole = picture_format_ == PictureFormat::Float;
         const float largest = whole ? 0 : *std::max_element(picture.rgb.begin(), picture.rgb.end());
         const float divided = largest > 0 ? std::max(largest / 60000, 1e-30f) : 1;
@@ -264,21 +266,21 @@ TextureStore::Texture TextureStore::upload(const std::vector<Rows>& levels, VkFo
     spend(bytes);
     Texture texture;
     texture.image =
-        make_image(*device_, image_info(format, {levels[0].width, levels[0].height}, uint32_t(levels.size()),
-                                        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
+        gpu::make_image(*device_, gpu::image_info(format, {levels[0].width, levels[0].height}, uint32_t(levels.size()),
+                                                  VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
     arena_->bind(texture.image.get());
 
     // By way of a buffer of some rows, again and again.
     const uint64_t longest = uint64_t(levels[0].width) * texel_bytes;
-    const HostBuffer staging(*device_, std::max(longest, std::min(bytes, kStaging)), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                             HostBuffer::Direction::ToDevice);
-    UploadPart part{.first = true, .last = false};
+    const gpu::HostBuffer staging(*device_, std::max(longest, std::min(bytes, kStaging)),
+                                  VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::HostBuffer::Direction::ToDevice);
+    gpu::UploadPart part{.first = true, .last = false};
     std::vector<VkBufferImageCopy> copies;
     uint64_t used = 0;
     const auto flush = [&] {
         staging.flush();
         device_->run_once([&](VkCommandBuffer commands) {
-            record_upload(commands, staging.buffer(), texture.image.get(), uint32_t(levels.size()), copies, part);
+            gpu::record_upload(commands, staging.buffer(), texture.image.get(), uint32_t(levels.size()), copies, part);
         });
         copies.clear(), used = 0, part.first = false;
     };
@@ -305,12 +307,12 @@ TextureStore::Texture TextureStore::upload(const std::vector<Rows>& levels, VkFo
     }
     part.last = true;
     flush();
-    texture.view = make_view(*device_, texture.image.get(), format);
+    texture.view = gpu::make_view(*device_, texture.image.get(), format);
     return texture;
 }
 
-VkSampler TextureStore::sampler(const TextureUse& use) {
-    OwnedSampler& sampler = samplers_[{use.wrap_u, use.wrap_v, use.nearest}];
+VkSampler TextureStore::sampler(const scene::TextureUse& use) {
+    gpu::OwnedSampler& sampler = samplers_[{use.wrap_u, use.wrap_v, use.nearest}];
     if (!sampler) {
         // Between mip levels a CPU device takes the nearer one: blending two costs it as much again.
         const VkSamplerMipmapMode mips =
@@ -326,10 +328,10 @@ VkSampler TextureStore::sampler(const TextureUse& use) {
                                        .maxAnisotropy = std::min(8.0f, device_->limits().maxSamplerAnisotropy),
                                        .maxLod = VK_LOD_CLAMP_NONE};
         VkSampler raw = VK_NULL_HANDLE;
-        check(vkCreateSampler(device_->handle(), &info, nullptr, &raw), "making a sampler");
+        gpu::check(vkCreateSampler(device_->handle(), &info, nullptr, &raw), "making a sampler");
         sampler = {device_->handle(), raw};
     }
     return sampler.get();
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

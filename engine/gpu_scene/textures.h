@@ -9,7 +9,7 @@
 #include "gpu/memory.h"
 #include "scene/scene.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 
 /// How the codes of an image become the values a shader filters.
 enum class Decode : uint8_t { Colour, Srgb, Data };  ///< through Scene::transfer; through sRGB; code / 255
@@ -27,7 +27,7 @@ struct Rows {
 };
 
 /// The linear value of each 8-bit code.
-std::vector<float> decode_table(Decode decode, const Transfer& transfer);
+std::vector<float> decode_table(Decode decode, const scene::Transfer& transfer);
 /// Half the size, rounded down: every texel is the mean of the area it covers, whole or in part.
 Level half_size(const Level& level);
 /// Mip levels of a picture whose opacity says where a surface is: at or above `cutoff`. Colours are means of what is
@@ -44,31 +44,31 @@ enum class PictureFormat : uint8_t { Float, Half };
 class TextureStore {
 public:
     /// `pictures`: Half also where Float is possible.
-    TextureStore(const Device& device, Arena& arena, PictureFormat pictures = PictureFormat::Float);
+    TextureStore(const gpu::Device& device, gpu::Arena& arena, PictureFormat pictures = PictureFormat::Float);
 
     /// View and sampler for a use of an image. Without an image: a white texel. `cutoff`: of opacity, where that masks;
     /// 0: it does not.
-    VkDescriptorImageInfo get(const Scene& scene, const TextureUse& use, Decode decode, float cutoff = 0);
+    VkDescriptorImageInfo get(const scene::Scene& scene, const scene::TextureUse& use, Decode decode, float cutoff = 0);
     /// The same for a luminance picture. `unit`: the luminance that a value of 1 in the texture is of the picture's.
-    VkDescriptorImageInfo get_picture(const Scene& scene, const TextureUse& use, float& unit);
+    VkDescriptorImageInfo get_picture(const scene::Scene& scene, const scene::TextureUse& use, float& unit);
 
 private:
     struct Texture {
-        OwnedImage image;
-        OwnedImageView view;
+        gpu::OwnedImage image;
+        gpu::OwnedImageView view;
     };
     /// With smaller levels; masked_levels() where there is a cutoff.
     Texture upload(const Rows& base, VkFormat format);
     Texture upload_masked(const Rows& base, float cutoff, VkFormat format);
     Texture upload(const std::vector<Rows>& levels, VkFormat format);
-    VkSampler sampler(const TextureUse& use);
+    VkSampler sampler(const scene::TextureUse& use);
 
-    const Device* device_;
-    Arena* arena_;
+    const gpu::Device* device_;
+    gpu::Arena* arena_;
     PictureFormat picture_format_;
     std::map<uint32_t, std::pair<Texture, float>> pictures_;  // and the unit
     std::map<std::tuple<uint32_t, Decode, float>, Texture> textures_;
-    std::map<std::tuple<Wrap, Wrap, bool>, OwnedSampler> samplers_;
+    std::map<std::tuple<scene::Wrap, scene::Wrap, bool>, gpu::OwnedSampler> samplers_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

@@ -2,18 +2,18 @@
 
 #include <cmath>
 
-namespace vesper {
+namespace vesper::gpu_scene {
 
 View View::symmetric(VkExtent2D extent, float vertical_fov, const glm::dmat4& world_to_view, float near) {
     const float y = std::tan(vertical_fov / 2), x = y * float(extent.width) / float(extent.height);
     return {extent, world_to_view, {-x, -y}, {x, y}, near};
 }
 
-View View::of(const ImageAngles& image, const glm::dmat4& world_to_view, float near) {
+View View::of(const vision::ImageAngles& image, const glm::dmat4& world_to_view, float near) {
     return {{uint32_t(image.width), uint32_t(image.height)}, world_to_view, image.low, image.high, near};
 }
 
-ImageAngles angles_of(const View& view) {
+vision::ImageAngles angles_of(const View& view) {
     return {int(view.extent.width), int(view.extent.height), view.tangent_low, view.tangent_high};
 }
 
@@ -28,4 +28,4 @@ double View::degrees_per_pixel() const {
     return double(tangent_high.y - tangent_low.y) / extent.height * 180 / 3.14159265358979;
 }
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

@@ -6,7 +6,7 @@
 
 #include "vision/image_angles.h"
 
-namespace vesper {
+namespace vesper::gpu_scene {
 
 /// Where an eye stands and what its image covers. The view frame: x right, y up, looking along -z, m.
 struct View {
@@ -19,7 +19,8 @@ struct View {
     /// A symmetric view of square pixels. `vertical_fov` in rad.
     static View symmetric(VkExtent2D extent, float vertical_fov, const glm::dmat4& world_to_view, float near = 0.1f);
     /// A view that covers the same as a picture.
-    static View of(const ImageAngles& image, const glm::dmat4& world_to_view = glm::dmat4(1), float near = 0.1f);
+    static View of(const vision::ImageAngles& image, const glm::dmat4& world_to_view = glm::dmat4(1),
+                   float near = 0.1f);
 
     /// To the view's frame, from one that has this place in the world.
     glm::mat4 from(const glm::dmat4& to_world) const { return glm::mat4(world_to_view * to_world); }
@@ -32,6 +33,6 @@ struct View {
 };
 
 /// What a view covers.
-ImageAngles angles_of(const View& view);
+vision::ImageAngles angles_of(const View& view);
 
-}  // namespace vesper
+}  // namespace vesper::gpu_scene

@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 
-namespace vesper {
+namespace vesper::graph {
 namespace {
 
 using PassInfo = FrameGraph::PassInfo;
@@ -318,4 +318,4 @@ std::string FrameGraph::describe(const Plan& plan) const {
     return text + "heap " + std::to_string(bytes) + " of " + std::to_string(plan.bytes_without_aliasing) + " bytes\n";
 }
 
-}  // namespace vesper
+}  // namespace vesper::graph

@@ -7,7 +7,7 @@
 #include "base/stopwatch.h"
 #include "graph/realized.h"
 
-namespace vesper {
+namespace vesper::graph {
 namespace {
 
 constexpr uint64_t kSliceAlignment = 256;  // at least every minimum offset alignment Vulkan allows a device to ask for
@@ -22,14 +22,15 @@ bool is_texel(uint32_t usage) {
     return usage & (VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
 }
 
-OwnedBufferView view_texels(const Device& device, VkBuffer buffer, VkFormat format, uint64_t offset, uint64_t bytes) {
+gpu::OwnedBufferView view_texels(const gpu::Device& device, VkBuffer buffer, VkFormat format, uint64_t offset,
+                                 uint64_t bytes) {
     const VkBufferViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
                                       .buffer = buffer,
                                       .format = format,
                                       .offset = offset,
                                       .range = bytes};
     VkBufferView view = VK_NULL_HANDLE;
-    check(vkCreateBufferView(device.handle(), &info, nullptr, &view), "viewing a texel buffer");
+    gpu::check(vkCreateBufferView(device.handle(), &info, nullptr, &view), "viewing a texel buffer");
     return {device.handle(), view};
 }
 
@@ -38,21 +39,21 @@ OwnedBufferView view_texels(const Device& device, VkBuffer buffer, VkFormat form
 struct Executor::Past {
     Shape shape;
     uint32_t usage;
-    Arena arena;
-    OwnedImage images[2];
-    OwnedImageView views[2];
-    OwnedBuffer buffers[2];
+    gpu::Arena arena;
+    gpu::OwnedImage images[2];
+    gpu::OwnedImageView views[2];
+    gpu::OwnedBuffer buffers[2];
     int current = 0;     // the half the next frame writes
     bool is_new = true;  // zero before the next frame
 
-    Past(const Device& device, const Shape& s, uint32_t u) : shape(s), usage(u), arena(device) {
+    Past(const gpu::Device& device, const Shape& s, uint32_t u) : shape(s), usage(u), arena(device) {
         for (int half : {0, 1}) {
             if (s.is_image()) {
-                images[half] = make_image(device, image_info(s.format, s.extent, 1, u));
+                images[half] = gpu::make_image(device, gpu::image_info(s.format, s.extent, 1, u));
                 arena.bind(images[half].get());
-                views[half] = make_view(device, images[half].get(), s.format);
+                views[half] = gpu::make_view(device, images[half].get(), s.format);
             } else {
-                buffers[half] = make_buffer(device, s.bytes, u);
+                buffers[half] = gpu::make_buffer(device, s.bytes, u);
                 arena.bind(buffers[half].get());
             }
         }
@@ -60,16 +61,16 @@ struct Executor::Past {
 
     // Within a barrier for all that uses it.
     void zero(VkCommandBuffer commands) const {
-        constexpr Touch before{VK_PIPELINE_STAGE_2_CLEAR_BIT},
+        constexpr gpu::Touch before{VK_PIPELINE_STAGE_2_CLEAR_BIT},
             clear{VK_PIPELINE_STAGE_2_CLEAR_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
         for (int half : {0, 1}) {
             if (!shape.is_image()) {
                 vkCmdFillBuffer(commands, buffers[half].get(), 0, VK_WHOLE_SIZE, 0);
                 continue;
             }
-            const VkImageMemoryBarrier2 barrier =
-                image_barrier(images[half].get(), before, clear, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
-            pipeline_barrier(commands, {&barrier, 1});
+            const VkImageMemoryBarrier2 barrier = gpu::image_barrier(
+                images[half].get(), before, clear, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL);
+            gpu::pipeline_barrier(commands, {&barrier, 1});
             const VkClearColorValue black{};
             vkCmdClearColorImage(commands, images[half].get(), VK_IMAGE_LAYOUT_GENERAL, &black, 1,
                                  &barrier.subresourceRange);
@@ -77,7 +78,7 @@ struct Executor::Past {
     }
 };
 
-Executor::Executor(Device& device) : device_(device) {
+Executor::Executor(gpu::Device& device) : device_(device) {
     const VkSamplerCreateInfo sampler{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
                                       .magFilter = VK_FILTER_LINEAR,
                                       .minFilter = VK_FILTER_LINEAR,
@@ -85,7 +86,7 @@ Executor::Executor(Device& device) : device_(device) {
                                       .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                       .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE};
     VkSampler raw_sampler = VK_NULL_HANDLE;
-    check(vkCreateSampler(device.handle(), &sampler, nullptr, &raw_sampler), "making a sampler");
+    gpu::check(vkCreateSampler(device.handle(), &sampler, nullptr, &raw_sampler), "making a sampler");
     sampler_ = {device.handle(), raw_sampler};
 }
 
@@ -97,7 +98,7 @@ Measure Executor::measure() const {
     return [this](const Shape& shape, uint32_t usage) -> Footprint {
         VkMemoryRequirements2 needs{.sType = VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
         if (shape.is_image()) {
-            const VkImageCreateInfo info = image_info(shape.format, shape.extent, 1, usage);
+            const VkImageCreateInfo info = gpu::image_info(shape.format, shape.extent, 1, usage);
             const VkDeviceImageMemoryRequirements query{.sType = VK_STRUCTURE_TYPE_DEVICE_IMAGE_MEMORY_REQUIREMENTS,
                                                         .pCreateInfo = &info};
             vkGetDeviceImageMemoryRequirements(device_.handle(), &query, &needs);
@@ -206,23 +207,23 @@ void Executor::place(const FrameGraph& graph) {
     resources_.clear();
     heaps_.clear();
     for (const Plan::Heap& heap : plan_.heaps)
-        heaps_.push_back(
-            allocate(device_, heap.bytes, device_.memory_type(heap.memory_types, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)));
+        heaps_.push_back(gpu::allocate(device_, heap.bytes,
+                                       device_.memory_type(heap.memory_types, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)));
     resources_.resize(graph.resources().size());
     for (const Plan::Placement& p : plan_.placements) {
         const Shape& shape = graph.resources()[p.resource].shape;
         const uint32_t usage = plan_.usage[p.resource];
         Realized& r = resources_[p.resource];
         if (shape.is_image()) {
-            r.owned_image = make_image(device_, image_info(shape.format, shape.extent, 1, usage));
-            check(vkBindImageMemory(device_.handle(), r.owned_image.get(), heaps_[p.heap].get(), p.offset),
-                  "placing an image");
-            r.owned_view = make_view(device_, r.owned_image.get(), shape.format);
-            r.image = r.owned_image.get(), r.view = r.owned_view.get(), r.aspect = aspect_of(shape.format);
+            r.owned_image = gpu::make_image(device_, gpu::image_info(shape.format, shape.extent, 1, usage));
+            gpu::check(vkBindImageMemory(device_.handle(), r.owned_image.get(), heaps_[p.heap].get(), p.offset),
+                       "placing an image");
+            r.owned_view = gpu::make_view(device_, r.owned_image.get(), shape.format);
+            r.image = r.owned_image.get(), r.view = r.owned_view.get(), r.aspect = gpu::aspect_of(shape.format);
         } else {
-            r.owned_buffer = make_buffer(device_, shape.bytes, usage);
-            check(vkBindBufferMemory(device_.handle(), r.owned_buffer.get(), heaps_[p.heap].get(), p.offset),
-                  "placing a buffer");
+            r.owned_buffer = gpu::make_buffer(device_, shape.bytes, usage);
+            gpu::check(vkBindBufferMemory(device_.handle(), r.owned_buffer.get(), heaps_[p.heap].get(), p.offset),
+                       "placing a buffer");
             if (is_texel(usage))
                 r.owned_texels = view_texels(device_, r.owned_buffer.get(), shape.format, 0, shape.bytes);
             r.texels = r.owned_texels.get();
@@ -266,9 +267,9 @@ void Executor::realize_histories(const FrameGraph& graph) {
 // Among the frame's commands, so that nothing waits for a queue that may be busy with others' work.
 void Executor::record_clearing() const {
     if (cleared_.empty()) return;
-    pipeline_barrier(slot_->commands, {}, &kWholeBarrier);
+    gpu::pipeline_barrier(slot_->commands, {}, &kWholeBarrier);
     for (const Past* past : cleared_) past->zero(slot_->commands);
-    pipeline_barrier(slot_->commands, {}, &kWholeBarrier);
+    gpu::pipeline_barrier(slot_->commands, {}, &kWholeBarrier);
 }
 
 // Only a frame that was submitted is the past of the next.
@@ -283,10 +284,10 @@ void Executor::realize_uploads(const FrameGraph& graph) {
     uint64_t total = 0;
     for (const auto& info : graph.resources())
         if (info.origin == FrameGraph::Origin::Upload) total = aligned(total, kSliceAlignment) + info.contents.size();
-    HostBuffer& uploads = slot_->uploads;
+    gpu::HostBuffer& uploads = slot_->uploads;
     if (uploads.bytes() < total)
-        uploads =
-            HostBuffer(device_, aligned(total * 3 / 2, kSliceAlignment), kHostUsage, HostBuffer::Direction::ToDevice);
+        uploads = gpu::HostBuffer(device_, aligned(total * 3 / 2, kSliceAlignment), kHostUsage,
+                                  gpu::HostBuffer::Direction::ToDevice);
     uint64_t offset = 0;
     for (uint32_t i = 0; i < graph.resources().size(); ++i) {
         const auto& info = graph.resources()[i];
@@ -319,7 +320,8 @@ void Executor::realize_external_images(const FrameGraph& graph) {
         r.image = info.external_image.image;
         const bool copied_only =
             !(plan_.usage[i] & ~uint32_t(VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
-        if (!copied_only) r.view = slot_->views.emplace_back(make_view(device_, r.image, info.shape.format, 1)).get();
+        if (!copied_only)
+            r.view = slot_->views.emplace_back(gpu::make_view(device_, r.image, info.shape.format, 1)).get();
     }
 }
 
@@ -327,9 +329,9 @@ void Executor::realize_readbacks(const FrameGraph& graph) {
     uint64_t total = 0;
     for (const auto& info : graph.resources())
         if (info.origin == FrameGraph::Origin::Readback) total = aligned(total, kSliceAlignment) + info.shape.bytes;
-    HostBuffer& readbacks = slot_->readbacks;
+    gpu::HostBuffer& readbacks = slot_->readbacks;
     if (readbacks.bytes() < total)
-        readbacks = HostBuffer(device_, total, kHostUsage, HostBuffer::Direction::FromDevice);
+        readbacks = gpu::HostBuffer(device_, total, kHostUsage, gpu::HostBuffer::Direction::FromDevice);
     slot_->places.clear();
     uint64_t offset = 0;
     for (uint32_t i = 0; i < graph.resources().size(); ++i) {
@@ -357,4 +359,4 @@ uint64_t Executor::heap_bytes() const {
     return total;
 }
 
-}  // namespace vesper
+}  // namespace vesper::graph

@@ -12,7 +12,7 @@
 #include "graph/frame_graph.h"
 #include "graph/frame_slot.h"
 
-namespace vesper {
+namespace vesper::graph {
 
 /// Where the host's time went in the last frame, ms.
 struct HostTimes {
@@ -26,7 +26,7 @@ struct HostTimes {
 /// Owns the memory behind a frame graph's resources and what survives from frame to frame.
 class Executor {
 public:
-    explicit Executor(Device& device);
+    explicit Executor(gpu::Device& device);
     ~Executor();
     Executor(const Executor&) = delete;
     Executor& operator=(const Executor&) = delete;
@@ -83,19 +83,19 @@ private:
     void record_dispatch(const FrameGraph::PassInfo& pass) const;
     void record_raster(const FrameGraph& graph, const Plan::Step& step) const;
 
-    Device& device_;
+    gpu::Device& device_;
     Plan plan_;
     HostTimes host_times_;
     std::vector<Realized> resources_;
     std::map<std::string, std::unique_ptr<Past>> histories_;
     std::vector<Past*> turned_, turning_;  // by the last frame; by the one that is being submitted
     std::vector<Past*> cleared_;           // by it
-    std::vector<OwnedMemory> heaps_;
+    std::vector<gpu::OwnedMemory> heaps_;
     std::string placed_key_;  // what the transients were made for
-    OwnedSampler sampler_;
+    gpu::OwnedSampler sampler_;
     std::vector<std::unique_ptr<FrameSlot>> slots_;
     FrameSlot* slot_ = nullptr;  // of the last frame, or of the one that is being submitted
     bool unread_ = false;        // what the last frame left was not given up
 };
 
-}  // namespace vesper
+}  // namespace vesper::graph

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace vesper {
+namespace vesper::graph {
 namespace {
 
 using PassInfo = FrameGraph::PassInfo;
@@ -149,7 +149,7 @@ std::string mismatch(VkDescriptorType type, Access access, const Shape& shape) {
 }
 
 void check_kernel(const PassInfo& pass, const std::vector<ResourceInfo>& resources) {
-    const KernelInterface& kernel = *pass.kernel;
+    const gpu::KernelInterface& kernel = *pass.kernel;
     const size_t bound = pass.uses.size() - (pass.is_indirect() ? 1 : 0);
     if (bound != kernel.bindings.size())
         fail(pass, "has " + std::to_string(bound) + " uses, but " + kernel.name + " has " +
@@ -281,12 +281,12 @@ void FrameGraph::add_pass(PassInfo pass) {
     passes_.push_back(std::move(pass));
 }
 
-void FrameGraph::dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses,
+void FrameGraph::dispatch(std::string_view name, const gpu::KernelInterface& kernel, std::initializer_list<Use> uses,
                           std::span<const std::byte> push, Groups groups) {
     add_pass({std::string(name), PassKind::Dispatch, uses, &kernel, {push.begin(), push.end()}, groups, 0, {}});
 }
 
-void FrameGraph::dispatch_indirect(std::string_view name, const KernelInterface& kernel,
+void FrameGraph::dispatch_indirect(std::string_view name, const gpu::KernelInterface& kernel,
                                    std::initializer_list<Use> uses, std::span<const std::byte> push,
                                    Arguments arguments) {
     PassInfo pass{
@@ -371,4 +371,4 @@ void FrameGraph::keep(Resource resource) {
     resources_[resource.index].kept = true;
 }
 
-}  // namespace vesper
+}  // namespace vesper::graph

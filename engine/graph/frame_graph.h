@@ -14,7 +14,7 @@
 #include "gpu/kernel_interface.h"
 #include "graph/plan.h"
 
-namespace vesper {
+namespace vesper::graph {
 
 /// A handle on a declared resource: copy it, pass it, compare it. Valid for the graph that made it.
 struct Resource {
@@ -119,8 +119,8 @@ public:
     struct PassInfo {
         std::string name;
         PassKind kind = PassKind::Dispatch;
-        std::vector<Use> uses;                    ///< of an indirect dispatch the last is its arguments, not a binding
-        const KernelInterface* kernel = nullptr;  ///< of a dispatch
+        std::vector<Use> uses;  ///< of an indirect dispatch the last is its arguments, not a binding
+        const gpu::KernelInterface* kernel = nullptr;  ///< of a dispatch
         std::vector<std::byte> push;
         Groups groups;
         uint64_t arguments_offset = 0;  ///< of an indirect dispatch, bytes
@@ -149,21 +149,21 @@ public:
     History history(std::string_view name, const Shape& shape);
 
     /// A compute pass. Use i is binding i of the kernel: the list is both the dependencies and the descriptors.
-    void dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses,
+    void dispatch(std::string_view name, const gpu::KernelInterface& kernel, std::initializer_list<Use> uses,
                   std::span<const std::byte> push, Groups groups);
     template <class Push>
-    void dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses,
+    void dispatch(std::string_view name, const gpu::KernelInterface& kernel, std::initializer_list<Use> uses,
                   const Push& push, Groups groups) {
         dispatch(name, kernel, uses, std::as_bytes(std::span(&push, 1)), groups);
     }
     /// The same for as many workgroups as an earlier pass found. More than the device allows are for that pass to
     /// prevent.
     template <class Push>
-    void dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses,
+    void dispatch(std::string_view name, const gpu::KernelInterface& kernel, std::initializer_list<Use> uses,
                   const Push& push, Arguments arguments) {
         dispatch_indirect(name, kernel, uses, std::as_bytes(std::span(&push, 1)), arguments);
     }
-    void dispatch(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses,
+    void dispatch(std::string_view name, const gpu::KernelInterface& kernel, std::initializer_list<Use> uses,
                   Groups groups) {
         dispatch(name, kernel, uses, std::span<const std::byte>{}, groups);
     }
@@ -189,11 +189,11 @@ public:
 private:
     Resource add(std::string_view name, const Shape& shape, Origin origin);
     void add_pass(PassInfo pass);
-    void dispatch_indirect(std::string_view name, const KernelInterface& kernel, std::initializer_list<Use> uses,
+    void dispatch_indirect(std::string_view name, const gpu::KernelInterface& kernel, std::initializer_list<Use> uses,
                            std::span<const std::byte> push, Arguments arguments);
 
     std::vector<ResourceInfo> resources_;
     std::vector<PassInfo> passes_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::graph

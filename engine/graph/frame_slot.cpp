@@ -1,8 +1,8 @@
 #include "graph/frame_slot.h"
 
-namespace vesper {
+namespace vesper::graph {
 
-FrameSlot::FrameSlot(const Device& d) : device(d), commands(d), fence(make_fence(d)) {}
+FrameSlot::FrameSlot(const gpu::Device& d) : device(d), commands(d), fence(gpu::make_fence(d)) {}
 
 void FrameSlot::begin(uint32_t timestamps) {
     commands.begin();
@@ -11,7 +11,7 @@ void FrameSlot::begin(uint32_t timestamps) {
                                          .queryType = VK_QUERY_TYPE_TIMESTAMP,
                                          .queryCount = timestamps};
         VkQueryPool raw = VK_NULL_HANDLE;
-        check(vkCreateQueryPool(device.handle(), &info, nullptr, &raw), "making timestamps");
+        gpu::check(vkCreateQueryPool(device.handle(), &info, nullptr, &raw), "making timestamps");
         queries = {device.handle(), raw};
         query_capacity = timestamps;
     }
@@ -19,7 +19,7 @@ void FrameSlot::begin(uint32_t timestamps) {
 }
 
 void FrameSlot::submit(const SubmitSemaphores& semaphores) {
-    check(vkEndCommandBuffer(commands), "recording");
+    gpu::check(vkEndCommandBuffer(commands), "recording");
     const VkCommandBufferSubmitInfo submitted{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                               .commandBuffer = commands};
     const VkSubmitInfo2 work{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
@@ -30,7 +30,7 @@ void FrameSlot::submit(const SubmitSemaphores& semaphores) {
                              .signalSemaphoreInfoCount = uint32_t(semaphores.signal.size()),
                              .pSignalSemaphoreInfos = semaphores.signal.data()};
     const VkFence done = fence.get();
-    check(vkResetFences(device.handle(), 1, &done), "submitting a frame");
+    gpu::check(vkResetFences(device.handle(), 1, &done), "submitting a frame");
     device.submit(work, done, "submitting a frame");
     under_way = true;
 }
@@ -52,13 +52,13 @@ void FrameSlot::settle() noexcept {
 void FrameSlot::read_timestamps() {
     if (timings.empty()) return;
     std::vector<uint64_t> ticks((timings.size() + 1) * 2);
-    check(vkGetQueryPoolResults(device.handle(), queries.get(), 0, uint32_t(ticks.size()),
-                                ticks.size() * sizeof(uint64_t), ticks.data(), sizeof(uint64_t),
-                                VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-          "reading timestamps");
+    gpu::check(vkGetQueryPoolResults(device.handle(), queries.get(), 0, uint32_t(ticks.size()),
+                                     ticks.size() * sizeof(uint64_t), ticks.data(), sizeof(uint64_t),
+                                     VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
+               "reading timestamps");
     for (size_t i = 0; i < timings.size(); ++i)
         timings[i].milliseconds = double((ticks[2 * (i + 1)] - ticks[2 * i]) & device.timestamp_mask()) *
                                   double(device.limits().timestampPeriod) * 1e-6;
 }
 
-}  // namespace vesper
+}  // namespace vesper::graph

@@ -10,7 +10,7 @@
 #include "gpu/commands.h"
 #include "gpu/memory.h"
 
-namespace vesper {
+namespace vesper::graph {
 
 /// Semaphores that a submitted frame waits for, and those that it signals.
 struct SubmitSemaphores {
@@ -26,30 +26,30 @@ struct Timing {
 
 /// A frame's commands, and what nobody else may touch before they are done.
 struct FrameSlot {
-    explicit FrameSlot(const Device& device);
+    explicit FrameSlot(const gpu::Device& device);
 
     void begin(uint32_t timestamps);  ///< recording; `timestamps`: how many it writes
     void submit(const SubmitSemaphores& semaphores);
     void wait();             ///< until its frame, if it has one, is done; then there are its timings
     void settle() noexcept;  ///< likewise, without them: only so that nothing uses what goes
 
-    const Device& device;
-    HostBuffer uploads, readbacks;
+    const gpu::Device& device;
+    gpu::HostBuffer uploads, readbacks;
     struct Slice {
         uint64_t offset = 0, bytes = 0;
     };
     std::map<uint32_t, Slice> places;  // in `readbacks`, by resource
     std::vector<Timing> timings;
-    std::vector<OwnedBufferView> texels;
-    std::vector<OwnedImageView> views;
-    CommandBuffer commands;
-    Owned<VkQueryPool, vkDestroyQueryPool> queries;
+    std::vector<gpu::OwnedBufferView> texels;
+    std::vector<gpu::OwnedImageView> views;
+    gpu::CommandBuffer commands;
+    gpu::Owned<VkQueryPool, vkDestroyQueryPool> queries;
     uint32_t query_capacity = 0;
-    OwnedFence fence;
+    gpu::OwnedFence fence;
     bool under_way = false;
 
 private:
     void read_timestamps();
 };
 
-}  // namespace vesper
+}  // namespace vesper::graph

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace vesper {
+namespace vesper::graph {
 namespace {
 
 constexpr uint32_t kStageCount = 4;
@@ -124,4 +124,4 @@ std::string AccessSet::text() const {
     return text.empty() ? "nothing" : text;
 }
 
-}  // namespace vesper
+}  // namespace vesper::graph

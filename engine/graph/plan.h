@@ -8,7 +8,7 @@
 
 #include <vulkan/vulkan_core.h>
 
-namespace vesper {
+namespace vesper::graph {
 
 /// How a pass touches a resource.
 enum class Access : uint8_t {
@@ -102,4 +102,4 @@ struct Plan {
     uint64_t bytes_without_aliasing = 0;
 };
 
-}  // namespace vesper
+}  // namespace vesper::graph

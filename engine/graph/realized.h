@@ -3,7 +3,7 @@
 
 #include "graph/executor.h"
 
-namespace vesper {
+namespace vesper::graph {
 
 /// Everything waits for everything that was written.
 constexpr VkMemoryBarrier2 kWholeBarrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
@@ -15,10 +15,10 @@ constexpr VkMemoryBarrier2 kWholeBarrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRI
 // A transient owns its objects; everything else borrows them from a history, the slot of the frame or an external
 // owner.
 struct Executor::Realized {
-    OwnedImage owned_image;
-    OwnedImageView owned_view;
-    OwnedBuffer owned_buffer;
-    OwnedBufferView owned_texels;
+    gpu::OwnedImage owned_image;
+    gpu::OwnedImageView owned_view;
+    gpu::OwnedBuffer owned_buffer;
+    gpu::OwnedBufferView owned_texels;
     VkBufferView texels = VK_NULL_HANDLE;
     VkImage image = VK_NULL_HANDLE;
     VkImageView view = VK_NULL_HANDLE;
@@ -27,4 +27,4 @@ struct Executor::Realized {
     uint64_t offset = 0, bytes = 0;
 };
 
-}  // namespace vesper
+}  // namespace vesper::graph

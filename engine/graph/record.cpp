@@ -3,7 +3,7 @@
 
 #include "graph/realized.h"
 
-namespace vesper {
+namespace vesper::graph {
 
 class Executor::FrameRecording final : public Recording {
 public:
@@ -62,16 +62,16 @@ void Executor::record(const FrameGraph& graph, bool among_others) {
 // What a plan says holds within it: at its borders everything waits for everything, and images of others change between
 // their layout and ours.
 void Executor::record_border(const FrameGraph& graph, Border border) const {
-    constexpr Touch before{kWholeBarrier.srcStageMask, kWholeBarrier.srcAccessMask},
+    constexpr gpu::Touch before{kWholeBarrier.srcStageMask, kWholeBarrier.srcAccessMask},
         after{kWholeBarrier.dstStageMask, kWholeBarrier.dstAccessMask};
     std::vector<VkImageMemoryBarrier2> images;
     for (const auto& info : graph.resources()) {
         const ExternalImage& image = info.external_image;
         const VkImageLayout from = border == Border::Enter ? image.before : VK_IMAGE_LAYOUT_GENERAL;
         const VkImageLayout to = border == Border::Enter ? VK_IMAGE_LAYOUT_GENERAL : image.after;
-        if (image.image && from != to) images.push_back(image_barrier(image.image, before, after, from, to));
+        if (image.image && from != to) images.push_back(gpu::image_barrier(image.image, before, after, from, to));
     }
-    pipeline_barrier(slot_->commands, images, &kWholeBarrier);
+    gpu::pipeline_barrier(slot_->commands, images, &kWholeBarrier);
 }
 
 void Executor::record_barriers(const std::vector<Plan::Barrier>& barriers) const {
@@ -80,8 +80,9 @@ void Executor::record_barriers(const std::vector<Plan::Barrier>& barriers) const
     for (const Plan::Barrier& b : barriers) {
         const Realized& r = resources_[b.resource];
         if (r.image && b.old_layout != b.new_layout)
-            images.push_back(image_barrier(r.image, {b.from.stages(), b.from.accesses()},
-                                           {b.to.stages(), b.to.accesses()}, b.old_layout, b.new_layout, r.aspect));
+            images.push_back(gpu::image_barrier(r.image, {b.from.stages(), b.from.accesses()},
+                                                {b.to.stages(), b.to.accesses()}, b.old_layout, b.new_layout,
+                                                r.aspect));
         // The bytes of a new transient may have belonged to something else, which an image barrier does not speak of.
         if (!b.from.empty() && (b.discard || b.old_layout == b.new_layout)) {
             memory.srcStageMask |= b.from.stages(), memory.srcAccessMask |= b.from.accesses();
@@ -89,11 +90,11 @@ void Executor::record_barriers(const std::vector<Plan::Barrier>& barriers) const
         }
     }
     if (memory.srcStageMask || !images.empty())
-        pipeline_barrier(slot_->commands, images, memory.srcStageMask ? &memory : nullptr);
+        gpu::pipeline_barrier(slot_->commands, images, memory.srcStageMask ? &memory : nullptr);
 }
 
 void Executor::record_dispatch(const FrameGraph::PassInfo& pass) const {
-    const Kernel& kernel = static_cast<const Kernel&>(*pass.kernel);
+    const gpu::Kernel& kernel = static_cast<const gpu::Kernel&>(*pass.kernel);
     vkCmdBindPipeline(slot_->commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
     const size_t bound = kernel.bindings.size();
     std::vector<VkDescriptorImageInfo> images(bound);
@@ -159,4 +160,4 @@ void Executor::record_raster(const FrameGraph& graph, const Plan::Step& step) co
     vkCmdEndRendering(slot_->commands);
 }
 
-}  // namespace vesper
+}  // namespace vesper::graph

@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 
-namespace vesper {
+namespace vesper::io {
 
 Descriptor::~Descriptor() { close(); }
 
@@ -59,4 +59,4 @@ void fail(const std::filesystem::path& file, const std::string& doing, int code)
     throw Error(one_line(file.string()) + ": " + doing + ": " + std::generic_category().message(code));
 }
 
-}  // namespace vesper
+}  // namespace vesper::io

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-namespace vesper {
+namespace vesper::io {
 
 /// An open file descriptor, closed when it goes.
 class Descriptor {
@@ -40,4 +40,4 @@ Descriptor open_special(const std::filesystem::path& file);
 /// "FILE: DOING: the reason of an error code" as an Error.
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& doing, int code);
 
-}  // namespace vesper
+}  // namespace vesper::io

@@ -9,7 +9,7 @@
 
 #include "io/image_file.h"
 
-namespace vesper {
+namespace vesper::io {
 namespace {
 
 std::optional<double> number(ExifData& data, ExifTag tag) {
@@ -40,4 +40,4 @@ CameraExposure read_exif(std::span<const uint8_t> bytes) {
             number(*data, EXIF_TAG_ISO_SPEED_RATINGS)};
 }
 
-}  // namespace vesper
+}  // namespace vesper::io

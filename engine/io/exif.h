@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-namespace vesper {
+namespace vesper::io {
 
 /// Positive and finite where present.
 struct CameraExposure {
@@ -17,4 +17,4 @@ struct CameraExposure {
 /// From the Exif data of a JPEG held in memory; nothing where there is none or it is damaged.
 CameraExposure read_exif(std::span<const uint8_t> bytes);
 
-}  // namespace vesper
+}  // namespace vesper::io

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace vesper::hdr {
+namespace vesper::io::hdr {
 namespace {
 
 /// The value between i and i + 1 of n: the filter of OpenEXR's reader (reconstructChromaHoriz of its ImfRgbaYca.cpp),
@@ -38,4 +38,4 @@ void ChromaPlane::line(int64_t row, int64_t columns, std::vector<float>& out) co
         out[static_cast<size_t>(x)] = between(x / 2, width, [&](int64_t i) { return out[static_cast<size_t>(2 * i)]; });
 }
 
-}  // namespace vesper::hdr
+}  // namespace vesper::io::hdr

@@ -6,7 +6,7 @@
 
 #include <glm/glm.hpp>
 
-namespace vesper::hdr {
+namespace vesper::io::hdr {
 
 /// Some rows of a chroma channel, from one that the file has values of.
 struct ChromaPlane {
@@ -23,4 +23,4 @@ struct ChromaPlane {
     void line(int64_t row, int64_t columns, std::vector<float>& out) const;
 };
 
-}  // namespace vesper::hdr
+}  // namespace vesper::io::hdr

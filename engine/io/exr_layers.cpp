@@ -10,7 +10,7 @@
 
 #include "base/error.h"
 
-namespace vesper::hdr {
+namespace vesper::io::hdr {
 namespace {
 
 std::vector<ExrLayer> layers_of(const Imf::MultiPartInputFile& file) {
@@ -79,4 +79,4 @@ ExrLayer choose_layer(const Imf::MultiPartInputFile& file, const std::string& wa
     throw Error("OpenEXR: no layer " + wanted + (names.text().empty() ? "; it has none" : "; it has " + names.text()));
 }
 
-}  // namespace vesper::hdr
+}  // namespace vesper::io::hdr

@@ -5,7 +5,7 @@
 
 #include <ImfMultiPartInputFile.h>
 
-namespace vesper::hdr {
+namespace vesper::io::hdr {
 
 /// Channels that make a picture.
 struct ExrLayer {
@@ -26,4 +26,4 @@ struct ExrLayer {
 /// Throws Error, with the names there are.
 ExrLayer choose_layer(const Imf::MultiPartInputFile&, const std::string& wanted);
 
-}  // namespace vesper::hdr
+}  // namespace vesper::io::hdr

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 
-namespace vesper {
+namespace vesper::io {
 namespace {
 
 /// Bytes of a value of a type. OpenEXR reads so many whatever the file states, and what follows then as something else.
@@ -123,4 +123,4 @@ void see_exr_attributes(std::span<const uint8_t> bytes,
     } while (parts && rest.front() != 0);
 }
 
-}  // namespace vesper
+}  // namespace vesper::io

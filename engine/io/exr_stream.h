@@ -9,7 +9,7 @@
 
 #include <ImfIO.h>
 
-namespace vesper {
+namespace vesper::io {
 
 /// Bytes as OpenEXR reads them. Throws Error where they end.
 class ExrStream : public Imf::IStream {
@@ -36,4 +36,4 @@ uint32_t exr_word(std::span<const uint8_t> bytes, size_t at);
 void see_exr_attributes(std::span<const uint8_t> bytes,
                         const std::function<void(std::string_view name, std::span<const uint8_t> value)>& see);
 
-}  // namespace vesper
+}  // namespace vesper::io

@@ -9,7 +9,7 @@
 #include "base/one_line.h"
 #include "io/new_file.h"
 
-namespace vesper {
+namespace vesper::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -97,4 +97,4 @@ void gate_written(const fs::path& file) {
         for (const FileIdentity& identity : identities_of(file)) gate->written.erase(identity);
 }
 
-}  // namespace vesper
+}  // namespace vesper::io

@@ -9,7 +9,7 @@
 #include <set>
 #include <string>
 
-namespace vesper {
+namespace vesper::io {
 
 /// A file, whatever names and links lead to it.
 struct FileIdentity {
@@ -50,4 +50,4 @@ void gate_grows(const std::filesystem::path& file);
 /// For writers: this file takes its name now, and may be read from then on.
 void gate_written(const std::filesystem::path& file);
 
-}  // namespace vesper
+}  // namespace vesper::io

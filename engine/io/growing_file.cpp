@@ -12,7 +12,7 @@
 #include "io/file_gate.h"
 #include "io/new_file.h"
 
-namespace vesper {
+namespace vesper::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -102,4 +102,4 @@ void GrowingFile::complete() {
     if (const int code = content_.close()) give_up(code);
 }
 
-}  // namespace vesper
+}  // namespace vesper::io

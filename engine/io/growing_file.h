@@ -7,7 +7,7 @@
 
 #include "io/descriptor.h"
 
-namespace vesper {
+namespace vesper::io {
 
 /// A text file that grows as NAME.part beside the place it is meant for, and takes its name once it is complete.
 /// Whatever ends the program, what was appended is in NAME.part, and NAME holds what it held before. Of a link, NAME is
@@ -36,4 +36,4 @@ private:
     unsigned unsafe_ = 0;  // appended since the disk was told to keep it
 };
 
-}  // namespace vesper
+}  // namespace vesper::io

@@ -21,7 +21,7 @@
 #include "io/exr_stream.h"
 #include "io/hdr_parts.h"
 
-namespace vesper::hdr {
+namespace vesper::io::hdr {
 namespace {
 
 // OpenEXR takes memory for tables and buffers while it opens a file; this setting of the whole library is its only way
@@ -216,4 +216,4 @@ HdrImage decode_exr(std::span<const uint8_t> bytes, const std::string& name, con
     return image;
 }
 
-}  // namespace vesper::hdr
+}  // namespace vesper::io::hdr

@@ -12,7 +12,7 @@
 #include "io/hdr_parts.h"
 #include "io/read_file.h"
 
-namespace vesper {
+namespace vesper::io {
 namespace hdr {
 
 void transform(HdrImage& image, const glm::dmat3& matrix) {
@@ -85,4 +85,4 @@ HdrImage decode_hdr_image(std::span<const uint8_t> bytes, const std::string& nam
     return decode(bytes, name, Kind::Any, limits, {});
 }
 
-}  // namespace vesper
+}  // namespace vesper::io

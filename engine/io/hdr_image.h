@@ -10,7 +10,7 @@
 #include "base/limits.h"
 #include "io/image_file.h"
 
-namespace vesper {
+namespace vesper::io {
 
 /// A picture in linear Rec. 709 colour. Values are those of the file: it may hold NaN, infinities and negative numbers
 /// (colours outside the gamut, ringing of a filter); who computes with them has to clean them.
@@ -53,4 +53,4 @@ HdrImage decode_hdr_image(std::span<const uint8_t> bytes, const std::string& nam
 /// only when complete. Throws Error.
 void write_exr(const std::filesystem::path& file, const HdrImage&);
 
-}  // namespace vesper
+}  // namespace vesper::io

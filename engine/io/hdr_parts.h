@@ -4,7 +4,7 @@
 #include "io/hdr_image.h"
 #include "io/primaries.h"
 
-namespace vesper::hdr {
+namespace vesper::io::hdr {
 
 /// Applies a matrix to all pixels; the identity leaves them as they are.
 void transform(HdrImage&, const glm::dmat3&);
@@ -27,4 +27,4 @@ struct ExrPixels {
 };
 void encode_exr(const std::filesystem::path& file, const ExrPixels&, const Header&);
 
-}  // namespace vesper::hdr
+}  // namespace vesper::io::hdr

@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "io/hdr_parts.h"
 
-namespace vesper::hdr {
+namespace vesper::io::hdr {
 namespace {
 
 using Rgbe = std::array<uint8_t, 4>;
@@ -237,4 +237,4 @@ HdrImage decode_radiance(std::span<const uint8_t> file, const HdrLimits& limits)
     return image;
 }
 
-}  // namespace vesper::hdr
+}  // namespace vesper::io::hdr

@@ -15,7 +15,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 
-namespace vesper {
+namespace vesper::io {
 namespace {
 
 /// What a decoder works on: its input, where it stops, what it makes and why it gave up.
@@ -250,4 +250,4 @@ Image decode_image(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t m
     return std::move(job.image);
 }
 
-}  // namespace vesper
+}  // namespace vesper::io

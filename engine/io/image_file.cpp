@@ -21,7 +21,7 @@
 #include "io/hdr_parts.h"
 #include "io/new_file.h"
 
-namespace vesper {
+namespace vesper::io {
 namespace {
 
 void check_size(const std::filesystem::path& file, uint32_t width, uint32_t height, size_t channels, size_t values) {
@@ -208,4 +208,4 @@ void write_exr(const std::filesystem::path& file, const HdrImage& image) {
     hdr::encode_exr(file, {image.width, image.height, image.rgb.data(), 3, image.white_luminance}, image.header);
 }
 
-}  // namespace vesper
+}  // namespace vesper::io

@@ -10,7 +10,7 @@
 
 #include "base/image.h"
 
-namespace vesper {
+namespace vesper::io {
 
 /// Decodes a PNG or JPEG held in memory to 8-bit RGBA. Throws Error (reason only; the caller adds the place) when it is
 /// neither, damaged, larger than `max_side` in either direction or of more than `max_texels`. 16-bit, palette, grey and
@@ -50,4 +50,4 @@ void write_png_10bit(const std::filesystem::path& file, uint32_t width, uint32_t
 void write_exr(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const float> rgba,
                const Header& header);
 
-}  // namespace vesper
+}  // namespace vesper::io

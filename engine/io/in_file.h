@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 
-namespace vesper {
+namespace vesper::io {
 
 template <class Call>
 auto in_file(const std::string& file, const Call& call) {
@@ -19,4 +19,4 @@ auto in_file(const std::string& file, const Call& call) {
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::io

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 
-namespace vesper {
+namespace vesper::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -44,4 +44,4 @@ AllowedFolder::AllowedFolder(const fs::path& folder) : canonical_(real_path(fold
 
 AllowedFolder::~AllowedFolder() { allowed = before_; }
 
-}  // namespace vesper
+}  // namespace vesper::io

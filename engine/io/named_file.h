@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace vesper {
+namespace vesper::io {
 
 /// The file that a file in `folder` names, by its path from there. Past all links it lies in that folder or below, or
 /// in an AllowedFolder. It need not exist. Throws Error (reason only) if it lies elsewhere.
@@ -27,4 +27,4 @@ private:
     const AllowedFolder* before_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::io

@@ -12,7 +12,7 @@
 #include "io/file_gate.h"
 #include "io/temporary.h"
 
-namespace vesper {
+namespace vesper::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -101,4 +101,4 @@ void replace_file(const fs::path& file, std::span<const uint8_t> bytes) {
     made.commit();
 }
 
-}  // namespace vesper
+}  // namespace vesper::io

@@ -8,7 +8,7 @@
 
 #include "io/descriptor.h"
 
-namespace vesper {
+namespace vesper::io {
 
 class Temporary;
 
@@ -43,4 +43,4 @@ std::filesystem::path target_of(const std::filesystem::path& file);
 /// Makes or replaces a file, see NewFile. Throws Error.
 void replace_file(const std::filesystem::path& file, std::span<const uint8_t> bytes);
 
-}  // namespace vesper
+}  // namespace vesper::io

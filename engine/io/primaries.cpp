@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace vesper {
+namespace vesper::io {
 namespace {
 
 /// Columns are X, Y, Z of the primaries. Nothing is divided by a primary's y, which is 0 for X and Z.
@@ -33,4 +33,4 @@ bool make_white(const Primaries& p) {
 
 glm::dmat3 to_rec709(const Primaries& primaries) { return glm::inverse(to_xyz(kRec709)) * to_xyz(primaries); }
 
-}  // namespace vesper
+}  // namespace vesper::io

@@ -6,7 +6,7 @@
 
 #include <glm/glm.hpp>
 
-namespace vesper {
+namespace vesper::io {
 
 /// CIE 1931 xy chromaticities of the primaries and of white.
 struct Primaries {
@@ -33,4 +33,4 @@ bool make_white(const Primaries&);
 /// adaptation to white. Throws Error if the primaries span no volume.
 glm::dmat3 to_rec709(const Primaries&);
 
-}  // namespace vesper
+}  // namespace vesper::io

@@ -13,7 +13,7 @@
 #include "io/descriptor.h"
 #include "io/file_gate.h"
 
-namespace vesper {
+namespace vesper::io {
 
 namespace fs = std::filesystem;
 
@@ -44,4 +44,4 @@ std::vector<uint8_t> read_file(const fs::path& file, uint64_t max_bytes) {
     return bytes;
 }
 
-}  // namespace vesper
+}  // namespace vesper::io

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <random>
 
-namespace vesper {
+namespace vesper::io {
 namespace {
 
 /// A name that remove_temporaries() sees. More temporaries than slots at one time are not removed by it.
@@ -77,4 +77,4 @@ void remove_temporaries() noexcept {
         if (slot.shown) ::unlink(slot.name);
 }
 
-}  // namespace vesper
+}  // namespace vesper::io

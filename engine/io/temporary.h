@@ -7,7 +7,7 @@
 
 #include "io/descriptor.h"
 
-namespace vesper {
+namespace vesper::io {
 
 /// The name of a temporary file, removed with this object or by remove_temporaries(). It is random: it follows no link
 /// and nobody can take it before.
@@ -40,4 +40,4 @@ private:
 /// that are safe in them.
 void remove_temporaries() noexcept;
 
-}  // namespace vesper
+}  // namespace vesper::io

@@ -7,7 +7,7 @@
 
 #include "photometry/merge.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 struct Grey {
@@ -158,4 +158,4 @@ void estimate_shifts(std::span<Exposure> exposures, int levels) {
     for (Exposure& exposure : exposures) exposure.shift -= middle;
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

@@ -6,7 +6,7 @@
 
 #include "base/angle.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 glm::dvec3 direction_of(Goniometry goniometry, double h, double v) {
@@ -180,4 +180,4 @@ std::span<const BeamPoint> passing_beam_points() {
     return kPoints;
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

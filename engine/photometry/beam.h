@@ -9,7 +9,7 @@
 
 #include "photometry/distribution.h"
 
-namespace vesper {
+namespace vesper::photometry {
 
 /// Intensity at C and gamma, or H and V, deg; C may be any turn.
 double intensity_at(const Distribution&, double h, double v);
@@ -60,4 +60,4 @@ struct BeamPoint {
 };
 std::span<const BeamPoint> passing_beam_points();
 
-}  // namespace vesper
+}  // namespace vesper::photometry

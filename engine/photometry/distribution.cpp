@@ -6,7 +6,7 @@
 
 #include "base/angle.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 constexpr double kRounding = 1e-9;  // deg: a direction computed for the last angle may end up beyond it
@@ -100,4 +100,4 @@ double largest_intensity(const Distribution& d) {
     return d.candela.empty() ? 0 : *std::max_element(d.candela.begin(), d.candela.end());
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

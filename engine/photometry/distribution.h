@@ -9,7 +9,7 @@
 
 #include <glm/glm.hpp>
 
-namespace vesper {
+namespace vesper::photometry {
 
 /// Meaning of the two angles of a distribution. The luminaire's frame is that of a glTF node with a lamp
 /// (EXT_lights_ies): the point (0, 0) of the measurement is along -Z. intensity() has the axes.
@@ -63,4 +63,4 @@ Distribution mirrored(const Distribution&);
 /// other name by its contents. Throws Error naming file, line and reason.
 Distribution read_distribution(const std::filesystem::path& file);
 
-}  // namespace vesper
+}  // namespace vesper::photometry

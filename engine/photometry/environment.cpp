@@ -10,7 +10,7 @@
 #include "base/luminance.h"
 #include "io/hdr_image.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 glm::dvec3 pixel(const Environment& e, uint32_t x, uint32_t y) {
@@ -57,7 +57,7 @@ Environment averaged(const Environment& e, uint32_t width) {
 
 }  // namespace
 
-Environment make_environment(const HdrImage& image, uint64_t* cleaned) {
+Environment make_environment(const io::HdrImage& image, uint64_t* cleaned) {
     if (image.height < 1 || image.width != 2 * uint64_t{image.height})
         throw Error("a picture of " + std::to_string(image.width) + " x " + std::to_string(image.height) +
                     " px is no equirectangular sky: it must be twice as wide as high");
@@ -155,4 +155,4 @@ Environment scaled(Environment e, double factor) {
     return e;
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

@@ -9,9 +9,11 @@
 
 #include <glm/glm.hpp>
 
-namespace vesper {
-
+namespace vesper::io {
 struct HdrImage;
+}  // namespace vesper::io
+
+namespace vesper::photometry {
 
 /// Luminance from every direction, far away.
 struct Environment {
@@ -25,7 +27,7 @@ constexpr uint32_t kMaxEnvironmentWidth = 1024;  ///< px; larger pictures are av
 /// From a picture, its values taken for cd/m^2. Averaged to at most kMaxEnvironmentWidth columns, solid angle by solid
 /// angle, so that illuminances are kept. Values that are not finite or below 0 become 0; the number of such pixels is
 /// added to `cleaned`. Throws Error (reason only) unless the picture is twice as wide as high.
-Environment make_environment(const HdrImage&, uint64_t* cleaned = nullptr);
+Environment make_environment(const io::HdrImage&, uint64_t* cleaned = nullptr);
 
 /// Unit direction of azimuth and elevation, rad.
 glm::dvec3 direction_of(double azimuth, double elevation);
@@ -59,4 +61,4 @@ double horizontal_illuminance(const Environment&);
 /// All luminances times a factor. Throws Error (reason only) when they do not stay finite.
 Environment scaled(Environment, double factor);
 
-}  // namespace vesper
+}  // namespace vesper::photometry

@@ -7,7 +7,7 @@
 #include "io/read_file.h"
 #include "photometry/table.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 constexpr double kMaxLampSets = 1000;
@@ -170,9 +170,9 @@ Distribution parse_eulumdat(std::span<const uint8_t> text, const std::string& na
 }
 
 Distribution read_eulumdat(const std::filesystem::path& file, size_t lamp_set) {
-    Distribution made = parse_eulumdat(read_file(file, kMaxTableBytes), file.string(), lamp_set);
+    Distribution made = parse_eulumdat(io::read_file(file, kMaxTableBytes), file.string(), lamp_set);
     if (made.name.empty()) made.name = readable(file.stem().string());
     return made;
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

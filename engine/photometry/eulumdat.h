@@ -7,7 +7,7 @@
 
 #include "photometry/distribution.h"
 
-namespace vesper {
+namespace vesper::photometry {
 
 /// Reads a EULUMDAT file with one of its sets of lamps, counted from 0: they are alternatives and are never added up.
 /// I = value * flux of the set / 1000 lm * conversion factor; the number of lamps multiplies nothing, a negative one
@@ -19,4 +19,4 @@ Distribution read_eulumdat(const std::filesystem::path& file, size_t lamp_set = 
 /// The same from memory; `name` begins messages.
 Distribution parse_eulumdat(std::span<const uint8_t> text, const std::string& name, size_t lamp_set = 0);
 
-}  // namespace vesper
+}  // namespace vesper::photometry

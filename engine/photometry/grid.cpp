@@ -11,7 +11,7 @@
 #include "io/read_file.h"
 #include "photometry/table.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 constexpr size_t kMaxColumns = kMaxAngles + 2;  // a vertical angle before the others, nothing behind the last separator
@@ -266,15 +266,15 @@ Distribution parse_grid_csv(std::span<const uint8_t> text, const std::string& na
 }
 
 Distribution read_grid_csv(const std::filesystem::path& file) {
-    Distribution made = parse_grid_csv(read_file(file, kMaxTableBytes), file.string());
+    Distribution made = parse_grid_csv(io::read_file(file, kMaxTableBytes), file.string());
     made.name = readable(file.stem().string());
     return made;
 }
 
 Distribution read_grid_exr(const std::filesystem::path& file) {
-    Distribution made = parse_grid_exr(read_file(file, kMaxTableBytes), file.string());
+    Distribution made = parse_grid_exr(io::read_file(file, kMaxTableBytes), file.string());
     made.name = readable(file.stem().string());
     return made;
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

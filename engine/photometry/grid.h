@@ -19,7 +19,7 @@
 
 #include "photometry/distribution.h"
 
-namespace vesper {
+namespace vesper::photometry {
 
 /// Reads a grid. Throws Error naming file, line and reason.
 Distribution read_grid_csv(const std::filesystem::path& file);
@@ -31,4 +31,4 @@ Distribution parse_grid_exr(std::span<const uint8_t> bytes, const std::string& n
 /// True if the start of a file is that of an OpenEXR grid, valid or not: it has its angles, or a channel of cd.
 bool is_grid_exr(std::span<const uint8_t> start);
 
-}  // namespace vesper
+}  // namespace vesper::photometry

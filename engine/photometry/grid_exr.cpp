@@ -16,23 +16,23 @@
 #include "photometry/grid.h"
 #include "photometry/table.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 /// Throws Error unless the file can be given to OpenEXR, which allocates what a header states.
 void check_header(std::span<const uint8_t> bytes) {
     bool sized = false;
-    see_exr_attributes(bytes, [&](std::string_view name, std::span<const uint8_t> value) {
+    io::see_exr_attributes(bytes, [&](std::string_view name, std::span<const uint8_t> value) {
         if (name != "dataWindow") return;
         if (value.size() != 16) throw Error("has no sound data window");
-        const auto corner = [&](size_t i) { return static_cast<int32_t>(exr_word(value, 4 * i)); };
+        const auto corner = [&](size_t i) { return static_cast<int32_t>(io::exr_word(value, 4 * i)); };
         const std::string reason =
             objection_to_size(double{1} + corner(2) - corner(0), double{1} + corner(3) - corner(1));
         if (!reason.empty()) throw Error(reason);
         sized = true;
     });
-    if (const uint32_t word = exr_word(bytes, 4);
-        (word & kExrVersion) != 2 || (word & (kExrTiled | kExrDeep | kExrParts)) != 0)
+    if (const uint32_t word = io::exr_word(bytes, 4);
+        (word & io::kExrVersion) != 2 || (word & (io::kExrTiled | io::kExrDeep | io::kExrParts)) != 0)
         throw Error("is tiled, deep, of several parts or of another version: one part of scan lines is read");
     if (!sized) throw Error("states no data window");
 }
@@ -58,7 +58,7 @@ std::vector<double> steps(double first, double last, size_t count) {
 }
 
 Distribution read_checked(std::span<const uint8_t> bytes, const std::string& name) {
-    ExrStream stream(name, bytes);
+    io::ExrStream stream(name, bytes);
     Imf::InputFile file(stream);
     const Imf::Header& header = file.header();
     const auto window = header.dataWindow();
@@ -102,7 +102,7 @@ Distribution read_checked(std::span<const uint8_t> bytes, const std::string& nam
 bool is_grid_exr(std::span<const uint8_t> start) {
     bool grid = false;
     try {
-        see_exr_attributes(start, [&](std::string_view name, std::span<const uint8_t> value) {
+        io::see_exr_attributes(start, [&](std::string_view name, std::span<const uint8_t> value) {
             const std::string_view text(reinterpret_cast<const char*>(value.data()), value.size());
             grid |= name == "horizontalFirst" || name == "verticalTop" ||
                     (name == "channels" && text.starts_with(std::string_view("cd\0", 3)));
@@ -127,4 +127,4 @@ Distribution parse_grid_exr(std::span<const uint8_t> bytes, const std::string& n
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

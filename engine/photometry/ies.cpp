@@ -14,7 +14,7 @@
 #include "io/read_file.h"
 #include "photometry/table.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 constexpr size_t kMaxHeaderLines = 10'000;
@@ -185,8 +185,8 @@ double read_tilt_file(const LineReader& lines, const std::string& file, const st
     if (file.empty() || std::filesystem::path(file).filename() != std::filesystem::path(file))
         lines.fail("TILT=" + file + " is neither NONE, nor INCLUDE, nor the name of a file beside this one");
     try {
-        const std::filesystem::path named = named_file(folder, file);
-        const std::vector<uint8_t> bytes = read_file(named, kMaxTableBytes);
+        const std::filesystem::path named = io::named_file(folder, file);
+        const std::vector<uint8_t> bytes = io::read_file(named, kMaxTableBytes);
         LineReader table(bytes, named.string());
         Numbers numbers(table, false);
         return read_tilt_table(numbers, table);
@@ -303,9 +303,9 @@ Distribution parse_ies(std::span<const uint8_t> text, const std::string& name,
 }
 
 Distribution read_ies(const std::filesystem::path& file) {
-    Distribution made = parse_ies(read_file(file, kMaxTableBytes), file.string(), file.parent_path());
+    Distribution made = parse_ies(io::read_file(file, kMaxTableBytes), file.string(), file.parent_path());
     if (made.name.empty()) made.name = readable(file.stem().string());
     return made;
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

@@ -8,7 +8,7 @@
 
 #include "photometry/distribution.h"
 
-namespace vesper {
+namespace vesper::photometry {
 
 /// Reads an IES file of type A, B or C. Candela are multiplied by the candela multiplier, the ballast factor, the
 /// ballast-lamp photometric factor (up to LM-63-1995; later versions keep other things in that field) and the factor of
@@ -24,4 +24,4 @@ Distribution parse_ies(std::span<const uint8_t> text, const std::string& name,
 /// A distribution as LM-63-2019; parse_ies() gives angles back as they were and candela as floats.
 std::string write_ies(const Distribution& distribution);
 
-}  // namespace vesper
+}  // namespace vesper::photometry

@@ -5,7 +5,7 @@
 
 #include "photometry/ies.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 constexpr size_t kLineWidth = 120;  // the standard allows 256
@@ -86,4 +86,4 @@ std::string write_ies(const Distribution& d) {
     return file;
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

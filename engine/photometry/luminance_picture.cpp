@@ -8,7 +8,7 @@
 #include "base/luminance.h"
 #include "io/hdr_image.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 /// The colour nearest to `c` on the way to the grey of its luminance that has no negative component.
@@ -20,7 +20,7 @@ glm::dvec3 inside(glm::dvec3 c) {
 
 }  // namespace
 
-LuminancePicture make_luminance_picture(HdrImage image, uint64_t* changed) {
+LuminancePicture make_luminance_picture(io::HdrImage image, uint64_t* changed) {
     LuminancePicture made{.name = {}, .width = image.width, .height = image.height, .rgb = std::move(image.rgb)};
     for (size_t i = 0; i + 2 < made.rgb.size(); i += 3) {
         float* c = &made.rgb[i];
@@ -96,4 +96,4 @@ double PictureMeans::over(const std::array<glm::dvec2, 3>& uv) const {
     return row_up_to(static_cast<int64_t>(texel.y), texel.x + 1) - row_up_to(static_cast<int64_t>(texel.y), texel.x);
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

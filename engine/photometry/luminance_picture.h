@@ -8,9 +8,11 @@
 
 #include <glm/glm.hpp>
 
-namespace vesper {
-
+namespace vesper::io {
 struct HdrImage;
+}  // namespace vesper::io
+
+namespace vesper::photometry {
 
 /// Luminance of an emitting surface. Values times a factor of the surface are cd/m^2.
 struct LuminancePicture {
@@ -25,7 +27,7 @@ constexpr float kLargestValue = 1e30f;
 /// of its luminance until it is inside; one without luminance, or of a negative one, becomes black. The number of such
 /// pixels is added to `changed`. Throws Error (reason only) naming the first pixel that is NaN, infinite or beyond
 /// kLargestValue.
-LuminancePicture make_luminance_picture(HdrImage, uint64_t* changed = nullptr);
+LuminancePicture make_luminance_picture(io::HdrImage, uint64_t* changed = nullptr);
 
 /// Mean RGB of all texels.
 glm::dvec3 mean_colour(const LuminancePicture&);
@@ -48,4 +50,4 @@ private:
     double mean_ = 0;
 };
 
-}  // namespace vesper
+}  // namespace vesper::photometry

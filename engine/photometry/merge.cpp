@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/luminance.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 void check(std::span<const Exposure> exposures) {
@@ -106,12 +106,12 @@ MergedImage merge_exposures(std::span<const Exposure> exposures, const Response&
     return made;
 }
 
-std::vector<double> relative_exposures(std::span<const std::pair<std::string, CameraExposure>> pictures) {
-    const auto count = [&](std::optional<double> CameraExposure::*what) {
+std::vector<double> relative_exposures(std::span<const std::pair<std::string, io::CameraExposure>> pictures) {
+    const auto count = [&](std::optional<double> io::CameraExposure::*what) {
         return static_cast<size_t>(std::count_if(
             pictures.begin(), pictures.end(), [&](const auto& picture) { return (picture.second.*what).has_value(); }));
     };
-    const bool f_numbers = count(&CameraExposure::f_number) > 0, speeds = count(&CameraExposure::iso) > 0;
+    const bool f_numbers = count(&io::CameraExposure::f_number) > 0, speeds = count(&io::CameraExposure::iso) > 0;
     std::vector<double> made;
     for (const auto& [name, camera] : pictures) {
         if (!camera.seconds) throw Error(name + ": has no Exif exposure time");
@@ -132,7 +132,7 @@ void scale(MergedImage& merged, double factor) {
 }
 
 double scale_to_luminance(MergedImage& merged, const Region& region, double cd_m2) {
-    const HdrImage& image = merged.image;
+    const io::HdrImage& image = merged.image;
     if (region.x < 0 || region.y < 0 || region.width < 1 || region.height < 1 || region.x >= image.width ||
         region.y >= image.height || region.width > image.width - region.x || region.height > image.height - region.y)
         throw Error("the region does not lie inside the picture of " + std::to_string(image.width) + " x " +
@@ -155,4 +155,4 @@ double scale_to_luminance(MergedImage& merged, const Region& region, double cd_m
     return factor;
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

@@ -10,7 +10,7 @@
 #include "io/hdr_image.h"
 #include "photometry/response.h"
 
-namespace vesper {
+namespace vesper::photometry {
 
 constexpr size_t kMaxExposures = 32;
 /// Range of good codes. Other codes count only if no exposure has a good one.
@@ -18,10 +18,10 @@ constexpr int kLowestGoodCode = 8, kHighestGoodCode = 247;
 
 /// time * ISO speed / f-number^2 of each picture, by name. A value that no picture states counts as equal. Throws Error
 /// if a picture has no time, or if only some state f-number or ISO speed.
-std::vector<double> relative_exposures(std::span<const std::pair<std::string, CameraExposure>>);
+std::vector<double> relative_exposures(std::span<const std::pair<std::string, io::CameraExposure>>);
 
 struct MergedImage {
-    HdrImage image;             ///< relative, white_luminance 0; camera RGB taken for Rec. 709
+    io::HdrImage image;         ///< relative, white_luminance 0; camera RGB taken for Rec. 709
     std::vector<uint8_t> held;  ///< per pixel: 1 if each channel has a good code in some picture
     uint64_t too_dark = 0;      ///< pixels of which a channel is below the good codes in every picture that shows it,
     uint64_t too_bright = 0;    ///< above them,
@@ -50,4 +50,4 @@ double scale_to_luminance(MergedImage&, const Region&, double cd_m2);
 /// The same with a known factor.
 void scale(MergedImage&, double factor);
 
-}  // namespace vesper
+}  // namespace vesper::photometry

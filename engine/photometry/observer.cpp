@@ -4,7 +4,7 @@
 
 #include "io/primaries.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 constexpr double kSecondRadiation = 1.4388e-2;  // c2 of ITS-90, m K
@@ -33,7 +33,7 @@ double black_body(double nanometres, double kelvin) {
 
 std::array<glm::dvec3, kWavelengths> white_light() {
     std::array<glm::dvec3, kWavelengths> parts;
-    const glm::dmat3 rec709 = to_rec709(kXyz);
+    const glm::dmat3 rec709 = io::to_rec709(io::kXyz);
     glm::dvec3 sum(0);
     for (int i = 0; i < kWavelengths; ++i) {
         parts[size_t(i)] = black_body(wavelength(i), 6500) * (rec709 * kObserver[size_t(i)]);
@@ -43,4 +43,4 @@ std::array<glm::dvec3, kWavelengths> white_light() {
     return parts;
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

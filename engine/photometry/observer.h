@@ -5,7 +5,7 @@
 
 #include <glm/glm.hpp>
 
-namespace vesper {
+namespace vesper::photometry {
 
 constexpr int kWavelengths = 41;
 /// Of a step of the tables here, nm.
@@ -21,4 +21,4 @@ double black_body(double nanometres, double kelvin);
 /// be negative.
 std::array<glm::dvec3, kWavelengths> white_light();
 
-}  // namespace vesper
+}  // namespace vesper::photometry

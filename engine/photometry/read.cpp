@@ -9,7 +9,7 @@
 #include "photometry/ies.h"
 #include "photometry/table.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 /// A format by what a file begins with, as its usual extension.
@@ -32,11 +32,11 @@ std::string format_of(std::span<const uint8_t> bytes) {
 Distribution read_distribution(const std::filesystem::path& file) {
     std::string format = lower(file.extension().string());
     if (format != ".ies" && format != ".ldt" && format != ".csv" && format != ".exr")
-        format = format_of(read_file(file, kMaxTableBytes));
+        format = format_of(io::read_file(file, kMaxTableBytes));
     if (format == ".ies") return read_ies(file);
     if (format == ".csv") return read_grid_csv(file);
     if (format == ".exr") return read_grid_exr(file);
     return read_eulumdat(file);
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

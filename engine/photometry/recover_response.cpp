@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "photometry/response.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 using Matrix = Eigen::MatrixXd;
@@ -175,4 +175,4 @@ RecoveredResponse recover_response(std::span<const Exposure> exposures, double s
     return made;
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 constexpr size_t kMaxSide = 512;
@@ -131,4 +131,4 @@ void check_reflection_table(const ReflectionTable& table, const std::string& pla
     require(table.stated_q0 >= 0 && table.stated_q0 <= 100, "Q0 must be from 0 to 100 sr^-1");
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

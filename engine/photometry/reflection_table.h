@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace vesper {
+namespace vesper::photometry {
 
 /// An r-table (CIE 144:2001): r = q cos^3(gamma), q = L / E_h, for an observer who looks down at 1 degree. gamma is the
 /// angle of incidence from the vertical; beta, in plan, is the turn from "observer to point" to "point to lamp": 0
@@ -68,4 +68,4 @@ std::vector<std::string> standard_reflection_tables();
 /// A standard table by name; else a file relative to `folder`.
 ReflectionTable find_reflection_table(const std::string& name_or_file, const std::filesystem::path& folder = {});
 
-}  // namespace vesper
+}  // namespace vesper::photometry

@@ -10,7 +10,7 @@
 #include "photometry/reflection_table.h"
 #include "photometry/table.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 constexpr uint64_t kMaxBytes = 4u << 20;
@@ -88,7 +88,7 @@ ReflectionTable parse_reflection_table(std::span<const uint8_t> text, const std:
 }
 
 ReflectionTable read_reflection_table(const std::filesystem::path& file) {
-    ReflectionTable table = parse_reflection_table(read_file(file, kMaxBytes), file.string());
+    ReflectionTable table = parse_reflection_table(io::read_file(file, kMaxBytes), file.string());
     table.name = one_line(file.stem().string());
     return table;
 }
@@ -111,4 +111,4 @@ ReflectionTable find_reflection_table(const std::string& name_or_file, const std
     return read_reflection_table(file);
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

@@ -15,7 +15,7 @@
 #include "io/read_file.h"
 #include "photometry/table.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 /// All channels alike, from the relative exposure of a code in (0, 1].
@@ -90,11 +90,11 @@ void write_response(const std::filesystem::path& file, const Response& response)
         for (const auto& channel : response.ln_exposure) text += "," + decimal(channel[z], 9);
         text += "\n";
     }
-    replace_file(file, std::vector<uint8_t>(text.begin(), text.end()));
+    io::replace_file(file, std::vector<uint8_t>(text.begin(), text.end()));
 }
 
 Response read_response(const std::filesystem::path& file) {
-    const std::vector<uint8_t> bytes = read_file(file, 1u << 20);
+    const std::vector<uint8_t> bytes = io::read_file(file, 1u << 20);
     LineReader lines(bytes, file.string());
     const auto header = lines.next();
     if (!header || !header->starts_with("code,"))
@@ -118,4 +118,4 @@ Response read_response(const std::filesystem::path& file) {
     return response;
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

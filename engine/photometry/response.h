@@ -11,7 +11,7 @@
 
 #include "io/image_file.h"
 
-namespace vesper {
+namespace vesper::photometry {
 
 /// One of several pictures of the same scene.
 struct Exposure {
@@ -61,4 +61,4 @@ std::array<int, 3> count_falls(const Response&);
 void write_response(const std::filesystem::path& file, const Response&);
 Response read_response(const std::filesystem::path& file);
 
-}  // namespace vesper
+}  // namespace vesper::photometry

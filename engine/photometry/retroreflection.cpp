@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 double cos_of(double degrees) { return std::cos(degrees * std::numbers::pi / 180); }
@@ -83,4 +83,4 @@ double retroreflected_luminance(const Retroreflector& r, double observation, dou
     return coefficient * illuminance / (r.marking ? 1 : std::max(cos_of(view), 0.05));
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

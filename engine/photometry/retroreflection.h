@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace vesper {
+namespace vesper::photometry {
 
 constexpr size_t kMaxRetroNodes = 8;  ///< of either angle
 
@@ -41,4 +41,4 @@ double retroreflection(const Retroreflector&, double observation, double entranc
 double retroreflected_luminance(const Retroreflector&, double observation, double entrance, double view,
                                 double illuminance);
 
-}  // namespace vesper
+}  // namespace vesper::photometry

@@ -7,7 +7,7 @@
 
 #include "base/angle.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 constexpr uint32_t kLobeSamples = 512;
@@ -195,4 +195,4 @@ std::vector<Reflected> specular_table() {
     return table;
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

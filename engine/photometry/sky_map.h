@@ -7,7 +7,7 @@
 
 #include "photometry/environment.h"
 
-namespace vesper {
+namespace vesper::photometry {
 
 /// A map of all directions on a square (Q. Meyer et al., "On Floating-Point Normal Vectors", 2010; z is the pole), with
 /// a border of one texel that repeats what lies beyond the edge, so that bilinear lookups need no wrapping.
@@ -50,4 +50,4 @@ Reflected specular_reflectance(double normal_eye, double roughness, uint32_t sam
 /// included. Bilinear lookups are within 0.008 where normal_eye is at least 0.02.
 std::vector<Reflected> specular_table();
 
-}  // namespace vesper
+}  // namespace vesper::photometry

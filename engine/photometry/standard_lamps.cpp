@@ -8,7 +8,7 @@
 #include "photometry/grid.h"
 #include "photometry/ies.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 /// Name and text of each file.
@@ -27,4 +27,4 @@ Distribution standard_lamp(const std::string& name) {
     throw Error("there is no lamp '" + name + "': street-lamp, low-beam and high-beam are built in");
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

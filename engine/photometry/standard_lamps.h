@@ -5,9 +5,9 @@
 
 #include "photometry/distribution.h"
 
-namespace vesper {
+namespace vesper::photometry {
 
 /// "street-lamp" (type C), "low-beam", "high-beam" (type A, right-hand traffic). Throws Error for other names.
 Distribution standard_lamp(const std::string& name);
 
-}  // namespace vesper
+}  // namespace vesper::photometry

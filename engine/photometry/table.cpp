@@ -7,7 +7,7 @@
 
 #include "base/decimal.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 constexpr double kSame = 1e-6;    // deg: angles closer than this are one
@@ -200,4 +200,4 @@ Distribution mirrored(const Distribution& original) {
     return made;
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

@@ -12,7 +12,7 @@
 
 #include "photometry/distribution.h"
 
-namespace vesper {
+namespace vesper::photometry {
 
 constexpr uint64_t kMaxTableBytes = 64u << 20;
 constexpr size_t kMaxAngles = 4096;      ///< of either list, as the file has it
@@ -69,4 +69,4 @@ bool go_round(const std::vector<double>& planes);
 /// close the circle; 90 to 270; -90 to 90. `halves`: H of types A and B from 0 stands for both sides.
 void finish_table(Distribution& table, bool halves, const TableFault& fault);
 
-}  // namespace vesper
+}  // namespace vesper::photometry

@@ -10,7 +10,7 @@
 #include "base/one_line.h"
 #include "photometry/table.h"
 
-namespace vesper {
+namespace vesper::photometry {
 namespace {
 
 /// Length of the UTF-8 character a text begins with; 0 when it begins with none.
@@ -134,4 +134,4 @@ std::vector<std::string_view> fields_of(std::string_view line, char separator, s
     return fields;
 }
 
-}  // namespace vesper
+}  // namespace vesper::photometry

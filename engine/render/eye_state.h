@@ -3,7 +3,7 @@
 
 #include "shared/tone.h"
 
-namespace vesper {
+namespace vesper::render {
 
 /// A frame takes the state of the eye and leaves another one. While a frame is under way the host does not know what it
 /// leaves, but the next one can take it on the device, without a copy to the host and back.
@@ -17,4 +17,4 @@ struct EyeState {
     EyeState finished(const shared::EyeState& left) const { return on_device ? EyeState{left, true} : *this; }
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -3,7 +3,7 @@
 
 #include <vulkan/vulkan_core.h>
 
-namespace vesper {
+namespace vesper::render {
 
 constexpr VkFormat kReflectanceFormat = VK_FORMAT_R16G16B16A16_SFLOAT;  ///< base colour, metallic
 constexpr VkFormat kSurfaceFormat = VK_FORMAT_R32G32B32A32_SFLOAT;      ///< normal (2), depth (m), roughness
@@ -14,4 +14,4 @@ constexpr VkFormat kBloomFormat = VK_FORMAT_R16G16B16A16_SFLOAT;         ///< di
 constexpr VkFormat kDisplayFormat = VK_FORMAT_R32_UINT;                  ///< codes, see add_composite
 constexpr VkFormat kDisplayLightFormat = VK_FORMAT_R32G32B32A32_SFLOAT;  ///< cd/m^2 RGB
 
-}  // namespace vesper
+}  // namespace vesper::render

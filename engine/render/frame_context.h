@@ -8,14 +8,14 @@
 #include "graph/frame_graph.h"
 #include "render/formats.h"
 
-namespace vesper {
+namespace vesper::render {
 
 /// A frame while it is declared. Passes run in the order in which they are added.
 struct FrameContext {
-    FrameGraph& graph;
-    const KernelCache& kernels;
-    const GraphicsPipelineCache& pipelines;
-    View view;  ///< its extent is that of every image of full size
+    graph::FrameGraph& graph;
+    const gpu::KernelCache& kernels;
+    const gpu::GraphicsPipelineCache& pipelines;
+    gpu_scene::View view;  ///< its extent is that of every image of full size
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -2,16 +2,16 @@
 
 #include <utility>
 
-namespace vesper {
+namespace vesper::render {
 
-FrameQueue::FrameQueue(Device& device, size_t views)
+FrameQueue::FrameQueue(gpu::Device& device, size_t views)
     : kernels_(device), pipelines_(device), scatter_(device, views), executor_(device) {}
 
 void FrameQueue::prepare(const ToneChainSettings& settings) {
     if (needs_finished_frame(settings)) finish();
 }
 
-ChainInputs FrameQueue::inputs(const ToneChainSettings& settings, const View& view, float seconds) {
+ChainInputs FrameQueue::inputs(const ToneChainSettings& settings, const gpu_scene::View& view, float seconds) {
     ChainInputs inputs{.seconds = seconds, .eye = eye_};
     if (settings.glare != Glare::Scatter) return inputs;
     if (!scatter_.has(settings.scatter, view)) wait();  // frames under way use the fit that the new one replaces
@@ -22,7 +22,7 @@ ChainInputs FrameQueue::inputs(const ToneChainSettings& settings, const View& vi
     return inputs;
 }
 
-void FrameQueue::submit(Declared frame, const ChainInputs& inputs, const SubmitSemaphores& semaphores) {
+void FrameQueue::submit(Declared frame, const ChainInputs& inputs, const graph::SubmitSemaphores& semaphores) {
     Pending pending{frame.watch, frame.chain, inputs.eye, {}};
     pending.result.extent = frame.extent;
     if (inputs.corona) {
@@ -56,4 +56,4 @@ std::optional<ToneMapped> FrameQueue::finish() {
     return result;
 }
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -12,13 +12,13 @@
 #include "render/frame_context.h"
 #include "render/tone_chain.h"
 
-namespace vesper {
+namespace vesper::render {
 
 /// Submits frames and reads their results. Not thread-safe.
 class FrameQueue {
 public:
     /// Keeps the fitted eye scatter of `views` sizes or angles of pictures.
-    explicit FrameQueue(Device& device, size_t views = 1);
+    explicit FrameQueue(gpu::Device& device, size_t views = 1);
 
     /// Whether frames of these settings need the state of the eye on the host, so that the last frame must be finished.
     static bool needs_finished_frame(const ToneChainSettings& settings) {
@@ -27,27 +27,29 @@ public:
     /// Finishes the last frame, and drops its results, if frames of these settings need that.
     void prepare(const ToneChainSettings& settings);
     /// A frame to be declared.
-    FrameContext context(FrameGraph& graph, const View& view) const { return {graph, kernels_, pipelines_, view}; }
+    FrameContext context(graph::FrameGraph& graph, const gpu_scene::View& view) const {
+        return {graph, kernels_, pipelines_, view};
+    }
     /// The eye as a frame of `view` finds it `seconds` after the last one, with its scatter if the settings have any.
-    ChainInputs inputs(const ToneChainSettings& settings, const View& view, float seconds);
+    ChainInputs inputs(const ToneChainSettings& settings, const gpu_scene::View& view, float seconds);
 
     /// A declared frame.
     struct Declared {
         Stopwatch watch;  ///< since its declaration began
-        FrameGraph graph;
+        graph::FrameGraph graph;
         ToneChain chain;
         VkExtent2D extent{};
     };
     /// Submits a frame, which was declared with these inputs, between semaphores and without waiting. If it throws
     /// Error nothing has changed.
-    void submit(Declared frame, const ChainInputs& inputs, const SubmitSemaphores& semaphores);
+    void submit(Declared frame, const ChainInputs& inputs, const graph::SubmitSemaphores& semaphores);
     /// Waits for all submitted frames. Returns the results of the last one, once; its readbacks can be read until the
     /// next frame is submitted.
     std::optional<ToneMapped> finish();
     /// Waits for all submitted frames; the results of the last one remain to be finished.
     void wait() { executor_.wait(); }
 
-    const Executor& executor() const { return executor_; }
+    const graph::Executor& executor() const { return executor_; }
     const EyeState& eye() const { return eye_; }
     /// The state that the next frame takes.
     void set_eye(const EyeState& eye) { eye_ = eye; }
@@ -62,14 +64,14 @@ private:
         ToneMapped result;  // what the host knows before the frame is finished
     };
 
-    KernelCache kernels_;
-    GraphicsPipelineCache pipelines_;
-    ScatterCache scatter_;
-    CoronaCache corona_;
+    gpu::KernelCache kernels_;
+    gpu::GraphicsPipelineCache pipelines_;
+    gpu_scene::ScatterCache scatter_;
+    gpu_scene::CoronaCache corona_;
     EyeState eye_;
-    FrameGraph graph_;   // of the last frame
-    Executor executor_;  // waits for its frames, which use the members above
+    graph::FrameGraph graph_;   // of the last frame
+    graph::Executor executor_;  // waits for its frames, which use the members above
     std::optional<Pending> pending_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -6,34 +6,35 @@
 #include "gpu_scene/sky.h"
 #include "render/passes/luminaires.h"
 
-namespace vesper {
+namespace vesper::render {
 
-Renderer::Renderer(Device& device, const Scene& scene)
+Renderer::Renderer(gpu::Device& device, const scene::Scene& scene)
     : device_(device), scene_(std::make_unique<SceneData>(device, scene)), frames_(device) {}
 
-Renderer::SceneData::SceneData(const Device& device, const Scene& scene)
+Renderer::SceneData::SceneData(const gpu::Device& device, const scene::Scene& scene)
     : resident(device, scene),
-      lamps(placed_lamps(scene)),
-      luminaires(placed_luminaires(scene)),
-      tables(intensity_tables(scene)),
+      lamps(gpu_scene::placed_lamps(scene)),
+      luminaires(gpu_scene::placed_luminaires(scene)),
+      tables(gpu_scene::intensity_tables(scene)),
       table_arena(device),
       table_texels(upload(device, tables.texels)),
       ambient{scene.ambient_illuminance * scene.ambient_colour, scene.sky_luminance * scene.sky_colour} {
     tables.texels = std::vector<glm::vec4>();  // the device has them
     if (scene.environment) {
-        const SkyMap map = make_sky_map(*scene.environment);
+        const photometry::SkyMap map = photometry::make_sky_map(*scene.environment);
         sky_sharp_side = map.sharp.side;
-        sky = upload(device, sky_texels(map));
+        sky = upload(device, gpu_scene::sky_texels(map));
     }
-    if (!scene.retroreflectors.empty()) retro = upload(device, retro_texels(scene.retroreflectors));
+    if (!scene.retroreflectors.empty()) retro = upload(device, gpu_scene::retro_texels(scene.retroreflectors));
 }
 
-Renderer::TexelBuffer Renderer::SceneData::upload(const Device& device, const std::vector<glm::vec4>& texels) {
+Renderer::TexelBuffer Renderer::SceneData::upload(const gpu::Device& device, const std::vector<glm::vec4>& texels) {
     const auto bytes = std::as_bytes(std::span(texels));
-    return {upload_buffer(device, table_arena, bytes, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT), bytes.size()};
+    return {gpu_scene::upload_buffer(device, table_arena, bytes, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT),
+            bytes.size()};
 }
 
-void Renderer::set_scene(const Scene& scene) {
+void Renderer::set_scene(const scene::Scene& scene) {
     auto data = std::make_unique<const SceneData>(device_, scene);
     frames_.wait();  // frames under way use the old scene
     scene_ = std::move(data);
@@ -47,17 +48,18 @@ RenderSettings ldr_baseline(RenderSettings settings) {
     return settings;
 }
 
-Renderer::FrameInputs Renderer::inputs_of(FrameGraph& graph, const RenderSettings& settings, const View& view,
-                                          const SceneFrame& poses, float seconds) {
+Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const RenderSettings& settings,
+                                          const gpu_scene::View& view, const gpu_scene::SceneFrame& poses,
+                                          float seconds) {
     const auto texels = [&graph](const char* name, const TexelBuffer& buffer) {
-        if (buffer.bytes == 0) return Resource{};
+        if (buffer.bytes == 0) return graph::Resource{};
         return graph.external(name, buffer.buffer.get(), buffer.bytes, VK_FORMAT_R32G32B32A32_SFLOAT);
     };
     FrameInputs in;
-    in.lamps = lamp_list(scene_->lamps, scene_->tables, poses, view);
-    if (settings.unit_lamps) set_to_one(in.lamps, settings.ldr_reference_distance);
+    in.lamps = gpu_scene::lamp_list(scene_->lamps, scene_->tables, poses, view);
+    if (settings.unit_lamps) gpu_scene::set_to_one(in.lamps, settings.ldr_reference_distance);
     const std::optional<float> white = settings.unit_lamps ? std::optional(1.0f) : std::nullopt;
-    in.luminaires = luminaire_list(scene_->luminaires, poses, view, white);
+    in.luminaires = gpu_scene::luminaire_list(scene_->luminaires, poses, view, white);
     in.tables = {texels("intensity tables", scene_->table_texels), scene_->tables.roads, scene_->tables.roads != 0};
     in.clusters = settings.clusters;
     in.clusters.far = scene_->resident.farthest_depth(poses, view);
@@ -71,23 +73,23 @@ Renderer::FrameInputs Renderer::inputs_of(FrameGraph& graph, const RenderSetting
         return in;
     }
 
-    const AmbientLight ambient = poses.ambient.value_or(scene_->ambient);
+    const gpu_scene::AmbientLight ambient = poses.ambient.value_or(scene_->ambient);
     if (poses.tunnels.empty()) in.shading.ambient = ambient.illuminance;
     in.shading.sky = ambient.sky;
     in.shading.retro = texels("retroreflection", scene_->retro);
     in.daylight = {poses.tunnels, ambient.illuminance, in.shading.lambert};
     in.sky = {texels("sky map", scene_->sky), scene_->sky_sharp_side};
-    for (const GlareSource& source : in.luminaires.glare_sources)
+    for (const gpu_scene::GlareSource& source : in.luminaires.glare_sources)
         if (source.inside < 1)
             in.chain.scatter.lamps.push_back({source.direction, (1 - source.inside) * source.illuminance});
     return in;
 }
 
-ToneChain Renderer::declare(const FrameContext& frame, const SceneFrame& poses, const FrameInputs& inputs,
+ToneChain Renderer::declare(const FrameContext& frame, const gpu_scene::SceneFrame& poses, const FrameInputs& inputs,
                             const RenderSettings& settings, const Outputs& outputs, Pending& pending) const {
     const GBuffer surfaces = add_gbuffer(frame, scene_->resident, poses);
     const Clusters clusters = add_clusters(frame, surfaces.surface, inputs.lamps, inputs.tables, inputs.clusters);
-    Resource scene = add_shading(frame, surfaces, clusters, inputs.shading);
+    graph::Resource scene = add_shading(frame, surfaces, clusters, inputs.shading);
     scene = add_daylight(frame, surfaces, scene, inputs.daylight);
     scene = add_sky(frame, surfaces, scene, inputs.sky, inputs.shading.lambert);
     scene = add_luminaires(frame, scene, surfaces.surface, inputs.luminaires);
@@ -97,14 +99,14 @@ ToneChain Renderer::declare(const FrameContext& frame, const SceneFrame& poses, 
     return chain;
 }
 
-Frame Renderer::render(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds,
-                       const Outputs& outputs) {
+Frame Renderer::render(const RenderSettings& settings, const gpu_scene::View& view, const gpu_scene::SceneFrame& frame,
+                       float seconds, const Outputs& outputs) {
     submit(settings, view, frame, seconds, outputs, {});
     return *finish();
 }
 
-void Renderer::submit(const RenderSettings& given, const View& view, const SceneFrame& poses, float seconds,
-                      const Outputs& outputs, const SubmitSemaphores& semaphores) {
+void Renderer::submit(const RenderSettings& given, const gpu_scene::View& view, const gpu_scene::SceneFrame& poses,
+                      float seconds, const Outputs& outputs, const graph::SubmitSemaphores& semaphores) {
     const RenderSettings settings = ldr_baseline(given);
     frames_.prepare(settings);
     FrameQueue::Declared frame{.extent = view.extent};
@@ -129,4 +131,4 @@ std::optional<Frame> Renderer::finish() {
     return frame;
 }
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -15,13 +15,13 @@
 #include "render/passes/shade.h"
 #include "render/passes/sky.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct RenderSettings : ToneChainSettings {
     bool paper_lambert = false;  ///< L = E R instead of E R / pi
     bool all_lamps = false;      ///< shade without clusters, for comparison
     ClusterSettings clusters;
-    std::vector<OffscreenLamp>
+    std::vector<gpu_scene::OffscreenLamp>
         offscreen_lamps;  ///< on other screens: scattered in the eye, not drawn; directions in the view frame
     float ldr_reference_distance = 6.5f;  ///< m: where an LDR lamp of 1.0 gives 1.0; the paper's lamp height
     bool unit_lamps = false;  ///< lamps and luminaires of 1.0 instead of their candela, emission of at most 1.0
@@ -38,29 +38,29 @@ struct Frame : ToneMapped {
     uint32_t lamps = 0;       ///< lamps that shine
     uint32_t luminaires = 0;  ///< of their openings, those in view
     float far = 0;            ///< m: the far limit of the clusters
-    std::vector<GlareSource>
+    std::vector<gpu_scene::GlareSource>
         glare_sources;  ///< lamps before the eye, as if nothing stood between; none with Operator::Ldr
-    std::vector<OffscreenLamp>
+    std::vector<gpu_scene::OffscreenLamp>
         outside;  ///< light from beside the picture: of those, and of RenderSettings::offscreen_lamps
 };
 
 /// Renders one scene on one device. Not thread-safe; several renderers may share a device in one thread.
 class Renderer {
 public:
-    Renderer(Device& device, const Scene& scene);
+    Renderer(gpu::Device& device, const scene::Scene& scene);
 
     /// Renders the scene as `view` sees it, with everything at its pose of `frame`. `seconds` have passed since the
     /// last frame. Throws Error.
-    Frame render(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds,
-                 const Outputs& outputs);
+    Frame render(const RenderSettings& settings, const gpu_scene::View& view, const gpu_scene::SceneFrame& frame,
+                 float seconds, const Outputs& outputs);
 
     /// The same, submitted between semaphores and without waiting; best with Outputs::shown.
-    void submit(const RenderSettings& settings, const View& view, const SceneFrame& frame, float seconds,
-                const Outputs& outputs, const SubmitSemaphores& semaphores);
+    void submit(const RenderSettings& settings, const gpu_scene::View& view, const gpu_scene::SceneFrame& frame,
+                float seconds, const Outputs& outputs, const graph::SubmitSemaphores& semaphores);
     /// Waits for all submitted frames. Returns the results of the last one, once.
     std::optional<Frame> finish();
     /// Takes another scene, or the same after a change. The eye goes on.
-    void set_scene(const Scene& scene);
+    void set_scene(const scene::Scene& scene);
 
     /// The plan of the last frame as text.
     std::string plan() const { return frames_.plan(); }
@@ -70,7 +70,7 @@ public:
     void set_eye(const shared::EyeState& eye) { frames_.set_eye({eye}); }
     /// The state that the last finished frame left, or that was set since.
     const shared::EyeState& eye() const { return frames_.eye().value; }
-    const GpuScene& scene() const { return scene_->resident; }
+    const gpu_scene::GpuScene& scene() const { return scene_->resident; }
     uint64_t device_bytes() const {
         return scene_->resident.bytes() + scene_->table_arena.bytes() + frames_.executor().heap_bytes();
     }
@@ -78,28 +78,28 @@ public:
 private:
     /// A texel buffer of the scene, rgba32f.
     struct TexelBuffer {
-        OwnedBuffer buffer;
+        gpu::OwnedBuffer buffer;
         uint64_t bytes = 0;  // 0: there is none
     };
     /// A scene on the device, and the parts of it that the host needs.
     struct SceneData {
-        GpuScene resident;
-        std::vector<PlacedLamp> lamps;
-        LuminaireSet luminaires;
-        IntensityTables tables;  // without its texels, which are uploaded
-        Arena table_arena;
+        gpu_scene::GpuScene resident;
+        std::vector<gpu_scene::PlacedLamp> lamps;
+        gpu_scene::LuminaireSet luminaires;
+        gpu_scene::IntensityTables tables;  // without its texels, which are uploaded
+        gpu::Arena table_arena;
         TexelBuffer table_texels;
         TexelBuffer sky, retro;
         uint32_t sky_sharp_side = 0;
-        AmbientLight ambient;
+        gpu_scene::AmbientLight ambient;
 
-        SceneData(const Device& device, const Scene& scene);
-        TexelBuffer upload(const Device& device, const std::vector<glm::vec4>& texels);
+        SceneData(const gpu::Device& device, const scene::Scene& scene);
+        TexelBuffer upload(const gpu::Device& device, const std::vector<glm::vec4>& texels);
     };
     /// The light and the eye of one frame, as its passes take them.
     struct FrameInputs {
-        LampList lamps;
-        LuminaireList luminaires;
+        gpu_scene::LampList lamps;
+        gpu_scene::LuminaireList luminaires;
         TableTexels tables;
         ClusterSettings clusters;
         ShadeSettings shading;
@@ -110,18 +110,18 @@ private:
     /// The results of a submitted frame, as far as they are known.
     struct Pending {
         Frame frame;
-        Resource clusters;  // to be read
+        graph::Resource clusters;  // to be read
     };
 
-    FrameInputs inputs_of(FrameGraph& graph, const RenderSettings& settings, const View& view, const SceneFrame& poses,
-                          float seconds);
-    ToneChain declare(const FrameContext& frame, const SceneFrame& poses, const FrameInputs& inputs,
+    FrameInputs inputs_of(graph::FrameGraph& graph, const RenderSettings& settings, const gpu_scene::View& view,
+                          const gpu_scene::SceneFrame& poses, float seconds);
+    ToneChain declare(const FrameContext& frame, const gpu_scene::SceneFrame& poses, const FrameInputs& inputs,
                       const RenderSettings& settings, const Outputs& outputs, Pending& pending) const;
 
-    const Device& device_;
+    const gpu::Device& device_;
     std::unique_ptr<const SceneData> scene_;
     FrameQueue frames_;  // waits for its frames, which use the rest
     std::optional<Pending> pending_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -5,11 +5,13 @@
 #include "render/passes/composite.h"
 #include "render/passes/corona.h"
 
-namespace vesper {
+namespace vesper::render {
 namespace {
 
+using graph::Resource;
+
 template <class T>
-void read_all(const Executor& executor, Resource readback, std::vector<T>& to) {
+void read_all(const graph::Executor& executor, Resource readback, std::vector<T>& to) {
     to.clear();
     if (!readback) return;
     const auto values = executor.read_as<T>(readback);
@@ -42,7 +44,7 @@ BloomSettings bloom_of(const ToneChainSettings& settings) {
 
 // Codes in the format of an external image, or those of the display.
 CompositeSettings codes_of(const OperatorInfo& op, const ToneChainSettings& settings,
-                           const std::optional<ExternalImage>& shown) {
+                           const std::optional<graph::ExternalImage>& shown) {
     CompositeSettings codes{
         .tone = display_tone_of(op, settings.tone), .display = settings.display, .bloom_gain = settings.bloom.gain};
     if (!shown) return codes;
@@ -57,17 +59,17 @@ CompositeSettings light_of(const OperatorInfo& op, const ToneChainSettings& sett
 }
 
 // The texels of needles and halo; none without them.
-std::span<const glm::vec4> pattern_of(const Corona* corona) {
+std::span<const glm::vec4> pattern_of(const gpu_scene::Corona* corona) {
     return corona ? std::span<const glm::vec4>(corona->texels) : std::span<const glm::vec4>();
 }
 
-void show(FrameGraph& graph, Resource codes, const std::optional<ExternalImage>& image) {
+void show(graph::FrameGraph& graph, Resource codes, const std::optional<graph::ExternalImage>& image) {
     if (image) graph.copy("show", codes, graph.target("shown", *image));
 }
 
 }  // namespace
 
-Resource add_readback(FrameGraph& graph, const std::string& name, Resource from, uint64_t bytes, bool wanted) {
+Resource add_readback(graph::FrameGraph& graph, const std::string& name, Resource from, uint64_t bytes, bool wanted) {
     if (!wanted) return {};
     const Resource to = graph.readback(name + " on the host", bytes);
     graph.copy("read " + name, from, to);
@@ -117,7 +119,7 @@ ToneChain add_tone_chain(const FrameContext& frame, Resource scene, const ToneCh
     return chain;
 }
 
-void read_tone_chain(const Executor& executor, const ToneChain& chain, VkExtent2D extent, ToneMapped& to) {
+void read_tone_chain(const graph::Executor& executor, const ToneChain& chain, VkExtent2D extent, ToneMapped& to) {
     to.extent = extent;
     read_all(executor, chain.display, to.display);
     read_all(executor, chain.scene, to.scene);
@@ -152,4 +154,4 @@ std::optional<ShownFormat> shown_format(VkFormat format) {
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -12,7 +12,7 @@
 #include "render/passes/bloom.h"
 #include "render/passes/eye_scatter.h"
 
-namespace vesper {
+namespace vesper::render {
 
 enum class Glare : uint8_t { None, Ldr, Scatter };
 
@@ -22,10 +22,10 @@ struct ToneChainSettings {
     HistogramSettings histogram;
     std::optional<uint32_t> foveal_level;  ///< pyramid level of the histogram; default: 1 degree per texel
     ToneSettings tone;
-    Display display;
+    vision::Display display;
     Glare glare = Glare::None;
     BloomSettings bloom;
-    ScatterSettings scatter;  ///< of Glare::Scatter: light scattered in the eye, in cd/m^2
+    gpu_scene::ScatterSettings scatter;  ///< of Glare::Scatter: light scattered in the eye, in cd/m^2
 };
 
 /// The results that are copied to the host.
@@ -37,7 +37,7 @@ struct Outputs {
     /// is shown. For several pictures of one eye.
     bool retina = false;
     /// An external image that gets the codes, too, in the order and with the bits of its format (shown_format).
-    std::optional<ExternalImage> shown = {};
+    std::optional<graph::ExternalImage> shown = {};
 };
 
 /// How codes lie in an image of a format.
@@ -51,7 +51,7 @@ std::optional<ShownFormat> shown_format(VkFormat);
 
 /// Readbacks of the chain. Those that were not asked for are none.
 struct ToneChain {
-    Resource display, scene, retina, display_light, curve, histogram, eye;
+    graph::Resource display, scene, retina, display_light, curve, histogram, eye;
     uint32_t foveal_level = 0;
 };
 
@@ -59,13 +59,13 @@ struct ToneChain {
 struct ChainInputs {
     float seconds = 0;  ///< since the last frame
     EyeState eye = {};
-    ScatterInputs scatter = {};      ///< without a fit no light is scattered in the eye
-    const Corona* corona = nullptr;  ///< needles and halo of lamps; needs a fit of the scatter
+    ScatterInputs scatter = {};                 ///< without a fit no light is scattered in the eye
+    const gpu_scene::Corona* corona = nullptr;  ///< needles and halo of lamps; needs a fit of the scatter
 };
 
 /// Declares glare, pyramid, histogram, adaptation and composite of `scene` (rgba32f, cd/m^2 RGB; with Operator::Ldr
 /// values relative to white).
-ToneChain add_tone_chain(const FrameContext& frame, Resource scene, const ToneChainSettings& settings,
+ToneChain add_tone_chain(const FrameContext& frame, graph::Resource scene, const ToneChainSettings& settings,
                          const ChainInputs& inputs, const Outputs& outputs);
 
 /// One tone-mapped frame on the host.
@@ -82,25 +82,26 @@ struct ToneMapped {
     shared::Histogram histogram{};
     shared::EyeState eye{};
     uint32_t foveal_level = 0;
-    std::vector<Timing> timings;
-    HostTimes host_times;
+    std::vector<graph::Timing> timings;
+    graph::HostTimes host_times;
     double pupil = 0;                 ///< mm, whose glare is shown; 0: of a model without one
     double pattern_milliseconds = 0;  ///< of needles and halo, on the host
     double milliseconds = 0;          ///< from declaring the frame to the device being done, on the host's clock
 };
 
 /// Copies a resource to the host after the frame. If it is not wanted there is no readback.
-Resource add_readback(FrameGraph& graph, const std::string& name, Resource from, uint64_t bytes, bool wanted = true);
+graph::Resource add_readback(graph::FrameGraph& graph, const std::string& name, graph::Resource from, uint64_t bytes,
+                             bool wanted = true);
 
 /// The value that the last frame left in a readback.
 template <class T>
-T read_one(const Executor& executor, Resource readback) {
+T read_one(const graph::Executor& executor, graph::Resource readback) {
     T value;
     std::memcpy(&value, executor.read(readback).data(), sizeof value);
     return value;
 }
 
 /// Reads the results of a finished frame, except for times on the clock of the host.
-void read_tone_chain(const Executor& executor, const ToneChain& chain, VkExtent2D extent, ToneMapped& to);
+void read_tone_chain(const graph::Executor& executor, const ToneChain& chain, VkExtent2D extent, ToneMapped& to);
 
-}  // namespace vesper
+}  // namespace vesper::render

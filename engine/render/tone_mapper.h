@@ -8,27 +8,28 @@
 #include "gpu/memory.h"
 #include "render/frame_queue.h"
 
-namespace vesper {
+namespace vesper::render {
 
 /// A picture on the host.
 struct HostPicture {
-    VkExtent2D extent{};                      ///< px
-    std::span<const float> values;            ///< RGB (or RGBA, alpha ignored) in linear Rec. 709, rows from the top
-    uint32_t channels = 3;                    ///< 3 or 4
-    float scale = 1;                          ///< cd/m^2 per unit
-    double vertical_fov = 0.7;                ///< rad, in (0, pi): what angle the picture covers in height
-    std::vector<OffscreenLamp> outside = {};  ///< lamps that scatter light into it; the picture is seen along -z, y up
-    const ImageAngles* angles =
+    VkExtent2D extent{};            ///< px
+    std::span<const float> values;  ///< RGB (or RGBA, alpha ignored) in linear Rec. 709, rows from the top
+    uint32_t channels = 3;          ///< 3 or 4
+    float scale = 1;                ///< cd/m^2 per unit
+    double vertical_fov = 0.7;      ///< rad, in (0, pi): what angle the picture covers in height
+    std::vector<gpu_scene::OffscreenLamp> outside =
+        {};  ///< lamps that scatter light into it; the picture is seen along -z, y up
+    const vision::ImageAngles* angles =
         nullptr;  ///< of its edges, in place of vertical_fov, where the eye's axis is not in its middle
-    const OffscreenLight* beyond = nullptr;  ///< that other pictures of the eye scatter into it
+    const vision::OffscreenLight* beyond = nullptr;  ///< that other pictures of the eye scatter into it
 };
 
 /// A picture on the device, in an external image that can be sampled.
 struct DevicePicture {
-    ExternalImage image;                  ///< RGB in linear Rec. 709, rows from the top
-    float scale = 1;                      ///< cd/m^2 per unit
-    double vertical_fov = 0.7;            ///< rad, in (0, pi): what angle the picture covers in height
-    const ImageAngles* angles = nullptr;  ///< as of HostPicture
+    graph::ExternalImage image;                   ///< RGB in linear Rec. 709, rows from the top
+    float scale = 1;                              ///< cd/m^2 per unit
+    double vertical_fov = 0.7;                    ///< rad, in (0, pi): what angle the picture covers in height
+    const vision::ImageAngles* angles = nullptr;  ///< as of HostPicture
 };
 
 /// Maps pictures of any size to the display, one after the other; the eye remembers from each to the next, also when
@@ -36,14 +37,14 @@ struct DevicePicture {
 class ToneMapper {
 public:
     /// The glare of `views` sizes or angles of pictures is kept, rather than made anew when they change.
-    explicit ToneMapper(Device& device, size_t views = 1);
+    explicit ToneMapper(gpu::Device& device, size_t views = 1);
 
     /// `seconds` have passed since the last picture. NaN and infinities are shown black and counted. Throws Error.
     ToneMapped map(const ToneChainSettings&, const HostPicture&, float seconds, Outputs outputs = {});
 
     /// The same for a picture on the device, shown in an image there: submitted between semaphores, without waiting.
-    void submit(const ToneChainSettings&, const DevicePicture&, const ExternalImage& shown, float seconds,
-                const SubmitSemaphores&);
+    void submit(const ToneChainSettings&, const DevicePicture&, const graph::ExternalImage& shown, float seconds,
+                const graph::SubmitSemaphores&);
     /// Waits for all submitted pictures. Returns the results of the last one, once.
     std::optional<ToneMapped> finish() { return frames_.finish(); }
 
@@ -57,12 +58,13 @@ public:
     std::string plan() const { return frames_.plan(); }
 
 private:
-    void submit(FrameQueue::Declared frame, Resource scene, const ToneChainSettings& settings, const View& view,
-                const ChainInputs& inputs, const Outputs& outputs, const SubmitSemaphores& semaphores);
+    void submit(FrameQueue::Declared frame, graph::Resource scene, const ToneChainSettings& settings,
+                const gpu_scene::View& view, const ChainInputs& inputs, const Outputs& outputs,
+                const graph::SubmitSemaphores& semaphores);
 
-    Device& device_;
-    HostBuffer pixels_;
+    gpu::Device& device_;
+    gpu::HostBuffer pixels_;
     FrameQueue frames_;  // waits for its frames, which use the rest
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

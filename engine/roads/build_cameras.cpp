@@ -75,9 +75,9 @@ glm::quat rotation_of(glm::dvec3 forward, glm::dvec3 up) {
     return glm::quat(glm::normalize(glm::quat_cast(glm::dmat3(glm::cross(forward, up), up, -forward))));
 }
 
-void animate(Scene& scene, uint32_t node, const std::vector<WayPoint>& points) {
-    Channel place{.node = node, .path = Channel::Path::Translation},
-        turn{.node = node, .path = Channel::Path::Rotation};
+void animate(scene::Scene& scene, uint32_t node, const std::vector<WayPoint>& points) {
+    scene::Channel place{.node = node, .path = scene::Channel::Path::Translation},
+        turn{.node = node, .path = scene::Channel::Path::Rotation};
     double at = 0;
     glm::quat before(1, 0, 0, 0);
     for (double time = 0; time < kLongestDrive; time += kKeyEvery) {
@@ -101,32 +101,32 @@ void animate(Scene& scene, uint32_t node, const std::vector<WayPoint>& points) {
     scene.channels.push_back(turn);
 }
 
-void add_camera(Scene& scene, const std::string& name, Node node) {
+void add_camera(scene::Scene& scene, const std::string& name, scene::Node node) {
     node.name = name;
     node.camera = static_cast<uint32_t>(scene.cameras.size());
     scene.cameras.push_back({.name = name, .vertical_fov = kView});
     scene.nodes.push_back(std::move(node));
 }
 
-void look(Scene& scene, const std::string& name, glm::dvec3 from, glm::dvec3 at) {
+void look(scene::Scene& scene, const std::string& name, glm::dvec3 from, glm::dvec3 at) {
     const glm::dvec3 forward = glm::normalize(at - from),
                      right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));
-    Node node;
+    scene::Node node;
     node.translation = glm::vec3(from);
     node.rotation = rotation_of(forward, glm::cross(right, forward));
     add_camera(scene, name, node);
 }
 
 void add_headlamps(RoadBuild& build, uint32_t car) {
-    Scene& scene = build.scene;
-    Lamp lamp{.name = "low beam", .kind = Lamp::Kind::Measured};
+    scene::Scene& scene = build.scene;
+    scene::Lamp lamp{.name = "low beam", .kind = scene::Lamp::Kind::Measured};
     lamp.intensity = 1;
-    lamp.colour = colour_of_temperature(4000);
+    lamp.colour = scene::colour_of_temperature(4000);
     lamp.distribution = static_cast<uint32_t>(scene.distributions.size());
-    scene.distributions.push_back(standard_lamp("low-beam"));
+    scene.distributions.push_back(photometry::standard_lamp("low-beam"));
     scene.distributions.back().name = "low beam";
     for (const char* side : {"left", "right"}) {
-        Node node{.name = std::string("car_ego/headlamp_") + side, .parent = car};
+        scene::Node node{.name = std::string("car_ego/headlamp_") + side, .parent = car};
         node.translation = glm::vec3((side[0] == 'l' ? -1 : 1) * kLampSide, kLampHeight, -kLampAhead);
         node.lamp = static_cast<uint32_t>(scene.lamps.size());
         scene.nodes.push_back(node);
@@ -137,8 +137,8 @@ void add_headlamps(RoadBuild& build, uint32_t car) {
 }  // namespace
 
 void build_cameras(RoadBuild& build) {
-    Scene& scene = build.scene;
-    Bounds bounds;
+    scene::Scene& scene = build.scene;
+    scene::Bounds bounds;
     for (const Lane& lane : build.lanes.lanes())
         for (const LanePose& pose : lane.poses) bounds.add(glm::vec3(pose.position));
     const std::vector<uint32_t> way = longest_way(build.lanes);
@@ -146,13 +146,13 @@ void build_cameras(RoadBuild& build) {
         const std::vector<WayPoint> points = drive_along(build.lanes, way);
         const LanePose start = points.front().pose;
         const auto car = static_cast<uint32_t>(scene.nodes.size());
-        Node node{.name = "car_ego"};
+        scene::Node node{.name = "car_ego"};
         node.translation = glm::vec3(start.position);
         node.rotation = rotation_of(start.forward, start.up);
         scene.nodes.push_back(node);
         animate(scene, car, points);
         const bool right_hand = build.network.roads[build.lanes.lanes()[way[0]].road].right_hand;
-        Node eye{.parent = car};
+        scene::Node eye{.parent = car};
         eye.translation = glm::vec3(right_hand ? -kEyeSide : kEyeSide, build.options.eye_height, kEyeBehind);
         add_camera(scene, "driver", eye);
         if (build.options.headlamps) add_headlamps(build, car);
@@ -161,7 +161,7 @@ void build_cameras(RoadBuild& build) {
         const glm::dvec3 side = start.left() * (right_hand ? -1.0 : 1.0);
         look(scene, "roadside", start.position + side * (start.width / 2 + 2) + glm::dvec3(0, 1.7, 0),
              ahead.position + glm::dvec3(0, 0.8, 0));
-        const double longest = animation_length(scene);
+        const double longest = scene::animation_length(scene);
         build.notes.push_back("driver: " + std::to_string(points.size()) + " m over " + std::to_string(way.size()) +
                               " lanes in " + std::to_string(std::lround(longest)) + " s");
     }

@@ -28,7 +28,7 @@ bool has_pole(const Road& road, const RoadSignal& signal) {
 uint32_t lens_light(RoadBuild& build, const char* name, glm::vec3 colour, double diameter) {
     for (uint32_t i = 0; i < build.scene.lamps.size(); ++i)
         if (build.scene.lamps[i].name == name && build.scene.lamps[i].opening.length == diameter) return i;
-    Lamp lamp{.name = name, .kind = Lamp::Kind::Spot};
+    scene::Lamp lamp{.name = name, .kind = scene::Lamp::Kind::Spot};
     lamp.intensity = static_cast<float>(kLensCandela * diameter * diameter / (kLens * kLens));
     lamp.colour = glm::vec3(glm::dvec3(colour) / luminance(glm::dvec3(colour)));
     lamp.inner_cone = 0.09f, lamp.outer_cone = 0.7f;
@@ -85,7 +85,7 @@ struct SignalBuilder {
             if (!build.options.every_lens && colour != std::string(on_foot ? "green" : "red")) return;
             const BodyFrame out = frame.moved(0.01, 0, height - (place + 0.5) * pitch);
             // It shines along -Z, its X to the right of who stands behind it.
-            Node node = node_at(build, name + "/" + colour, out.origin, -out.y, out.z, -out.x);
+            scene::Node node = node_at(build, name + "/" + colour, out.origin, -out.y, out.z, -out.x);
             node.lamp = lens_light(build, (std::string(colour) + " signal").c_str(), rgb, lens);
             build.scene.nodes.push_back(node);
         };

@@ -20,20 +20,20 @@ constexpr double kColourTemperature = 3000;      // K
 
 /// The light all street lamps of one height share; higher ones are stronger, so that the road stays as bright.
 uint32_t lamp_light(RoadBuild& build, double height) {
-    const std::optional<Distribution>& luminaire = build.options.luminaire;
+    const std::optional<photometry::Distribution>& luminaire = build.options.luminaire;
     const auto factor =
         static_cast<float>(luminaire ? 1.0 : std::max(1.0, height * height / (kDesignHeight * kDesignHeight)));
     for (uint32_t i = 0; i < build.scene.lamps.size(); ++i)
         if (build.scene.lamps[i].name == "street lamp" && build.scene.lamps[i].intensity == factor) return i;
-    Lamp lamp{.name = "street lamp", .kind = Lamp::Kind::Measured};
+    scene::Lamp lamp{.name = "street lamp", .kind = scene::Lamp::Kind::Measured};
     lamp.intensity = factor;
-    lamp.colour = colour_of_temperature(kColourTemperature);
+    lamp.colour = scene::colour_of_temperature(kColourTemperature);
     lamp.opening.length = kHead, lamp.opening.width = kHeadWidth;
     lamp.distribution = static_cast<uint32_t>(build.scene.distributions.size());
     for (uint32_t i = 0; i < build.scene.distributions.size(); ++i)
         if (build.scene.distributions[i].name == "street lamp") lamp.distribution = i;
     if (lamp.distribution == build.scene.distributions.size()) {
-        build.scene.distributions.push_back(luminaire ? *luminaire : standard_lamp("street-lamp"));
+        build.scene.distributions.push_back(luminaire ? *luminaire : photometry::standard_lamp("street-lamp"));
         build.scene.distributions.back().name = "street lamp";
     }
     build.scene.lamps.push_back(lamp);
@@ -121,9 +121,9 @@ void light_road(RoadBuild& build, const Road& road, double spacing, const std::v
 
 }  // namespace
 
-Node node_at(const RoadBuild& build, const std::string& name, glm::dvec3 position, glm::dvec3 x, glm::dvec3 y,
-             glm::dvec3 z) {
-    Node node{.name = name};
+scene::Node node_at(const RoadBuild& build, const std::string& name, glm::dvec3 position, glm::dvec3 x, glm::dvec3 y,
+                    glm::dvec3 z) {
+    scene::Node node{.name = name};
     node.translation = glm::vec3(build.network.to_world(position));
     const auto turned = [](glm::dvec3 d) { return glm::normalize(RoadNetwork::direction_to_world(d)); };
     node.rotation = glm::quat(glm::normalize(glm::quat_cast(glm::dmat3(turned(x), turned(y), turned(z)))));
@@ -147,8 +147,8 @@ void add_street_lamp(RoadBuild& build, const BodyFrame& frame, double height, in
     mesh.place(build.scene, build.materials, name);
     // The luminaire's frame: -Z down, C0 (+X) along the road, C90 (+Y) towards it.
     const double side = towards;
-    Node node = node_at(build, std::string(name) + "/light", frame.at(0, overhang, height), frame.x * side,
-                        frame.y * side, frame.z);
+    scene::Node node = node_at(build, std::string(name) + "/light", frame.at(0, overhang, height), frame.x * side,
+                               frame.y * side, frame.z);
     node.lamp = lamp_light(build, height);
     build.scene.nodes.push_back(node);
 }
@@ -169,7 +169,7 @@ void build_street_lamps(RoadBuild& build) {
     const double spacing = wanted.value_or(kSpacing);
     if (spacing == 0) return;
     const bool has_own = std::any_of(build.scene.lamps.begin(), build.scene.lamps.end(),
-                                     [](const Lamp& lamp) { return lamp.name == "street lamp"; });
+                                     [](const scene::Lamp& lamp) { return lamp.name == "street lamp"; });
     if (has_own && !wanted) return;
     size_t count = 0;
     const std::vector<double> highest = highest_points(build.lanes);

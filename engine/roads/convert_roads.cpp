@@ -12,13 +12,13 @@ namespace vesper::roads {
 
 RoadConversion convert_roads(const std::filesystem::path& opendrive, const std::filesystem::path& scene,
                              const ConvertOptions& options) {
-    const FileGate gate;
+    const io::FileGate gate;
     const Budget budget("converting " + one_line(opendrive.string()));
     LitRoadOptions lit{.lamps = options.lamps};
-    if (!options.luminaire.empty()) lit.luminaire = read_distribution(options.luminaire);
+    if (!options.luminaire.empty()) lit.luminaire = photometry::read_distribution(options.luminaire);
     const RoadNetwork network = read_opendrive(opendrive);
-    LitRoads roads = in_file(opendrive.string(), [&] { return lit_roads(network, lit); });
-    save_gltf(roads.scene, opendrive.filename().string(), scene);
+    LitRoads roads = io::in_file(opendrive.string(), [&] { return lit_roads(network, lit); });
+    scene::save_gltf(roads.scene, opendrive.filename().string(), scene);
     return {std::move(roads.notes), network.notes};
 }
 

@@ -84,7 +84,7 @@ std::optional<Columns> logged_header_of(const std::vector<std::string_view>& fie
     Columns columns;
     size_t last = 0;  // column of the first entity
     for (size_t i = 0; i < fields.size(); ++i) {
-        const std::string_view name = trimmed(fields[i].substr(0, fields[i].find('[')));
+        const std::string_view name = photometry::trimmed(fields[i].substr(0, fields[i].find('[')));
         if (name == "TimeStamp") columns.index.try_emplace("time", i);
         if (name.starts_with("#2 ") && columns.stride == 0) columns.stride = i;
         if (!name.starts_with("#1 ")) continue;
@@ -103,7 +103,7 @@ std::optional<Columns> logged_header_of(const std::vector<std::string_view>& fie
 std::optional<Columns> header_of(std::string_view line) {
     constexpr std::string_view kByteOrder = "\xEF\xBB\xBF";
     if (line.starts_with(kByteOrder)) line.remove_prefix(kByteOrder.size());
-    std::vector<std::string_view> fields = fields_of(line, ',', kMaxColumns);
+    std::vector<std::string_view> fields = photometry::fields_of(line, ',', kMaxColumns);
     while (!fields.empty() && fields.back().empty()) fields.pop_back();
     Columns columns;
     for (const std::string_view field : fields) columns.index.try_emplace(std::string(field), columns.count++);
@@ -126,7 +126,7 @@ bool is_none(std::string_view cell) { return cell.empty() || cell == "nan" || ce
 
 /// Rows of a table on their way to entities.
 struct TableReader {
-    const LineReader& lines;
+    const photometry::LineReader& lines;
     EsminiRun& run;
     std::map<int, size_t> by_id{};
     size_t rows = 0;
@@ -140,11 +140,11 @@ struct TableReader {
         const auto refuse = [&](Field field, const char* reason) {
             const size_t column = *columns.of[static_cast<size_t>(field)] + (field == Field::Time ? 0 : shift) + 1;
             lines.fail("column " + std::to_string(column) + ": " + kFieldNames[static_cast<size_t>(field)] + " " +
-                       vesper::quoted(text(field)) + reason);
+                       photometry::quoted(text(field)) + reason);
         };
         const auto number = [&](Field field) {
             if (!columns.of[static_cast<size_t>(field)]) return 0.0;
-            const auto value = number_of(text(field), false);
+            const auto value = photometry::number_of(text(field), false);
             if (!value || std::abs(*value) > 1e9) refuse(field, " is no number that can be");
             return *value;
         };
@@ -159,7 +159,7 @@ struct TableReader {
             if (run.entities.size() >= kMaxEntities)
                 lines.fail("more than " + std::to_string(kMaxEntities) + " entities");
             RunEntity entity;
-            entity.name = readable(text(Field::Name));
+            entity.name = photometry::readable(text(Field::Name));
             entity.id = id;
             entity.kind = kind_by_name(entity.name);
             const auto size = [&](Field field) { return std::max(0.0, number_or_none(field)); };
@@ -209,12 +209,12 @@ const char* name_of(RunLamp lamp) {
 }
 
 void read_table(const std::filesystem::path& file, EsminiRun& run) {
-    const std::vector<uint8_t> bytes = read_file(file, kMaxEsminiBytes);
-    LineReader lines(bytes, one_line(file.string()));
+    const std::vector<uint8_t> bytes = io::read_file(file, kMaxEsminiBytes);
+    photometry::LineReader lines(bytes, one_line(file.string()));
     std::optional<Columns> columns;
     TableReader reader{lines, run};
     while (const auto line = lines.next()) {
-        if (trimmed(*line).empty()) continue;
+        if (photometry::trimmed(*line).empty()) continue;
         if (!columns) {
             columns = header_of(*line);
             // Some versions say first which files the run was made with.
@@ -226,7 +226,7 @@ void read_table(const std::filesystem::path& file, EsminiRun& run) {
             columns->find_fields();
             continue;
         }
-        const auto fields = fields_of(*line, ',', kMaxColumns);
+        const auto fields = photometry::fields_of(*line, ',', kMaxColumns);
         if (fields.size() < columns->count && columns->stride == 0)
             lines.fail(std::to_string(fields.size()) + " fields, " + std::to_string(columns->count) + " columns");
         // Entities that are gone leave a row of the CSV logger shorter, ones that came later make it longer than its

@@ -12,6 +12,8 @@
 namespace vesper::roads {
 namespace {
 
+using scene::JsonValue;
+
 constexpr uint64_t kMaxLayoutBytes = 1u << 20;
 
 constexpr std::array<std::pair<const char*, Arrangement>, 6> kArrangements{{{"right", Arrangement::Right},
@@ -68,9 +70,10 @@ void read_positions(RoadLayout& layout, const JsonValue& source) {
     layout.reservation = source.number_or("reservation_m", 0, 0, 100);
 }
 
-Distribution read_luminaire(const std::filesystem::path& file) {
-    Distribution distribution = read_distribution(file);
-    if (!(largest_intensity(distribution) > 0)) throw Error(one_line(file.string()) + ": the luminaire gives no light");
+photometry::Distribution read_luminaire(const std::filesystem::path& file) {
+    photometry::Distribution distribution = photometry::read_distribution(file);
+    if (!(photometry::largest_intensity(distribution) > 0))
+        throw Error(one_line(file.string()) + ": the luminaire gives no light");
     return distribution;
 }
 
@@ -93,13 +96,13 @@ void read_luminaires(LoadedLayout& layout, const JsonValue& source, const std::f
 
     const std::string file = source.at("file").text();
     layout.luminaire =
-        overrides.luminaire.empty() ? named_file(folder, file) : std::filesystem::path(overrides.luminaire);
+        overrides.luminaire.empty() ? io::named_file(folder, file) : std::filesystem::path(overrides.luminaire);
     layout.distribution = read_luminaire(layout.luminaire);
 }
 
 /// Name of a table as find_reflection_table() takes it without a folder.
 std::string located(const std::string& name_or_file, const std::filesystem::path& folder) {
-    const std::vector<std::string> standard = standard_reflection_tables();
+    const std::vector<std::string> standard = photometry::standard_reflection_tables();
     const bool is_standard = std::find(standard.begin(), standard.end(), name_or_file) != standard.end();
     return is_standard ? name_or_file : (folder / name_or_file).string();
 }
@@ -108,22 +111,22 @@ void read_surface(LoadedLayout& layout, const JsonValue& source, const std::file
                   const LayoutOverrides& overrides) {
     source.allow_only({"reflection_table", "q0"});
     if (overrides.reflection_table.empty()) {
-        layout.surface = read_named_table(source, folder);
+        layout.surface = scene::read_named_table(source, folder);
         layout.reflection_table = located(source.at("reflection_table").text(), folder);
         layout.q0 = source.number_or("q0", 0);
     } else {
-        layout.surface = find_reflection_table(overrides.reflection_table);
+        layout.surface = photometry::find_reflection_table(overrides.reflection_table);
         layout.reflection_table = overrides.reflection_table;
     }
     if (!overrides.q0) return;
-    layout.surface = rescaled(layout.surface, *overrides.q0);
+    layout.surface = photometry::rescaled(layout.surface, *overrides.q0);
     layout.q0 = *overrides.q0;
 }
 
 }  // namespace
 
 LoadedLayout read_layout(const std::filesystem::path& file, const LayoutOverrides& overrides) {
-    const JsonFile json = parse_json(read_file(file, kMaxLayoutBytes), file.string());
+    const scene::JsonFile json = scene::parse_json(io::read_file(file, kMaxLayoutBytes), file.string());
     const JsonValue root(json);
     root.allow_only({"$schema", "version", "name", "carriageway", "surface", "luminaires", "observer_age", "class"});
     const JsonValue version = root.at("version");
@@ -153,8 +156,9 @@ LoadedLayout read_layout(const std::filesystem::path& file, const LayoutOverride
 
 LoadedLayout load_layout(const RoadLayout& layout) {
     check_layout(layout);
-    LoadedLayout loaded{layout, read_luminaire(layout.luminaire), find_reflection_table(layout.reflection_table)};
-    if (layout.q0 > 0) loaded.surface = rescaled(loaded.surface, layout.q0);
+    LoadedLayout loaded{layout, read_luminaire(layout.luminaire),
+                        photometry::find_reflection_table(layout.reflection_table)};
+    if (layout.q0 > 0) loaded.surface = photometry::rescaled(loaded.surface, layout.q0);
     return loaded;
 }
 

@@ -3,23 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
-#include "roads/road_lighting.h"
 #include "base/angle.h"
+#include "roads/road_lighting.h"
 #include "scene/colour.h"
 
 namespace vesper::roads {
 namespace {
+
+using scene::Scene;
 
 /// Columns: the axes of the layout in the world.
 const glm::dmat3 kToWorld{{0, 0, -1}, {-1, 0, 0}, {0, 1, 0}};
 
 constexpr double kMargin = 80;  // m, of surface behind the observers
 
-Primitive carriageway(const LoadedLayout& layout, double first, double last) {
-    Primitive plane;
+scene::Primitive carriageway(const LoadedLayout& layout, double first, double last) {
+    scene::Primitive plane;
     for (const glm::dvec2 corner :
          {glm::dvec2(first, 0), glm::dvec2(last, 0), glm::dvec2(last, layout.width), glm::dvec2(first, layout.width)}) {
-        Vertex vertex;
+        scene::Vertex vertex;
         vertex.position = glm::vec3(layout_to_world({corner.x, corner.y, 0}));
         vertex.uv = glm::vec2(corner);
         plane.vertices.push_back(vertex);
@@ -30,16 +32,16 @@ Primitive carriageway(const LoadedLayout& layout, double first, double last) {
 }
 
 void add_luminaires(Scene& scene, const LoadedLayout& layout, const std::vector<PlacedLuminaire>& lamps, double factor,
-                    const LuminousOpening& opening) {
+                    const photometry::LuminousOpening& opening) {
     scene.distributions.push_back(layout.distribution);
-    Lamp lamp{.name = layout.distribution.name, .kind = Lamp::Kind::Measured};
+    scene::Lamp lamp{.name = layout.distribution.name, .kind = scene::Lamp::Kind::Measured};
     lamp.intensity = static_cast<float>(layout.flux_factor * factor);
     lamp.opening = opening;
-    if (layout.colour_temperature > 0) lamp.colour = glm::vec3(colour_of_temperature(layout.colour_temperature));
+    if (layout.colour_temperature > 0) lamp.colour = glm::vec3(scene::colour_of_temperature(layout.colour_temperature));
     lamp.distribution = 0;
     scene.lamps.push_back(lamp);
     for (const PlacedLuminaire& luminaire : lamps) {
-        Node node{.name = "luminaire " + std::to_string(scene.nodes.size() + 1)};
+        scene::Node node{.name = "luminaire " + std::to_string(scene.nodes.size() + 1)};
         node.translation = glm::vec3(layout_to_world(luminaire.position));
         node.rotation = glm::quat(glm::normalize(glm::quat_cast(kToWorld * luminaire.axes)));
         node.lamp = 0;
@@ -50,7 +52,7 @@ void add_luminaires(Scene& scene, const LoadedLayout& layout, const std::vector<
 void add_observers(Scene& scene, const LoadedLayout& layout) {
     for (const LaneObserver& observer : lane_observers(layout)) {
         const std::string name = "observer lane " + std::to_string(observer.lane);
-        Node node{.name = name};
+        scene::Node node{.name = name};
         node.translation = glm::vec3(layout_to_world(vector_of(observer.eye)));
         node.rotation = glm::angleAxis(static_cast<float>(-kRadiansPerDegree), glm::vec3(1, 0, 0));
         node.camera = static_cast<uint32_t>(scene.cameras.size());
@@ -63,16 +65,16 @@ Scene bare_road(const LoadedLayout& layout, double last) {
     const double eye = lane_observers(layout)[0].eye.x;
     Scene scene{.name = layout.name};
     scene.reflection_tables.push_back(layout.surface);
-    Material material{.name = "road " + layout.surface.name};
-    const auto reflectance =
-        static_cast<float>(std::min(kPi * diffuse_luminance_coefficient(extended(layout.surface)), 1.0));
+    scene::Material material{.name = "road " + layout.surface.name};
+    const auto reflectance = static_cast<float>(
+        std::min(kPi * photometry::diffuse_luminance_coefficient(photometry::extended(layout.surface)), 1.0));
     material.base_colour = {reflectance, reflectance, reflectance, 1};
     material.reflection_table = 0;
     scene.materials.push_back(material);
-    Mesh mesh{.name = "carriageway"};
+    scene::Mesh mesh{.name = "carriageway"};
     mesh.primitives.push_back(carriageway(layout, eye - kMargin, last));
     scene.meshes.push_back(mesh);
-    Node surface{.name = "carriageway"};
+    scene::Node surface{.name = "carriageway"};
     surface.mesh = 0;
     scene.nodes.push_back(surface);
     return scene;
@@ -99,9 +101,9 @@ Scene layout_glare_scene(const LoadedLayout& layout, double from) {
     check_layout(layout);
     Scene scene = bare_road(layout, from + kGlareRange);
     scene.materials[0].base_colour = {0, 0, 0, 1};
-    scene.materials[0].reflection_table = kNone;
+    scene.materials[0].reflection_table = scene::kNone;
     scene.reflection_tables.clear();
-    LuminousOpening opening;
+    photometry::LuminousOpening opening;
     opening.length = 0.02, opening.width = 0.02;
     add_luminaires(scene, layout, placed_luminaires(layout, from, from + kGlareRange), 1, opening);
     return scene;

@@ -15,12 +15,12 @@ glm::dvec3 layout_to_world(glm::dvec3 point);
 /// counts for a point of the field, and those above the road from the observers on, as measured lamps of maintained
 /// intensity, one node each; a camera "observer lane N" for each observer, 1.5 m up, 60 m before the field, looking
 /// along the road and 1 degree down. Black sky, no ambient light.
-Scene layout_scene(const LoadedLayout& layout);
+scene::Scene layout_scene(const LoadedLayout& layout);
 
 /// What dazzles, for TI: luminaires of initial intensity from x = `from`, where the eye is, to kGlareRange beyond, m,
 /// each with an opening of 2 cm x 2 cm to be seen by, over a black road. What dazzles is I / d^2, whatever the opening;
 /// a small one is on one side of the car's roof.
-Scene layout_glare_scene(const LoadedLayout& layout, double from);
+scene::Scene layout_glare_scene(const LoadedLayout& layout, double from);
 
 /// The luminaires that layout_scene holds.
 std::vector<PlacedLuminaire> layout_scene_luminaires(const LoadedLayout& layout);

@@ -15,7 +15,7 @@ struct RoadBuild {
     const RoadNetwork& network;
     const LaneGraph& lanes;
     const LitRoadOptions& options;
-    Scene scene{};
+    scene::Scene scene{};
     RoadMaterials materials{scene};
     Ground ground{};
     std::vector<std::string> notes{};

@@ -22,9 +22,9 @@ void check_options(const LitRoadOptions& o) {
 
 void count_triangles(RoadBuild& build) {
     size_t triangles = 0, lamps = 0;
-    for (const Mesh& mesh : build.scene.meshes)
-        for (const Primitive& primitive : mesh.primitives) triangles += primitive.indices.size() / 3;
-    for (const Node& node : build.scene.nodes) lamps += node.lamp != kNone;
+    for (const scene::Mesh& mesh : build.scene.meshes)
+        for (const scene::Primitive& primitive : mesh.primitives) triangles += primitive.indices.size() / 3;
+    for (const scene::Node& node : build.scene.nodes) lamps += node.lamp != scene::kNone;
     build.notes.push_back("scene: " + std::to_string(triangles) + " triangles, " + std::to_string(lamps) + " lamps, " +
                           std::to_string(build.scene.cameras.size()) + " cameras");
 }

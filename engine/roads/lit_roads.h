@@ -14,8 +14,9 @@
 namespace vesper::roads {
 
 struct LitRoadOptions {
-    StreetLampOptions lamps;                ///< rows of them
-    std::optional<Distribution> luminaire;  ///< of all street lamps; default: data/photometry/street-lamp.ies
+    StreetLampOptions lamps;  ///< rows of them
+    std::optional<photometry::Distribution>
+        luminaire;            ///< of all street lamps; default: data/photometry/street-lamp.ies
     double chord = 0.01;      ///< m, largest distance of surfaces from the file's reference lines and borders
     double margin = 120;      ///< m of ground around the roads; beyond it is flat up to the horizon
     double ambient = 0.1;     ///< lx on every surface
@@ -30,7 +31,7 @@ struct LitRoadOptions {
 void check_street_lamps(const StreetLampOptions&);
 
 struct LitRoads {
-    Scene scene;
+    scene::Scene scene;
     std::vector<std::string> notes;  ///< parts of the scene, one line each
 };
 

@@ -152,7 +152,7 @@ RoadNetwork parse_opendrive(std::string_view text, const std::string& name, cons
 
 RoadNetwork read_opendrive(const std::filesystem::path& path, const RoadLimits& limits) {
     const Budget budget("reading " + one_line(path.string()));
-    const std::vector<uint8_t> bytes = read_file(path, limits.file_bytes);
+    const std::vector<uint8_t> bytes = io::read_file(path, limits.file_bytes);
     return parse_opendrive({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string(), limits);
 }
 

@@ -10,7 +10,7 @@ namespace vesper::roads {
 void add_street_lamp(RoadBuild& build, const BodyFrame& frame, double height, int towards);
 
 /// A node whose X, Y and -Z lie along these axes of the file's frame.
-Node node_at(const RoadBuild& build, const std::string& name, glm::dvec3 position, glm::dvec3 x, glm::dvec3 y,
-             glm::dvec3 z);
+scene::Node node_at(const RoadBuild& build, const std::string& name, glm::dvec3 position, glm::dvec3 x, glm::dvec3 y,
+                    glm::dvec3 z);
 
 }  // namespace vesper::roads

@@ -56,7 +56,7 @@ void check_layout(const RoadLayout& layout) {
 void check_layout(const LoadedLayout& layout) {
     check_layout(static_cast<const RoadLayout&>(layout));
     if (layout.distribution.candela.empty()) fail(layout, "there is no distribution of intensity");
-    check_reflection_table(layout.surface, layout.surface.name);
+    photometry::check_reflection_table(layout.surface, layout.surface.name);
 }
 
 std::vector<LuminaireMount> luminaire_mounts(const RoadLayout& layout) {

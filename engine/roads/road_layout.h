@@ -18,9 +18,9 @@ inline LayoutPoint point_of(glm::dvec3 v) { return {v.x, v.y, v.z}; }
 
 /// A layout with the contents of its files.
 struct LoadedLayout : RoadLayout {
-    Distribution distribution;      ///< of `luminaire`
-    ReflectionTable surface;        ///< `reflection_table`, scaled to `q0`
-    double colour_temperature = 0;  ///< of the luminaires, for pictures, K; 0: white
+    photometry::Distribution distribution;  ///< of `luminaire`
+    photometry::ReflectionTable surface;    ///< `reflection_table`, scaled to `q0`
+    double colour_temperature = 0;          ///< of the luminaires, for pictures, K; 0: white
 };
 
 /// Throw Error (starting with the layout's name) if a value is out of range.

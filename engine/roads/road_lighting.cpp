@@ -12,7 +12,8 @@ namespace {
 
 /// Intensity of a new luminaire towards a point, cd.
 double intensity_towards(const LoadedLayout& layout, const PlacedLuminaire& lamp, glm::dvec3 point) {
-    return layout.flux_factor * intensity(layout.distribution, glm::transpose(lamp.axes) * (point - lamp.position));
+    return layout.flux_factor *
+           photometry::intensity(layout.distribution, glm::transpose(lamp.axes) * (point - lamp.position));
 }
 
 /// Mean illuminance on a strip that runs along the field from y = low to high.
@@ -38,7 +39,7 @@ void find_worst_glare(const LoadedLayout& layout, std::span<const PlacedLuminair
         observer.glare_eye = point_of(eye);
     }
     observer.threshold_increment_percent =
-        threshold_increment(observer.veil, observer.average_luminance / layout.maintenance_factor);
+        vision::threshold_increment(observer.veil, observer.average_luminance / layout.maintenance_factor);
 }
 
 /// Averages and uniformities of what one observer sees; his lane's middle is the middle one of its three rows.
@@ -96,7 +97,7 @@ double reflected_towards(const LoadedLayout& layout, const PlacedLuminaire& lamp
     if (away.x < -5 * h || away.x > 12 * h || std::abs(away.y) > 5 * h) return 0;
     const double sight = std::atan2(point.y - observer.y, point.x - observer.x);
     const double beta = (std::atan2(away.y, away.x) - sight) * kDegreesPerRadian;
-    return reduced_luminance_coefficient(layout.surface, std::hypot(away.x, away.y) / h, beta);
+    return photometry::reduced_luminance_coefficient(layout.surface, std::hypot(away.x, away.y) / h, beta);
 }
 
 double luminance_towards(const LoadedLayout& layout, std::span<const PlacedLuminaire> lamps, glm::dvec2 point,
@@ -118,7 +119,7 @@ double veiling_luminance(const LoadedLayout& layout, std::span<const PlacedLumin
         const double distance = glm::length(away);
         if (away.x <= 0 || away.x > kGlareRange || away.z > kRoof * away.x) continue;
         const double cosine = std::min(glm::dot(away, kSight) / distance, 1.0);
-        const double glare = en13201_glare(std::acos(cosine) * kDegreesPerRadian, layout.observer_age);
+        const double glare = vision::en13201_glare(std::acos(cosine) * kDegreesPerRadian, layout.observer_age);
         if (glare > 0) sum += intensity_towards(layout, lamp, eye) * cosine / (distance * distance) * glare;
     }
     return sum;

@@ -12,14 +12,14 @@ constexpr float kSignWhite = 0.8f;  // diffuse reflectance of a white sheet
 // Diffuse reflectances of weathered surfaces, Y of Rec. 709: concrete 0.25 to 0.35, granite 0.3, grass 0.08 to 0.12,
 // bark 0.1, leaves 0.08, white thermoplastic 0.5 to 0.6 (Thorn 1994, Lighting people and places, tables of materials;
 // CIE 140 for roads).
-Material of(const char* name, glm::vec3 colour, float roughness = 1) {
-    Material material{.name = name};
+scene::Material of(const char* name, glm::vec3 colour, float roughness = 1) {
+    scene::Material material{.name = name};
     material.base_colour = glm::vec4(colour, 1);
     material.roughness = roughness;
     return material;
 }
 
-Material material_of(RoadMaterial stuff) {
+scene::Material material_of(RoadMaterial stuff) {
     constexpr float kRoad = 0.17f;  // pi Qd of R3, for renderers without tables
     switch (stuff) {
         case RoadMaterial::Asphalt:
@@ -89,8 +89,8 @@ Material material_of(RoadMaterial stuff) {
 }
 
 /// Markings of class R3 of EN 1436 (150 mcd/(m^2 lx)), yellow ones R1 (80); signs and posts of RA2 (EN 12899-1).
-void make_retroreflective(Scene& scene, Material& material, RoadMaterial stuff) {
-    const auto use = [&](Retroreflector made) {
+void make_retroreflective(scene::Scene& scene, scene::Material& material, RoadMaterial stuff) {
+    const auto use = [&](photometry::Retroreflector made) {
         for (uint32_t i = 0; i < scene.retroreflectors.size(); ++i)
             if (scene.retroreflectors[i] == made) return material.retroreflector = i;
         scene.retroreflectors.push_back(std::move(made));
@@ -99,20 +99,22 @@ void make_retroreflective(Scene& scene, Material& material, RoadMaterial stuff) 
     // Coefficients are multiplied by the base colour; of prints by that over white.
     const double own = luminance(glm::dvec3(material.base_colour));
     if (stuff == RoadMaterial::MarkWhite || stuff == RoadMaterial::MarkYellow)
-        use(retroreflective_marking((stuff == RoadMaterial::MarkWhite ? 150 : 80) / own));
+        use(photometry::retroreflective_marking((stuff == RoadMaterial::MarkWhite ? 150 : 80) / own));
     if (stuff >= RoadMaterial::SignWhite && stuff <= RoadMaterial::SignGreen)
-        use(rescaled(retroreflective_class("RA2"), 1 / double(kSignWhite)));
-    if (stuff == RoadMaterial::PostReflector) use(rescaled(retroreflective_class("RA2"), 1 / own));
+        use(photometry::rescaled(photometry::retroreflective_class("RA2"), 1 / double(kSignWhite)));
+    if (stuff == RoadMaterial::PostReflector)
+        use(photometry::rescaled(photometry::retroreflective_class("RA2"), 1 / own));
 }
 
 }  // namespace
 
 uint32_t RoadMaterials::index_of(RoadMaterial stuff) {
     uint32_t& known = index_[static_cast<size_t>(stuff)];
-    if (known != kNone) return known;
-    Material material = material_of(stuff);
+    if (known != scene::kNone) return known;
+    scene::Material material = material_of(stuff);
     if (stuff == RoadMaterial::Asphalt || stuff == RoadMaterial::Shoulder) {
-        if (scene_.reflection_tables.empty()) scene_.reflection_tables.push_back(find_reflection_table("R3"));
+        if (scene_.reflection_tables.empty())
+            scene_.reflection_tables.push_back(photometry::find_reflection_table("R3"));
         material.reflection_table = 0;
     }
     make_retroreflective(scene_, material, stuff);

@@ -32,12 +32,12 @@ bool is_left_turn(glm::dvec2 a, glm::dvec2 b, glm::dvec2 c) {
 
 void RoadMesh::triangle(RoadMaterial stuff, const Corner& a, const Corner& b, const Corner& c) {
     if (glm::length(glm::cross(b.position - a.position, c.position - a.position)) < 1e-9) return;
-    Primitive& primitive = primitives_[stuff];
+    scene::Primitive& primitive = primitives_[stuff];
     if (primitive.vertices.size() > kMaxVertices)
         throw Error("the roads have more triangles than " + std::to_string(kMaxVertices / 3));
-    spend(3 * (sizeof(Vertex) + sizeof(uint32_t)) * kCopies);
+    spend(3 * (sizeof(scene::Vertex) + sizeof(uint32_t)) * kCopies);
     for (const Corner* corner : {&a, &b, &c}) {
-        Vertex vertex;
+        scene::Vertex vertex;
         vertex.position = glm::vec3(network_.to_world(corner->position));
         vertex.normal = glm::vec3(glm::normalize(RoadNetwork::direction_to_world(corner->normal)));
         primitive.indices.push_back(static_cast<uint32_t>(primitive.vertices.size()));
@@ -98,15 +98,15 @@ void RoadMesh::any_polygon(RoadMaterial stuff, std::vector<glm::dvec3> corners, 
         triangle(stuff, {corners[0], z}, {corners[i], z}, {corners[i + 1], z});
 }
 
-void RoadMesh::place(Scene& scene, RoadMaterials& materials, const std::string& name) {
+void RoadMesh::place(scene::Scene& scene, RoadMaterials& materials, const std::string& name) {
     if (primitives_.empty()) return;
-    Mesh mesh{.name = name};
+    scene::Mesh mesh{.name = name};
     for (auto& [stuff, primitive] : primitives_) {
         primitive.material = materials.index_of(stuff);
         mesh.primitives.push_back(std::move(primitive));
     }
     primitives_.clear();
-    Node node{.name = name};
+    scene::Node node{.name = name};
     node.mesh = static_cast<uint32_t>(scene.meshes.size());
     scene.meshes.push_back(std::move(mesh));
     scene.nodes.push_back(node);

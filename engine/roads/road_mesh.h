@@ -53,11 +53,12 @@ enum class RoadMaterial : uint8_t {
 /// Materials of the scene by kind; adds them, with their tables and reflectors, on first use.
 class RoadMaterials {
 public:
-    explicit RoadMaterials(Scene& scene) : scene_(scene), index_(static_cast<size_t>(RoadMaterial::Count), kNone) {}
+    explicit RoadMaterials(scene::Scene& scene)
+        : scene_(scene), index_(static_cast<size_t>(RoadMaterial::Count), scene::kNone) {}
     uint32_t index_of(RoadMaterial stuff);
 
 private:
-    Scene& scene_;
+    scene::Scene& scene_;
     std::vector<uint32_t> index_;
 };
 
@@ -81,11 +82,11 @@ public:
 
     bool empty() const { return primitives_.empty(); }
     /// Adds the triangles to a scene as one mesh on one node, and empties itself.
-    void place(Scene& scene, RoadMaterials& materials, const std::string& name);
+    void place(scene::Scene& scene, RoadMaterials& materials, const std::string& name);
 
 private:
     const RoadNetwork& network_;
-    std::map<RoadMaterial, Primitive> primitives_;
+    std::map<RoadMaterial, scene::Primitive> primitives_;
 };
 
 /// A frame for bodies: origin and three unit axes.

@@ -65,7 +65,7 @@ struct Expression {
     static Value value_of(std::string_view words) {
         if (words == "true") return 1;
         if (words == "false") return 0;
-        return number_of(words, false);
+        return photometry::number_of(words, false);
     }
 
     Value number() {
@@ -78,7 +78,7 @@ struct Expression {
             const size_t exponent = at + 1 + (at + 1 < text.size() && (text[at + 1] == '-' || text[at + 1] == '+'));
             if (exponent < text.size() && is_digit(text[exponent])) at = exponent, digits();
         }
-        return number_of(text.substr(first, at - first), false);
+        return photometry::number_of(text.substr(first, at - first), false);
     }
     Value named(std::string_view name) {
         if (!take("(")) {

@@ -15,7 +15,7 @@ constexpr uint64_t kMaxScenarioBytes = 64ull << 20;
 constexpr size_t kMaxCatalogs = 500;
 
 std::unique_ptr<XmlFile> read_xml(const std::filesystem::path& path) {
-    const std::vector<uint8_t> bytes = read_file(path, kMaxScenarioBytes);
+    const std::vector<uint8_t> bytes = io::read_file(path, kMaxScenarioBytes);
     return std::make_unique<XmlFile>(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()),
                                      path.string());
 }
@@ -29,12 +29,13 @@ std::optional<std::string> resolved(const XmlElement& element, const char* attri
     if (text->starts_with("${") && text->ends_with("}")) {
         const auto value = expression_value(text->substr(2, text->size() - 3), scope);
         if (!value)
-            element.fail(std::string(attribute) + " " + vesper::quoted(*text) +
+            element.fail(std::string(attribute) + " " + photometry::quoted(*text) +
                          " is no expression of known parameters");
         return decimal(*value, 17);
     }
     const auto found = scope.find(text->substr(1));
-    if (found == scope.end()) element.fail(std::string(attribute) + ": there is no parameter " + vesper::quoted(*text));
+    if (found == scope.end())
+        element.fail(std::string(attribute) + ": there is no parameter " + photometry::quoted(*text));
     return found->second;
 }
 
@@ -46,9 +47,9 @@ bool flag_in(const XmlElement& element, const char* attribute, const Parameters&
 double number_in(const XmlElement& element, const char* attribute, const Parameters& scope, double fallback) {
     const auto text = resolved(element, attribute, scope);
     if (!text) return fallback;
-    const auto value = number_of(*text, false);
+    const auto value = photometry::number_of(*text, false);
     if (!value || std::abs(*value) > kMaxNumber)
-        element.fail(std::string(attribute) + " " + vesper::quoted(*text) + " is no number that can be");
+        element.fail(std::string(attribute) + " " + photometry::quoted(*text) + " is no number that can be");
     return *value;
 }
 

@@ -148,7 +148,7 @@ struct ActionReader {
         const double by = number_in(add ? *add : *times, "value", scope, 0);
         once([&values, name, by, adds = add.has_value(), before = variable ? "0" : around->second](int) {
             const auto now = values.find(name);
-            const double value = number_of(now == values.end() ? before : now->second, false).value_or(0);
+            const double value = photometry::number_of(now == values.end() ? before : now->second, false).value_or(0);
             values.insert_or_assign(name, std::to_string(adds ? value + by : value * by));
         });
     }

@@ -40,7 +40,7 @@ bool is_so(Rule rule, double a, double b) {
 }
 
 bool is_so(Rule rule, const std::string& a, const std::string& b) {
-    const auto x = number_of(a, false), y = number_of(b, false);
+    const auto x = photometry::number_of(a, false), y = photometry::number_of(b, false);
     return x && y ? is_so(rule, *x, *y) : is_so(rule, a.compare(b));
 }
 

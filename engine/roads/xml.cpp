@@ -83,7 +83,7 @@ XmlFile::XmlFile(std::string_view text, const std::string& name) : name_(one_lin
         for (const pugi::xml_attribute attribute : node.attributes()) names.emplace_back(attribute.name());
         std::sort(names.begin(), names.end());
         if (const auto twice = std::adjacent_find(names.begin(), names.end()); twice != names.end())
-            refuse(node.offset_debug(), "the attribute " + vesper::quoted(std::string(*twice)) + " is there twice");
+            refuse(node.offset_debug(), "the attribute " + photometry::quoted(std::string(*twice)) + " is there twice");
     }
 }
 
@@ -127,7 +127,7 @@ std::optional<std::string_view> XmlElement::attribute(std::string_view name) con
 
 std::optional<std::string_view> XmlElement::given(std::string_view name) const {
     for (const pugi::xml_attribute attribute : node_.attributes())
-        if (local_part(attribute.name()) == name) return trimmed(attribute.value());
+        if (local_part(attribute.name()) == name) return photometry::trimmed(attribute.value());
     return std::nullopt;
 }
 
@@ -146,9 +146,9 @@ double XmlElement::number(std::string_view name, double low, double high) const 
     const auto found = given(name);
     if (!found) fail(std::string(name) + " is missing");
     const std::string whole(*found);
-    const auto value = number_of(whole, false);
-    if (!value) fail(std::string(name) + " " + vesper::quoted(whole) + " is no number");
-    if (*value < low || *value > high) fail(std::string(name) + " " + vesper::quoted(whole) + " is out of range");
+    const auto value = photometry::number_of(whole, false);
+    if (!value) fail(std::string(name) + " " + photometry::quoted(whole) + " is no number");
+    if (*value < low || *value > high) fail(std::string(name) + " " + photometry::quoted(whole) + " is out of range");
     return *value;
 }
 

@@ -7,12 +7,13 @@
 #include "io/primaries.h"
 #include "photometry/observer.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 glm::dvec3 xyz_of_black_body(double kelvin) {
     glm::dvec3 xyz(0);
-    for (int i = 0; i < kWavelengths; ++i) xyz += black_body(wavelength(i), kelvin) * kObserver[size_t(i)];
+    for (int i = 0; i < photometry::kWavelengths; ++i)
+        xyz += photometry::black_body(photometry::wavelength(i), kelvin) * photometry::kObserver[size_t(i)];
     return xyz;
 }
 
@@ -20,12 +21,12 @@ glm::dvec3 xyz_of_black_body(double kelvin) {
 
 glm::vec3 colour_of_temperature(double kelvin) {
     if (!(kelvin >= 1000 && kelvin <= 25000)) throw Error("colour temperature must be from 1000 to 25000 K");
-    const glm::dvec3 rgb = glm::max(to_rec709(kXyz) * xyz_of_black_body(kelvin), glm::dvec3(0));
+    const glm::dvec3 rgb = glm::max(io::to_rec709(io::kXyz) * xyz_of_black_body(kelvin), glm::dvec3(0));
     return glm::vec3(rgb / luminance(rgb));
 }
 
 glm::dvec2 chromaticity(glm::dvec3 c) {
-    const glm::dvec3 xyz = glm::inverse(to_rec709(kXyz)) * c;
+    const glm::dvec3 xyz = glm::inverse(io::to_rec709(io::kXyz)) * c;
     const double sum = xyz.x + xyz.y + xyz.z;
     return sum == 0 ? glm::dvec2(0) : glm::dvec2(xyz) / sum;
 }
@@ -38,4 +39,4 @@ double temperature_of(glm::dvec3 rgb) {
     return glm::distance(xy, chromaticity(glm::dvec3(colour_of_temperature(kelvin)))) < 0.02 ? kelvin : 0;
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -5,7 +5,7 @@
 
 #include "base/luminance.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 /// Linear Rec. 709 colour of luminance 1 of a black body, gamut-clipped to non-negative. `kelvin` in [1000, 25000].
 glm::vec3 colour_of_temperature(double kelvin);
@@ -17,4 +17,4 @@ glm::dvec2 chromaticity(glm::dvec3 rgb);
 /// otherwise 0.
 double temperature_of(glm::dvec3 rgb);
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -17,7 +17,7 @@
 #include "scene/photometry_parts.h"
 #include "scene/uri.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 using nlohmann::json;
@@ -112,12 +112,12 @@ void check_count(const Conversion& conversion, const std::filesystem::path& phot
 ConversionReport convert_checked(const std::filesystem::path& input, const std::filesystem::path& photometry,
                                  const std::filesystem::path& output, const std::optional<Transfer>& transfer,
                                  const SceneLimits& limits) {
-    const FileGate gate;
+    const io::FileGate gate;
     const Budget budget("converting " + one_line(input.string()));
     const std::string extension = output.extension().string();
     if (extension != ".gltf" && extension != ".glb")
         throw Error(one_line(output.string()) + ": the output must be named .gltf or .glb");
-    std::optional<AllowedFolder> beside_scene(std::in_place, input.has_parent_path() ? input.parent_path() : ".");
+    std::optional<io::AllowedFolder> beside_scene(std::in_place, input.has_parent_path() ? input.parent_path() : ".");
     Photometry stated = read_photometry(photometry);
     beside_scene.reset();  // the scene may not name what lies beside the photometry
     if (transfer) stated.transfer = *transfer;
@@ -154,7 +154,7 @@ ConversionReport convert_checked(const std::filesystem::path& input, const std::
     read_all(result);
     check_reflectances(result.scene, report);
     for (const std::string& note : result.notes.lines()) report.warnings.push_back(note);
-    replace_file(output, encode_gltf(document, extension == ".glb", report.warnings));
+    io::replace_file(output, encode_gltf(document, extension == ".glb", report.warnings));
     return report;
 }
 
@@ -172,4 +172,4 @@ ConversionReport convert(const std::filesystem::path& input, const std::filesyst
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -9,7 +9,7 @@
 #include "scene/colour.h"  // colour_of_temperature
 #include "scene/gltf.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 struct ConversionReport {
     std::vector<std::string> changes;   ///< what was changed, one line each
@@ -23,4 +23,4 @@ ConversionReport convert(const std::filesystem::path& input, const std::filesyst
                          const std::filesystem::path& output, const std::optional<Transfer>& transfer = std::nullopt,
                          const SceneLimits& limits = {});
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -8,7 +8,7 @@
 #include "scene/reflectance.h"
 #include "scene/scene_warnings.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 constexpr double kHighestReflectance = 0.9;  // fresh snow; plaster has 0.8
@@ -36,7 +36,8 @@ void check_lamps(Conversion& conversion) {
     for (const LampRule& rule : conversion.photometry.lamps) {
         double candela = rule.lamp.intensity;
         if (rule.lamp.kind == Lamp::Kind::Measured)
-            candela *= largest_intensity(conversion.photometry.measured[rule.lamp.distribution].distribution);
+            candela *=
+                photometry::largest_intensity(conversion.photometry.measured[rule.lamp.distribution].distribution);
         if (candela < kFaintestLamp || candela > kBrightestLamp)
             conversion.report.warnings.push_back("lamp " + in_quotes(rule.name) + ": " + decimal(candela) +
                                                  " cd is beyond the lamps of a street (0.1 to 1e6 cd)");
@@ -135,4 +136,4 @@ void check_plausibility(Conversion& conversion, const std::set<size_t>& lamp_nod
     check_forgotten(conversion, lamp_nodes);
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

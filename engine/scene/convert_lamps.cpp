@@ -11,7 +11,7 @@
 #include "scene/photometry_measured.h"
 #include "scene/uri.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 using nlohmann::json;
@@ -96,7 +96,7 @@ struct Reference {
 };
 
 /// The opening of a light or a light profile, for the extras block.
-void add_opening(Conversion& conversion, const char* of, size_t index, const LuminousOpening& opening) {
+void add_opening(Conversion& conversion, const char* of, size_t index, const photometry::LuminousOpening& opening) {
     if (!(opening.area() > 0)) return;
     conversion.openings.push_back({{of, index}, {"width_m", opening.length}, {"height_m", opening.width}});
     if (opening.round) conversion.openings.back()["round"] = true;
@@ -104,7 +104,7 @@ void add_opening(Conversion& conversion, const char* of, size_t index, const Lum
 
 /// Puts the file of a measured lamp into the document, once for all rules that name it.
 size_t profile_of(Conversion& conversion, const LampRule& rule) {
-    const LuminousOpening& opening = rule.lamp.opening;
+    const photometry::LuminousOpening& opening = rule.lamp.opening;
     const auto [known, is_new] =
         conversion.profiles.try_emplace({rule.lamp.distribution, opening.length, opening.width, opening.round});
     if (!is_new) return known->second;
@@ -114,8 +114,8 @@ size_t profile_of(Conversion& conversion, const LampRule& rule) {
     if (!extension.contains("lights")) extension["lights"] = json::array();
     if (!root.contains("bufferViews")) root["bufferViews"] = json::array();
     use_extension(root, kMeasured);
-    const Distribution& distribution = conversion.photometry.measured[rule.lamp.distribution].distribution;
-    const std::string text = write_ies(distribution);
+    const photometry::Distribution& distribution = conversion.photometry.measured[rule.lamp.distribution].distribution;
+    const std::string text = photometry::write_ies(distribution);
     root["bufferViews"].push_back({{"buffer", root.contains("buffers") ? root["buffers"].size() : 0},
                                    {"byteOffset", conversion.profile_bytes.size()},
                                    {"byteLength", text.size()}});
@@ -182,7 +182,7 @@ void add_lamp(Conversion& conversion, const LampRule& rule, const Reference& ref
 }
 
 /// What the opening of a lamp shows on its axis.
-std::string seen(Lamp lamp, const Distribution& distribution) {
+std::string seen(Lamp lamp, const photometry::Distribution& distribution) {
     if (!(lamp.opening.area() > 0)) return "";
     lamp.distribution = 0;
     return ", " + decimal(axis_luminance(lamp, {&distribution, 1})) + " cd/m^2 over " + decimal(lamp.opening.area()) +
@@ -195,9 +195,9 @@ std::string describe(const Conversion& conversion, const LampRule& rule, size_t 
         const MeasuredLamp& measured = conversion.photometry.measured[lamp.distribution];
         return "lamp " + in_quotes(rule.name) + ": " + number_of(nodes, "node") + ", " + in_quotes(measured.file) +
                (measured.mirror ? " mirrored, " : ", ") +
-               decimal(lamp.intensity * largest_intensity(measured.distribution)) + " cd at most, " +
+               decimal(lamp.intensity * photometry::largest_intensity(measured.distribution)) + " cd at most, " +
                (rule.kelvin > 0 ? decimal(rule.kelvin) + " K, " : "") +
-               decimal(lamp.intensity * luminous_flux(measured.distribution)) + " lm each" +
+               decimal(lamp.intensity * photometry::luminous_flux(measured.distribution)) + " lm each" +
                seen(lamp, measured.distribution);
     }
     std::string lobe = "point";
@@ -219,9 +219,9 @@ void warn_of_instances(Conversion& conversion, const JsonValue& node, const Lamp
 }
 
 /// Whether left and right of a distribution are alike.
-bool is_symmetric(const Distribution& d) {
-    const Distribution other = mirrored(d);
-    const double limit = 1e-3 * largest_intensity(d);
+bool is_symmetric(const photometry::Distribution& d) {
+    const photometry::Distribution other = photometry::mirrored(d);
+    const double limit = 1e-3 * photometry::largest_intensity(d);
     return other.horizontal == d.horizontal &&
            std::equal(d.candela.begin(), d.candela.end(), other.candela.begin(), other.candela.end(),
                       [&](double a, double b) { return std::abs(a - b) <= limit; });
@@ -300,4 +300,4 @@ void convert_lamps(Conversion& conversion) {
     conversion.lamp_nodes = std::move(matched);
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -3,7 +3,7 @@
 
 #include "scene/convert_rules.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 using nlohmann::json;
@@ -50,14 +50,15 @@ glm::dvec3 show_picture(Conversion& conversion, const EmitterRule& rule, uint32_
     }
     use["picture"] = stored(conversion, rule);
     conversion.luminous.push_back(use);
-    return rule.scale * mean_colour(conversion.photometry.pictures[rule.picture].picture);
+    return rule.scale * photometry::mean_colour(conversion.photometry.pictures[rule.picture].picture);
 }
 
 std::string described_picture(const Conversion& conversion, const EmitterRule& rule) {
-    const LuminancePicture& picture = conversion.photometry.pictures[rule.picture].picture;
+    const photometry::LuminancePicture& picture = conversion.photometry.pictures[rule.picture].picture;
     return "picture " + in_quotes(picture.name) + " of " + std::to_string(picture.width) + " x " +
-           std::to_string(picture.height) + " px, " + decimal(rule.scale * luminance(mean_colour(picture))) +
-           " cd/m^2 in the mean, " + decimal(rule.luminance) + " at most";
+           std::to_string(picture.height) + " px, " +
+           decimal(rule.scale * luminance(photometry::mean_colour(picture))) + " cd/m^2 in the mean, " +
+           decimal(rule.luminance) + " at most";
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

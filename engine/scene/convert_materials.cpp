@@ -9,7 +9,7 @@
 #include "scene/reflectance.h"
 #include "scene/reflection_json.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 using nlohmann::json;
@@ -164,7 +164,7 @@ size_t index_in(json& tables, const json& whole) {
     return tables.size() - 1;
 }
 
-std::string described(const ReflectionTable& table) {
+std::string described(const photometry::ReflectionTable& table) {
     return ", reflection table " + table.name + (table.stated_q0 > 0 ? " of Q0 " + decimal(table.stated_q0) : "");
 }
 
@@ -244,4 +244,4 @@ void convert_materials(Conversion& conversion) {
                     " kinds of retroreflection: " + std::to_string(kMaxRetroreflectors) + " are possible");
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -11,7 +11,7 @@
 #include "scene/gltf_reader.h"
 #include "scene/photometry.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 /// A conversion under way.
 struct Conversion {
@@ -68,4 +68,4 @@ void check_reflectances(const Scene& converted, ConversionReport& report);
 /// Whether a name sounds like a source of light.
 bool sounds_like_light(const std::string& name);
 
-}  // namespace vesper
+}  // namespace vesper::scene

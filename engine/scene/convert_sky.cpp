@@ -8,7 +8,7 @@
 #include "scene/convert_rules.h"
 #include "scene/photometry_measured.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 using nlohmann::json;
@@ -44,7 +44,7 @@ void add_directional(Conversion& conversion, const DirectionalRule& rule) {
 
 /// Half floats times a scale that brings the brightest to 60,000: nine decades in full precision below it.
 void add_environment(Conversion& conversion, const SkyPicture& sky) {
-    const Environment& e = sky.environment;
+    const photometry::Environment& e = sky.environment;
     const float brightest = *std::max_element(e.rgb.begin(), e.rgb.end());
     const double scale = brightest > 0 ? brightest / 60000.0 : 1;
     std::vector<uint8_t> bytes;
@@ -59,8 +59,8 @@ void add_environment(Conversion& conversion, const SkyPicture& sky) {
                               {"scale", scale},
                               {"rotation_deg", e.rotation * 180 / std::numbers::pi},
                               {"name", sky.file}};
-    conversion.report.changes.push_back("sky: " + in_quotes(sky.file) + ", " + decimal(sky_luminance(e)) +
-                                        " cd/m^2 in the mean, " + decimal(horizontal_illuminance(e)) +
+    conversion.report.changes.push_back("sky: " + in_quotes(sky.file) + ", " + decimal(photometry::sky_luminance(e)) +
+                                        " cd/m^2 in the mean, " + decimal(photometry::horizontal_illuminance(e)) +
                                         " lx on the ground");
     if (sky.cleaned > 0)
         conversion.report.warnings.push_back("sky: " + std::to_string(sky.cleaned) +
@@ -75,4 +75,4 @@ void convert_sky(Conversion& conversion) {
     if (p.sky_picture) add_environment(conversion, *p.sky_picture);
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

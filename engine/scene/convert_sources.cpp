@@ -8,7 +8,7 @@
 #include "scene/convert_rules.h"
 #include "scene/lamp.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 using glm::dvec3;
@@ -28,7 +28,7 @@ double axis_intensity(const Conversion& conversion, const LampRule& rule) {
     Lamp lamp = rule.lamp;
     if (lamp.kind != Lamp::Kind::Measured) return luminous_intensity(lamp, {}, {0, 0, -1});
     lamp.distribution = 0;
-    const Distribution& distribution = conversion.photometry.measured[rule.lamp.distribution].distribution;
+    const photometry::Distribution& distribution = conversion.photometry.measured[rule.lamp.distribution].distribution;
     return luminous_intensity(lamp, {&distribution, 1}, {0, 0, -1});
 }
 
@@ -78,7 +78,7 @@ private:
 
 /// Adds the triangles of a primitive to the lamps they are nearest to. `picture` null: they emit evenly.
 void add_area(const Primitive& primitive, const glm::dmat4& world, bool double_sided, const EmitterRule& emitter,
-              const PictureMeans* picture, const std::vector<Placed*>& lamps) {
+              const photometry::PictureMeans* picture, const std::vector<Placed*>& lamps) {
     const double side = glm::determinant(glm::dmat3(world)) < 0 ? -1 : 1;
     for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
         dvec3 p[3];
@@ -185,7 +185,7 @@ void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::v
     };
     std::vector<Placed> lamps = reported_lamps(conversion, world, rule_index);
     const Neighbours neighbours(scene, lamps);
-    std::optional<PictureMeans> means;
+    std::optional<photometry::PictureMeans> means;
     if (emitter.picture != kNone) means.emplace(conversion.photometry.pictures[emitter.picture].picture);
     for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
         if (scene.nodes[node].mesh == kNone) continue;
@@ -241,4 +241,4 @@ void check_sources(Conversion& conversion, const std::vector<std::vector<uint32_
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -9,7 +9,7 @@
 #include "base/one_line.h"
 #include "scene/gltf_reader.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 /// Finite numbers may still multiply to infinity along a branch of the tree.
@@ -79,4 +79,4 @@ LoadedScene read_gltf(const std::filesystem::path& file, const SceneLimits& limi
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -9,7 +9,7 @@
 #include "base/limits.h"
 #include "scene/scene.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 /// Upper bounds on what a file may ask for. A file that states more is refused before anything is allocated for it. The
 /// standard ones follow VESPER_LIMITS (base/limits.h).
@@ -37,4 +37,4 @@ struct LoadedScene {
 /// where there is one. Throws Error naming the file, the place in it (JSON pointer or byte) and the reason.
 LoadedScene read_gltf(const std::filesystem::path& file, const SceneLimits& limits = {});
 
-}  // namespace vesper
+}  // namespace vesper::scene

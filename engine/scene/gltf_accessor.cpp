@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 /// A component type that glTF has, or its refusal. `holder` states it.
@@ -173,4 +173,4 @@ std::vector<uint32_t> read_indices(GltfDocument& document, int index, uint64_t m
     return indices;
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

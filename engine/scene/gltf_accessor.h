@@ -5,7 +5,7 @@
 
 #include "scene/gltf_document.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 /// An accessor turned to floats: `count` elements of `components` each.
 struct Floats {
@@ -23,4 +23,4 @@ Floats read_floats(GltfDocument& document, int index, std::initializer_list<int>
 /// Reads unsigned scalars, all less than `end`. Throws Error.
 std::vector<uint32_t> read_indices(GltfDocument& document, int index, uint64_t max_count, uint64_t end);
 
-}  // namespace vesper
+}  // namespace vesper::scene

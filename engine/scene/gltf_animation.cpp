@@ -3,7 +3,7 @@
 
 #include "scene/gltf_reader.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 std::optional<Channel::Path> path_of(GltfReader& reader, const std::string& path) {
@@ -90,4 +90,4 @@ void read_animations(GltfReader& reader) {
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -5,7 +5,7 @@
 
 #include "scene/gltf_model.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 class PartsCheck {
@@ -155,4 +155,4 @@ private:
 
 void check_parts(GltfDocument& document) { PartsCheck(document).check(); }
 
-}  // namespace vesper
+}  // namespace vesper::scene

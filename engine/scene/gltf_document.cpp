@@ -11,7 +11,7 @@
 #include "scene/gltf_model.h"
 #include "scene/uri.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 constexpr std::array<std::string_view, 8> kSupported = {
@@ -86,7 +86,7 @@ bool is_supported_extension(std::string_view name) {
 GltfDocument::GltfDocument(const std::filesystem::path& file, const SceneLimits& limits)
     : folder_(file.parent_path()), limits_(limits) {
     const std::string name = one_line(file.string());
-    const std::vector<uint8_t> bytes = read_file(file, limits.file_bytes);
+    const std::vector<uint8_t> bytes = io::read_file(file, limits.file_bytes);
     if (bytes.empty()) throw Error(name + ": is empty");
     if (bytes.size() >= 4 && word_at(bytes, 0) == kMagic) {
         const Chunks chunks = split_glb(bytes, name);
@@ -134,7 +134,7 @@ std::vector<uint8_t> GltfDocument::bytes_of_uri(const JsonValue& uri) {
     std::vector<uint8_t> bytes;
     try {
         if (is_data_uri(uri.text())) return decode_data_uri(uri.text());
-        bytes = read_file(resolve_uri(folder_, uri.text()), limits_.file_bytes);
+        bytes = io::read_file(resolve_uri(folder_, uri.text()), limits_.file_bytes);
     } catch (const Error& error) {
         uri.fail(error.what());
     }
@@ -210,4 +210,4 @@ nlohmann::json& GltfDocument::edit() {
     return json_.root;
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

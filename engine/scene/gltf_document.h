@@ -15,7 +15,7 @@
 #include "scene/json_value.h"
 #include "scene/tinygltf.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 /// A part of a file as tinygltf reads it, and the JSON that it is read from, for messages and extensions.
 template <class T>
@@ -86,4 +86,4 @@ private:
 /// Whether we read, or may ignore, a glTF extension that a file requires.
 bool is_supported_extension(std::string_view name);
 
-}  // namespace vesper
+}  // namespace vesper::scene

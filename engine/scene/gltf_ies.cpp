@@ -8,16 +8,16 @@
 #include "scene/colour.h"
 #include "scene/gltf_reader.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
-Distribution read_profile(GltfReader& reader, const JsonValue& profile, uint64_t& bytes_read) {
+photometry::Distribution read_profile(GltfReader& reader, const JsonValue& profile, uint64_t& bytes_read) {
     const auto type = profile.find("mimeType");
     if (type && type->text() != "application/x-ies-lm-63") type->fail("is not application/x-ies-lm-63");
     const std::vector<uint8_t> bytes = reader.document.file_of(profile);
     bytes_read += bytes.size();
     if (bytes_read > reader.limits.file_bytes) profile.fail("the light profiles add up to more than the limit");
-    Distribution made = parse_ies(bytes, profile.place());
+    photometry::Distribution made = photometry::parse_ies(bytes, profile.place());
     const std::string name = profile.text_or("name", "");
     if (!name.empty()) made.name = name;
     return made;
@@ -68,4 +68,4 @@ uint32_t read_measured_light(GltfReader& reader, const JsonValue& use) {
     return known->second;
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -7,7 +7,7 @@
 #include "scene/colour.h"
 #include "scene/gltf_reader.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 glm::vec3 rgb_of(const JsonValue& value) {
@@ -74,7 +74,7 @@ void read_lobe(GltfReader& reader, const JsonValue& lobe) {
 /// Where the light of a punctual light, or of all uses of a light profile, comes out.
 void read_opening(GltfReader& reader, const JsonValue& source) {
     source.allow_only({"light", "profile", "width_m", "height_m", "round"});
-    LuminousOpening opening;
+    photometry::LuminousOpening opening;
     opening.length = source.at("width_m").number(1e-4, 100);
     opening.width = source.at("height_m").number(1e-4, 100);
     opening.round = source.boolean_or("round", false);
@@ -143,4 +143,4 @@ void read_photometry_block(GltfReader& reader) {
     read_luminance_pictures(reader, *block);
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -7,20 +7,20 @@
 #include "io/hdr_image.h"
 #include "scene/gltf_reader.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 constexpr size_t kMaxPictures = 1024;
 constexpr uint64_t kTexelsEach = 4;  ///< 16 bytes on the device, where a texel of an image has 4 in memory
 
-LuminancePicture read_picture(GltfReader& reader, const JsonValue& source) {
+photometry::LuminancePicture read_picture(GltfReader& reader, const JsonValue& source) {
     source.allow_only({"name", "bufferView"});
     const JsonValue number = source.at("bufferView");
     const auto bytes = reader.document.view(number.index(reader.document.list("bufferViews").size(), "bufferViews"));
     const std::string name = one_line(source.text_or("name", "luminance picture"));
-    LuminancePicture made;
+    photometry::LuminancePicture made;
     try {
-        made = make_luminance_picture(decode_hdr_image(
+        made = photometry::make_luminance_picture(io::decode_hdr_image(
             bytes, name, {reader.limits.image_side, (reader.limits.texels - reader.texels) / kTexelsEach}));
     } catch (const Error& error) {
         number.fail(error.what());
@@ -77,4 +77,4 @@ void read_luminance_pictures(GltfReader& reader, const JsonValue& block) {
     for (const JsonValue& use : block.elements_of("luminous")) read_luminous(reader, use);
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -7,25 +7,26 @@
 #include "scene/gltf_reader.h"
 #include "scene/reflectance.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 uint32_t read_image(GltfReader& reader, uint32_t index) {
     const JsonValue entry = reader.document.list("images")[index];
     if (reader.image_of[index] != kUnread) return reader.image_of[index];
     const std::vector<uint8_t> bytes = reader.document.image(index);
-    const std::string type = media_type(bytes);
+    const std::string type = io::media_type(bytes);
     if (!type.empty() && type != "image/png" && type != "image/jpeg") {
         reader.notes.add("a picture of type " + type + " is not read: its texture is left out");
         return reader.image_of[index] = kNone;
     }
     Image image;
     try {
-        image = decode_image(bytes, reader.limits.image_side, reader.limits.texels - reader.texels);
+        image = io::decode_image(bytes, reader.limits.image_side, reader.limits.texels - reader.texels);
     } catch (const Error& error) {
         entry.fail(error.what());
     }
-    if (is_16_bit_png(bytes)) reader.notes.add("a picture of 16 bits is read at 8: below 0.01 its values are coarse");
+    if (io::is_16_bit_png(bytes))
+        reader.notes.add("a picture of 16 bits is read at 8: below 0.01 its values are coarse");
     reader.texels += static_cast<uint64_t>(image.width) * image.height;
     const auto uri = entry.find("uri");
     image.name =
@@ -242,4 +243,4 @@ void read_materials(GltfReader& reader) {
         read_material(reader, reader.document.material(i));
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -6,7 +6,7 @@
 #include "scene/gltf_reader.h"
 #include "scene/mesh.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 enum class Mode : uint8_t { Points, Lines, LineLoop, LineStrip, Triangles, Strip, Fan };
@@ -227,4 +227,4 @@ uint32_t read_mesh(GltfReader& reader, uint32_t index, const Pose& pose) {
     return place->second = static_cast<uint32_t>(reader.scene.meshes.size() - 1);
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 using nlohmann::json;
@@ -91,4 +91,4 @@ std::unique_ptr<const tinygltf::Model> read_model(GltfDocument& document) {
     throw Error(document.name() + ": " + one_line(error));
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

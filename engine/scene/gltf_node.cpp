@@ -6,7 +6,7 @@
 
 #include "scene/gltf_reader.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 /// The parent of every node; a node with two, or above itself, is refused.
@@ -266,4 +266,4 @@ void read_nodes(GltfReader& reader) {
         reader.notes.add("no node shows any of the file's meshes: the scene is empty");
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

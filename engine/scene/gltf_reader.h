@@ -10,7 +10,7 @@
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_document.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 /// What the user should know, each said once with how often it applies.
 class Notes {
@@ -70,7 +70,8 @@ struct GltfReader {
     uint32_t punctual_lights = 0;                     ///< those of KHR_lights_punctual, the first of the scene's
     /// Scene light of a distribution, with its multiplier and colour.
     std::map<std::tuple<uint32_t, float, float, float, float>, uint32_t> measured_lights{};
-    std::vector<LuminousOpening> profile_openings{};  ///< of distributions, from the extras block; may be shorter
+    std::vector<photometry::LuminousOpening>
+        profile_openings{};  ///< of distributions, from the extras block; may be shorter
     uint64_t vertices = 0, indices = 0, texels = 0, keys = 0;  ///< kept so far
     uint64_t decoded = 0;                                      ///< vertices read so far, also those not kept
 };
@@ -128,4 +129,4 @@ void read_environment(GltfReader& reader, const JsonValue& source);
 /// All of the above in order, and the checks that need the whole scene.
 void read_all(GltfReader& reader);
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -2,7 +2,7 @@
 #include "scene/gltf_reader.h"
 #include "scene/reflection_json.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 void read_reflection_tables(GltfReader& reader, const JsonValue& block) {
     constexpr size_t kMaxTables = 256;
@@ -17,4 +17,4 @@ void read_reflection_tables(GltfReader& reader, const JsonValue& block) {
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

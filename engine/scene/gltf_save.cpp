@@ -20,7 +20,7 @@
 #include "scene/reflection_json.h"
 #include "scene/tinygltf.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 using nlohmann::json;
@@ -164,7 +164,7 @@ void write_meshes(Writer& writer) {
     }
 }
 
-void add_opening(json& openings, const char* of, size_t index, const LuminousOpening& opening) {
+void add_opening(json& openings, const char* of, size_t index, const photometry::LuminousOpening& opening) {
     if (!(opening.area() > 0)) return;
     openings.push_back({{of, index}, {"width_m", opening.length}, {"height_m", opening.width}});
     if (opening.round) openings.back()["round"] = true;
@@ -187,7 +187,7 @@ std::vector<LampUse> write_lamps(Writer& writer, json& block) {
         const double intensity = lamp.intensity * double(factor);
         if (lamp.kind == Lamp::Kind::Measured) {
             // One profile for each light: openings belong to profiles.
-            const std::string text = write_ies(writer.scene.distributions.at(lamp.distribution));
+            const std::string text = photometry::write_ies(writer.scene.distributions.at(lamp.distribution));
             profiles.push_back({{"name", lamp.name},
                                 {"bufferView", writer.view(text.data(), text.size())},
                                 {"mimeType", "application/x-ies-lm-63"}});
@@ -294,9 +294,10 @@ void write_block(const Scene& scene, json& block, const std::string& source) {
     if (scene.transfer.kind == Transfer::Kind::Gamma) block["transfer"]["gamma"] = scene.transfer.gamma;
     block["ambient"] = {{"illuminance_lx", scene.ambient_illuminance}, {"colour", json_of(scene.ambient_colour)}};
     block["sky"] = {{"luminance_cd_m2", scene.sky_luminance}, {"colour", json_of(scene.sky_colour)}};
-    for (const ReflectionTable& table : scene.reflection_tables)
-        block["reflection_tables"].push_back(vesper::json_of(table));
-    for (const Retroreflector& one : scene.retroreflectors) block["retroreflectors"].push_back(vesper::json_of(one));
+    for (const photometry::ReflectionTable& table : scene.reflection_tables)
+        block["reflection_tables"].push_back(scene::json_of(table));
+    for (const photometry::Retroreflector& one : scene.retroreflectors)
+        block["retroreflectors"].push_back(scene::json_of(one));
     for (size_t m = 0; m < scene.materials.size(); ++m) {
         const Material& material = scene.materials[m];
         if (material.reflection_table != kNone)
@@ -336,7 +337,7 @@ void save_gltf(const Scene& scene, const std::string& source, const std::filesys
     write_animation(writer);
     write_block(scene, block, source);
     writer.model.extras = value_of({{"vesper", std::move(block)}});
-    replace_file(file, encode(writer, extension == ".glb"));
+    io::replace_file(file, encode(writer, extension == ".glb"));
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

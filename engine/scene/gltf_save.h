@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 /// Writes the scene to a self-contained file, named .gltf or .glb, that read_gltf gives back: lamps and materials in
 /// the standard parts and the vesper extras block (docs/gltf.md). The file is replaced only when all of it is
@@ -14,4 +14,4 @@ namespace vesper {
 /// there: here they are refused. `source` goes into the provenance. Throws Error.
 void save_gltf(const Scene& scene, const std::string& source, const std::filesystem::path& file);
 
-}  // namespace vesper
+}  // namespace vesper::scene

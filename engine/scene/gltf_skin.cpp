@@ -7,7 +7,7 @@
 #include "scene/gltf_reader.h"
 #include "scene/placement.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 constexpr uint32_t kMostSets = 4;  // of four joints each: exporters write one or two
@@ -203,4 +203,4 @@ void bend(GltfReader& reader, const GltfPart<tinygltf::Primitive>& source, const
             std::swap(primitive.indices[i + 1], primitive.indices[i + 2]);
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

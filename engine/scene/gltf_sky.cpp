@@ -7,17 +7,18 @@
 #include "scene/gltf_reader.h"
 #include "scene/photometry_parts.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 void read_environment(GltfReader& reader, const JsonValue& source) {
     source.allow_only({"bufferView", "width", "height", "scale", "rotation_deg", "name"});
-    const uint64_t width = source.at("width").integer(kMaxEnvironmentWidth), height = source.at("height").integer();
+    const uint64_t width = source.at("width").integer(photometry::kMaxEnvironmentWidth),
+                   height = source.at("height").integer();
     if (width < 2 || width != 2 * height) source.at("width").fail("must be twice the height, and at least 2");
     const JsonValue number = source.at("bufferView");
     const auto bytes = reader.document.view(number.index(reader.document.list("bufferViews").size(), "bufferViews"));
     if (bytes.size() != width * height * 6) number.fail("must hold three half floats per pixel and nothing else");
     const double scale = source.number_or("scale", 1, 0);
-    Environment made{
+    photometry::Environment made{
         uint32_t(width), uint32_t(height), {}, source.number_or("rotation_deg", 0, -360, 360) * std::numbers::pi / 180};
     made.rgb.reserve(bytes.size() / 2);
     for (size_t i = 0; i < bytes.size(); i += 2) {
@@ -44,4 +45,4 @@ void read_retroreflectors(GltfReader& reader, const JsonValue& block) {
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

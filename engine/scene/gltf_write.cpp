@@ -7,7 +7,7 @@
 #include "io/image_file.h"
 #include "scene/uri.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 using nlohmann::json;
@@ -69,7 +69,7 @@ void embed_profiles(GltfDocument& document) {
 }
 
 std::string type_of(const json& image, std::span<const uint8_t> bytes) {
-    const std::string known = media_type(bytes);
+    const std::string known = io::media_type(bytes);
     if (!known.empty()) return known;
     const auto stated = image.find("mimeType");
     return stated != image.end() && stated->is_string() ? stated->get<std::string>() : "application/octet-stream";
@@ -165,4 +165,4 @@ std::vector<uint8_t> encode_gltf(GltfDocument& document, bool binary, std::vecto
     return binary ? encode_binary(root, parts, document.name()) : encode_text(root, parts);
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 using nlohmann::json;
@@ -116,4 +116,4 @@ void check_json_text(std::span<const uint8_t> text, const std::string& file, uin
     json::sax_parse(text.begin(), text.end(), &bounds);
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

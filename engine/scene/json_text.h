@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace vesper {
+namespace vesper::scene {
 
 /// A JSON pointer's token for a key.
 std::string json_pointer_token(std::string_view key);
@@ -20,4 +20,4 @@ std::string json_pointer_key(std::string_view token);
 /// million keys, and for UTF-16. Other mistakes are the parser's.
 void check_json_text(std::span<const uint8_t> text, const std::string& file, uint64_t most_values);
 
-}  // namespace vesper
+}  // namespace vesper::scene

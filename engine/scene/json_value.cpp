@@ -12,7 +12,7 @@
 #include "base/one_line.h"
 #include "scene/json_text.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 constexpr uint64_t kMostValues = 32'000'000;  // a million nodes have about half of this
@@ -174,4 +174,4 @@ std::string JsonValue::place() const {
 
 void JsonValue::fail(const std::string& reason) const { throw Error(place() + ": " + one_line(reason, 1000)); }
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -13,7 +13,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace vesper {
+namespace vesper::scene {
 
 /// A JSON text in memory, or a part of one, and the name of the file it came from.
 struct JsonFile {
@@ -86,4 +86,4 @@ private:
     const nlohmann::json* value_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -5,7 +5,7 @@
 
 #include "base/angle.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 glm::dvec2 cone_ramp(const Lamp& lamp) {
     if (lamp.kind == Lamp::Kind::Point) return {0, 1};
@@ -16,7 +16,8 @@ glm::dvec2 cone_ramp(const Lamp& lamp) {
     return {slope, 1 - slope * std::cos(inner)};
 }
 
-double luminous_intensity(const Lamp& lamp, std::span<const Distribution> distributions, glm::dvec3 direction) {
+double luminous_intensity(const Lamp& lamp, std::span<const photometry::Distribution> distributions,
+                          glm::dvec3 direction) {
     const double length = glm::length(direction);
     if (!(length > 0)) return 0;
     const double cosine = -direction.z / length, candela = lamp.intensity;
@@ -31,7 +32,7 @@ double luminous_intensity(const Lamp& lamp, std::span<const Distribution> distri
         case Lamp::Kind::CosinePower:
             return cosine > 0 ? candela * std::pow(cosine, static_cast<double>(lamp.exponent)) : 0;
         case Lamp::Kind::Measured:
-            return candela * intensity(distributions[lamp.distribution], direction);
+            return candela * photometry::intensity(distributions[lamp.distribution], direction);
         case Lamp::Kind::Directional:
             break;
     }
@@ -58,9 +59,9 @@ double luminous_flux(const Lamp& lamp) {
     return 0;
 }
 
-double axis_luminance(const Lamp& lamp, std::span<const Distribution> distributions) {
+double axis_luminance(const Lamp& lamp, std::span<const photometry::Distribution> distributions) {
     const double area = lamp.opening.area();
     return area > 0 ? luminous_intensity(lamp, distributions, {0, 0, -1}) / area : 0;
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

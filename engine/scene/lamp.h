@@ -6,11 +6,12 @@
 
 #include "scene/scene.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 /// Intensity of a lamp in a direction of its own frame (axis -Z, right +X, up +Y; any length), cd. A directional light
 /// has none: 0.
-double luminous_intensity(const Lamp& lamp, std::span<const Distribution> distributions, glm::dvec3 direction);
+double luminous_intensity(const Lamp& lamp, std::span<const photometry::Distribution> distributions,
+                          glm::dvec3 direction);
 
 /// Luminous flux of a lamp, lm: its intensity integrated over all directions. Not of Measured: see distribution.h.
 double luminous_flux(const Lamp& lamp);
@@ -21,6 +22,6 @@ double luminous_flux(const Lamp& lamp);
 glm::dvec2 cone_ramp(const Lamp& lamp);
 
 /// Luminance of its opening seen along its axis, L = I / A, cd/m^2; 0 without opening.
-double axis_luminance(const Lamp& lamp, std::span<const Distribution> distributions);
+double axis_luminance(const Lamp& lamp, std::span<const photometry::Distribution> distributions);
 
-}  // namespace vesper
+}  // namespace vesper::scene

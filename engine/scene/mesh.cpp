@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace vesper {
+namespace vesper::scene {
 
 glm::vec3 area_normal(const std::vector<Vertex>& vertices, const uint32_t* corners) {
     const glm::vec3 a = vertices[corners[0]].position;
@@ -41,4 +41,4 @@ void make_flat(Primitive& primitive) {
     primitive.vertices = std::move(corners);
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

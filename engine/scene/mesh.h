@@ -3,7 +3,7 @@
 
 #include "scene/scene.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 /// Normal of a triangle times twice its area.
 glm::vec3 area_normal(const std::vector<Vertex>& vertices, const uint32_t* corners);
@@ -15,4 +15,4 @@ void fill_normals(Primitive& primitive, const std::vector<char>& missing);
 /// Flat shading: gives each triangle its own three vertices with its normal.
 void make_flat(Primitive& primitive);
 
-}  // namespace vesper
+}  // namespace vesper::scene

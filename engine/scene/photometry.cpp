@@ -13,7 +13,7 @@
 #include "scene/photometry_parts.h"
 #include "scene/reflection_json.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 constexpr uint64_t kMaxPhotometryBytes = 64u << 20;
@@ -98,18 +98,18 @@ void read_shape(LampRule& rule, const JsonValue& source) {
 }
 
 /// Where the light comes out: {"width_m", "height_m", "round"}, or "file".
-LuminousOpening read_opening(const JsonValue& source, const LampRule& rule, const Photometry& made) {
+photometry::LuminousOpening read_opening(const JsonValue& source, const LampRule& rule, const Photometry& made) {
     constexpr double kSmallest = 1e-4, kLargest = 100;
     if (source.json().is_string()) {
         if (source.text() != "file") source.fail("is neither an object nor \"file\"");
         if (rule.lamp.kind != Lamp::Kind::Measured) source.fail("\"file\" is for lamps of type distribution");
-        const LuminousOpening& stated = made.measured[rule.lamp.distribution].distribution.opening;
+        const photometry::LuminousOpening& stated = made.measured[rule.lamp.distribution].distribution.opening;
         if (std::min(stated.length, stated.width) < kSmallest || std::max(stated.length, stated.width) > kLargest)
             source.fail("the file states no luminous area that can be seen");
         return {.length = stated.length, .width = stated.width, .height = 0, .round = stated.round};
     }
     source.allow_only({"width_m", "height_m", "round"});
-    LuminousOpening opening;
+    photometry::LuminousOpening opening;
     opening.round = source.boolean_or("round", false);
     opening.length = source.at("width_m").number(kSmallest, kLargest);
     opening.width = opening.round ? source.number_or("height_m", opening.length, kSmallest, kLargest)
@@ -203,7 +203,7 @@ bool matches(const char* pattern, const char* text, char barrier) {
 }  // namespace
 
 Photometry read_photometry(const std::filesystem::path& file) {
-    const JsonFile json = parse_json(read_file(file, kMaxPhotometryBytes), file.string());
+    const JsonFile json = parse_json(io::read_file(file, kMaxPhotometryBytes), file.string());
     const JsonValue root(json);
     root.allow_only(
         {"$schema", "version", "textures", "ambient", "sky", "directional", "lights", "lamps", "emitters", "surfaces"});
@@ -251,4 +251,4 @@ bool matches_path(const std::string& pattern, const std::vector<std::string>& pa
     return false;
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -9,7 +9,7 @@
 
 #include "scene/scene.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 /// A rule that puts a lamp on every node its patterns match.
 struct LampRule {
@@ -27,15 +27,15 @@ struct MeasuredLamp {
     std::string file;  ///< as in the rule
     bool mirror = false;
     size_t lamp_set = 0;
-    Distribution distribution{};
+    photometry::Distribution distribution{};
 };
 
 /// A picture of a light source used by rules.
 struct EmitterPicture {
-    std::vector<uint8_t> bytes;  ///< of the file
-    LuminancePicture picture{};  ///< its name is that of the rule
-    double white_luminance = 0;  ///< cd/m^2 of the value 1 by the file; 0 if not stated
-    uint64_t changed = 0;        ///< pixels with a negative component, see make_luminance_picture
+    std::vector<uint8_t> bytes;              ///< of the file
+    photometry::LuminancePicture picture{};  ///< its name is that of the rule
+    double white_luminance = 0;              ///< cd/m^2 of the value 1 by the file; 0 if not stated
+    uint64_t changed = 0;                    ///< pixels with a negative component, see make_luminance_picture
 };
 
 /// A rule that makes materials emit.
@@ -58,8 +58,8 @@ struct SurfaceRule {
     std::vector<std::string> materials;  ///< patterns
     double reflectance_scale = 1;
     std::optional<double> roughness, metallic;
-    std::optional<ReflectionTable> reflection_table;
-    std::optional<Retroreflector> retroreflector;
+    std::optional<photometry::ReflectionTable> reflection_table;
+    std::optional<photometry::Retroreflector> retroreflector;
 };
 
 /// A quantity with a colour of luminance 1.
@@ -71,7 +71,7 @@ struct ColouredQuantity {
 /// A picture for a sky.
 struct SkyPicture {
     std::string file;  ///< as the photometry file has it
-    Environment environment{};
+    photometry::Environment environment{};
     uint64_t cleaned = 0;  ///< pixels that were not finite or below 0
 };
 
@@ -108,4 +108,4 @@ bool matches_name(const std::string& pattern, const std::string& name);
 /// without '/' is compared with the node's own name. Returns at once when more names are needed than there are slashes.
 bool matches_path(const std::string& pattern, const std::vector<std::string>& path);
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -8,11 +8,11 @@
 #include "scene/photometry_parts.h"
 #include "scene/uri.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 constexpr uint64_t kMaxPictureBytes = 256u << 20;
-constexpr HdrLimits kLimits{16384, uint64_t{1} << 26};
+constexpr io::HdrLimits kLimits{16384, uint64_t{1} << 26};
 constexpr double kBrightest = 1e10;  // cd/m^2, as luminance_cd_m2
 
 /// The index of the picture a rule wants, read when it is the first to want it.
@@ -22,11 +22,11 @@ uint32_t picture_of(const JsonValue& file, const std::filesystem::path& folder, 
     EmitterPicture read;
     try {
         const std::filesystem::path path = resolve_uri(folder, file.text());
-        read.bytes = read_file(path, kMaxPictureBytes);
-        HdrImage image = decode_hdr_image(read.bytes, path.string(), kLimits);
+        read.bytes = io::read_file(path, kMaxPictureBytes);
+        io::HdrImage image = io::decode_hdr_image(read.bytes, path.string(), kLimits);
         read.white_luminance = image.white_luminance;
         try {
-            read.picture = make_luminance_picture(std::move(image), &read.changed);
+            read.picture = photometry::make_luminance_picture(std::move(image), &read.changed);
         } catch (const Error& error) {
             throw Error(one_line(path.string()) + ": " + error.what());
         }
@@ -46,7 +46,7 @@ void read_picture(const JsonValue& source, const std::filesystem::path& folder, 
     if (scale && luminance) luminance->fail("is given beside scale: one of them is wanted");
     rule.picture = picture_of(source.at("image"), folder, made);
     const EmitterPicture& picture = made.pictures[rule.picture];
-    const double largest = largest_luminance(picture.picture);
+    const double largest = photometry::largest_luminance(picture.picture);
     if (scale) {
         rule.scale = scale->number(0, 1e12);
     } else if (luminance) {
@@ -100,4 +100,4 @@ EmitterRule read_emitter(const JsonValue& source, const std::filesystem::path& f
     return rule;
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

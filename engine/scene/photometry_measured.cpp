@@ -10,7 +10,7 @@
 #include "io/named_file.h"
 #include "photometry/eulumdat.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 /// The index of the distribution a rule wants, read when it is the first to want it.
@@ -25,23 +25,24 @@ uint32_t measured_lamp(const JsonValue& source, const std::filesystem::path& fol
             return static_cast<uint32_t>(i);
     }
     try {
-        const std::filesystem::path path = named_file(folder, wanted.file);
+        const std::filesystem::path path = io::named_file(folder, wanted.file);
         if (wanted.lamp_set > 0 && lower(path.extension().string()) != ".ldt")
             throw Error("lamp_set is for EULUMDAT (.ldt)");
-        wanted.distribution = wanted.lamp_set > 0 ? read_eulumdat(path, wanted.lamp_set) : read_distribution(path);
+        wanted.distribution = wanted.lamp_set > 0 ? photometry::read_eulumdat(path, wanted.lamp_set)
+                                                  : photometry::read_distribution(path);
     } catch (const Error& error) {
         file.fail(error.what());
     }
-    if (wanted.mirror) wanted.distribution = mirrored(wanted.distribution);
+    if (wanted.mirror) wanted.distribution = photometry::mirrored(wanted.distribution);
     made.measured.push_back(std::move(wanted));
     return static_cast<uint32_t>(made.measured.size() - 1);
 }
 
-double factor_of(const JsonValue& source, const Distribution& distribution) {
+double factor_of(const JsonValue& source, const photometry::Distribution& distribution) {
     double factor = source.number_or("flux_scale", 1, 0, 1e6);
     if (const auto flux = source.find("flux_lm")) {
         if (source.find("flux_scale")) flux->fail("is given beside flux_scale: one of them is wanted");
-        const double measured = luminous_flux(distribution);
+        const double measured = photometry::luminous_flux(distribution);
         if (!(measured > 0)) flux->fail("cannot scale a distribution without any flux");
         factor = flux->number(0, 1e9) / measured;
     }
@@ -65,8 +66,8 @@ std::optional<glm::dvec3> direction(const JsonValue& source, const char* key) {
 glm::dvec3 across(glm::dvec3 axis, glm::dvec3 aim) { return axis - aim * glm::dot(axis, aim); }
 
 /// From the luminaire's frame (distribution.h) to the node's.
-glm::dquat pose_of(const JsonValue& source, Goniometry goniometry) {
-    const bool c = goniometry == Goniometry::CGamma;
+glm::dquat pose_of(const JsonValue& source, photometry::Goniometry goniometry) {
+    const bool c = goniometry == photometry::Goniometry::CGamma;
     if (const auto wrong = source.find(c ? "up" : "c0"))
         wrong->fail(c ? "is for distributions of type A and B: this one is of type C and wants c0"
                       : "is for distributions of type C: this one is of type A or B and wants up");
@@ -122,11 +123,11 @@ void read_measured(const JsonValue& source, const std::filesystem::path& folder,
                        "opening"});
     rule.lamp.kind = Lamp::Kind::Measured;
     rule.lamp.distribution = measured_lamp(source, folder, made);
-    const Distribution& distribution = made.measured[rule.lamp.distribution].distribution;
+    const photometry::Distribution& distribution = made.measured[rule.lamp.distribution].distribution;
     rule.lamp.intensity = static_cast<float>(factor_of(source, distribution));
     if (!std::isfinite(rule.lamp.intensity)) source.fail("the factors multiply to a number that is not finite");
     const glm::dquat pose = pose_of(source, distribution.goniometry);
     if (std::abs(pose.w) < 1 - 1e-12) rule.turn = pose;
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -4,7 +4,7 @@
 #include "scene/json_value.h"
 #include "scene/photometry.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 /// Reads what a rule of type "distribution" says of the lamp: its file, flux and pose. Colour is for the caller.
 void read_measured(const JsonValue& source, const std::filesystem::path& folder, Photometry& made, LampRule& rule);
@@ -12,4 +12,4 @@ void read_measured(const JsonValue& source, const std::filesystem::path& folder,
 /// The shortest turn from -Z to an axis.
 glm::dquat turn_to(glm::dvec3 axis);
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -8,7 +8,7 @@
 #include "io/hdr_image.h"
 #include "io/named_file.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 std::vector<double> numbers_of(const JsonValue& list) {
@@ -17,9 +17,9 @@ std::vector<double> numbers_of(const JsonValue& list) {
     return numbers;
 }
 
-Retroreflector checked(const JsonValue& source, Retroreflector made) {
+photometry::Retroreflector checked(const JsonValue& source, photometry::Retroreflector made) {
     try {
-        check_retroreflector(made);
+        photometry::check_retroreflector(made);
     } catch (const Error& error) {
         source.fail(error.what());
     }
@@ -27,7 +27,7 @@ Retroreflector checked(const JsonValue& source, Retroreflector made) {
 }
 
 /// The factor that the sky's values are multiplied by.
-double factor_of(const JsonValue& source, const Environment& e, double white_luminance) {
+double factor_of(const JsonValue& source, const photometry::Environment& e, double white_luminance) {
     const auto scale = source.find("scale"), luminance = source.find("luminance_cd_m2"),
                illuminance = source.find("illuminance_lx");
     if (scale && luminance) luminance->fail("is given beside scale: one of them is wanted");
@@ -36,7 +36,7 @@ double factor_of(const JsonValue& source, const Environment& e, double white_lum
     if (scale) return scale->number(0, 1e12);
     if (!luminance && !illuminance) return white_luminance > 0 ? white_luminance : 1;
     const JsonValue& stated = luminance ? *luminance : *illuminance;
-    const double has = luminance ? sky_luminance(e) : horizontal_illuminance(e);
+    const double has = luminance ? photometry::sky_luminance(e) : photometry::horizontal_illuminance(e);
     if (!(has > 0)) stated.fail("cannot scale a sky that is black above the horizon");
     return stated.number(0, 1e6) / has;
 }
@@ -49,15 +49,15 @@ SkyPicture read_sky_picture(const JsonValue& source, const std::filesystem::path
     SkyPicture sky{.file = file.text()};
     double white = 0;
     try {
-        const HdrImage image = read_hdr_image(named_file(folder, sky.file));
+        const io::HdrImage image = io::read_hdr_image(io::named_file(folder, sky.file));
         white = image.white_luminance;
-        sky.environment = make_environment(image, &sky.cleaned);
+        sky.environment = photometry::make_environment(image, &sky.cleaned);
     } catch (const Error& error) {
         file.fail(error.what());
     }
     try {
         const double factor = factor_of(source, sky.environment, white);
-        sky.environment = scaled(std::move(sky.environment), factor);
+        sky.environment = photometry::scaled(std::move(sky.environment), factor);
     } catch (const Error& error) {
         source.fail(error.what());
     }
@@ -82,25 +82,25 @@ DirectionalRule read_directional(const JsonValue& source) {
     } else {
         const double azimuth = source.at("azimuth_deg").number(-360, 360),
                      elevation = source.at("elevation_deg").number(-90, 90);
-        rule.direction = -direction_of(azimuth * kRadiansPerDegree, elevation * kRadiansPerDegree);
+        rule.direction = -photometry::direction_of(azimuth * kRadiansPerDegree, elevation * kRadiansPerDegree);
     }
     return rule;
 }
 
-Retroreflector read_retroreflection(const JsonValue& source) {
+photometry::Retroreflector read_retroreflection(const JsonValue& source) {
     source.allow_only({"class", "table", "r_l_mcd", "scale"});
     const auto named = source.find("class"), table = source.find("table"), marking = source.find("r_l_mcd");
     if (int(named.has_value()) + int(table.has_value()) + int(marking.has_value()) != 1)
         source.fail("must have one of class, table and r_l_mcd");
-    Retroreflector made;
+    photometry::Retroreflector made;
     if (named) {
         try {
-            made = retroreflective_class(named->text());
+            made = photometry::retroreflective_class(named->text());
         } catch (const Error& error) {
             named->fail(error.what());
         }
     } else if (marking) {
-        made = retroreflective_marking(marking->number(1, 1e4));
+        made = photometry::retroreflective_marking(marking->number(1, 1e4));
         made.name = "R_L " + std::to_string(int(marking->number())) + " mcd/(m^2 lx)";
     } else {
         table->allow_only({"name", "observation_deg", "r_a", "entrance_deg", "entrance_factor"});
@@ -116,10 +116,10 @@ Retroreflector read_retroreflection(const JsonValue& source) {
             factor->fail("has a meaning only beside entrance_deg");
         }
     }
-    return checked(source, rescaled(made, source.number_or("scale", 1, 1e-3, 1e3)));
+    return checked(source, photometry::rescaled(made, source.number_or("scale", 1, 1e-3, 1e3)));
 }
 
-nlohmann::json json_of(const Retroreflector& r) {
+nlohmann::json json_of(const photometry::Retroreflector& r) {
     return {{"name", r.name},
             {"observation_deg", r.observation},
             {"coefficient", r.coefficient},
@@ -128,7 +128,7 @@ nlohmann::json json_of(const Retroreflector& r) {
             {"marking", r.marking}};
 }
 
-Retroreflector read_whole_retroreflector(const JsonValue& source) {
+photometry::Retroreflector read_whole_retroreflector(const JsonValue& source) {
     source.allow_only({"name", "observation_deg", "coefficient", "entrance_deg", "entrance_factor", "marking"});
     return checked(source, {source.text_or("name", ""), numbers_of(source.at("observation_deg")),
                             numbers_of(source.at("coefficient")), numbers_of(source.at("entrance_deg")),
@@ -142,4 +142,4 @@ Photometry with_night_sky(Photometry p) {
     return p;
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

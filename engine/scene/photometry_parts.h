@@ -4,7 +4,7 @@
 #include "scene/json_value.h"
 #include "scene/photometry.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 /// colour_temperature_K or colour_rgb, brought to luminance 1; white where neither is given.
 glm::dvec3 read_colour(const JsonValue& holder, double* kelvin = nullptr);
@@ -20,12 +20,12 @@ SkyPicture read_sky_picture(const JsonValue& source, const std::filesystem::path
 DirectionalRule read_directional(const JsonValue& source);
 
 /// "retroreflection" of a surface; and in full, as a converted file has it.
-Retroreflector read_retroreflection(const JsonValue& source);
-nlohmann::json json_of(const Retroreflector&);
-Retroreflector read_whole_retroreflector(const JsonValue& source);
+photometry::Retroreflector read_retroreflection(const JsonValue& source);
+nlohmann::json json_of(const photometry::Retroreflector&);
+photometry::Retroreflector read_whole_retroreflector(const JsonValue& source);
 
 /// What a photometry file that says nothing of ambient light and sky means: a clear night over a big city, 0.02 cd/m^2
 /// (0.018 to 0.024 measured over London), and 0.1 lx of sky glow and facades (0.1 to 1 lx in towns).
 Photometry with_night_sky(Photometry);
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -6,7 +6,7 @@
 
 #include "scene/scene.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 /// Node frame to that of its parent, at rest.
 glm::dmat4 local_transform(const Node&);
@@ -14,4 +14,4 @@ glm::dmat4 local_transform(const Node&);
 /// world_transforms() with some nodes, and what hangs on them, put somewhere: node frame to world, by node.
 std::vector<glm::dmat4> placed_transforms(const Scene&, double seconds, const std::map<uint32_t, glm::mat4>& places);
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -7,7 +7,7 @@
 #include "base/srgb.h"
 #include "scene/colour.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 std::array<double, 256> linear_codes(const Transfer& transfer) {
     std::array<double, 256> linear{};
@@ -129,4 +129,4 @@ double mean_reflectance(const Scene& scene, const Material& material, const Mate
     return luminance(colour * glm::dvec3(mean_texel(image, scene.transfer, material.base_colour_texture, use.uv)));
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -7,7 +7,7 @@
 
 #include "scene/scene.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 /// The linear value of each 8-bit code: sRGB, or Eq. 1 of Petit, Bremond and Vienne.
 std::array<double, 256> linear_codes(const Transfer& transfer);
@@ -37,4 +37,4 @@ std::vector<MaterialUse> material_uses(const Scene& scene);
 /// texture.
 double mean_reflectance(const Scene& scene, const Material& material, const MaterialUse& use);
 
-}  // namespace vesper
+}  // namespace vesper::scene

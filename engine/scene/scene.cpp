@@ -9,7 +9,7 @@
 
 #include "scene/placement.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 glm::quat rotation_of(glm::vec4 xyzw) {
@@ -114,4 +114,4 @@ double animation_length(const Scene& scene) {
     return length;
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

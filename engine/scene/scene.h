@@ -20,7 +20,7 @@
 #include "photometry/reflection_table.h"
 #include "photometry/retroreflection.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 constexpr uint32_t kNone = ~0u;  ///< "no such element" wherever an index is kept
 
@@ -105,10 +105,10 @@ struct Lamp {
     float inner_cone = 0;       ///< Spot: half angle of full intensity, rad
     float outer_cone = 0.785f;  ///< Spot: half angle of no intensity, rad; squared ramp between, as KHR_lights_punctual
     float exponent = 1;         ///< CosinePower: I(a) = intensity * cos(a)^exponent, 0 behind
-    uint32_t distribution = kNone;  ///< Measured: index into Scene::distributions
-    LuminousOpening opening;  ///< seen directly: at the lamp, facing its axis (Point: facing the eye); m, independent
-                              ///< of the node's scale. Length along its X, width along its Y. Not drawn if the area
-                              ///< is 0
+    uint32_t distribution = kNone;        ///< Measured: index into Scene::distributions
+    photometry::LuminousOpening opening;  ///< seen directly: at the lamp, facing its axis (Point: facing the eye); m,
+                                          ///< independent of the node's scale. Length along its X, width along its Y.
+                                          ///< Not drawn if the area is 0
 };
 
 struct Camera {
@@ -143,24 +143,24 @@ constexpr size_t kMaxRetroreflectors = 8;  ///< limit of the shaders
 struct Scene {
     std::string name;
     std::vector<Image> images;
-    std::vector<LuminancePicture> luminance_pictures;  ///< times Material::emission they are cd/m^2
+    std::vector<photometry::LuminancePicture> luminance_pictures;  ///< times Material::emission they are cd/m^2
     std::vector<Material> materials;
     std::vector<Mesh> meshes;
     std::vector<Lamp> lamps;
-    std::vector<Distribution> distributions;
-    std::vector<ReflectionTable> reflection_tables;  ///< as published
-    bool beyond_tables = true;                       ///< tables are rendered as extended(); false: as published, to
-                                                     ///< compare with a calculation
-    std::vector<Retroreflector> retroreflectors;     ///< at most kMaxRetroreflectors
+    std::vector<photometry::Distribution> distributions;
+    std::vector<photometry::ReflectionTable> reflection_tables;  ///< as published
+    bool beyond_tables = true;  ///< tables are rendered as extended(); false: as published, to
+                                ///< compare with a calculation
+    std::vector<photometry::Retroreflector> retroreflectors;  ///< at most kMaxRetroreflectors
     std::vector<Camera> cameras;
-    std::vector<Node> nodes;                 ///< parents before children
-    std::vector<Channel> channels;           ///< of all animations, played together
-    Transfer transfer;                       ///< of base colour textures
-    float ambient_illuminance = 0;           ///< E on any surface, lx: adds E * reflectance / pi
-    glm::vec3 ambient_colour{1};             ///< linear, luminance 1
-    float sky_luminance = 0;                 ///< of the background, cd/m^2
-    glm::vec3 sky_colour{1};                 ///< linear, luminance 1
-    std::optional<Environment> environment;  ///< a picture of the sky, instead of the two above
+    std::vector<Node> nodes;                             ///< parents before children
+    std::vector<Channel> channels;                       ///< of all animations, played together
+    Transfer transfer;                                   ///< of base colour textures
+    float ambient_illuminance = 0;                       ///< E on any surface, lx: adds E * reflectance / pi
+    glm::vec3 ambient_colour{1};                         ///< linear, luminance 1
+    float sky_luminance = 0;                             ///< of the background, cd/m^2
+    glm::vec3 sky_colour{1};                             ///< linear, luminance 1
+    std::optional<photometry::Environment> environment;  ///< a picture of the sky, instead of the two above
 };
 
 /// Transforms of all nodes at a time: node frame to world, one matrix per node, in double. Channels keep their first
@@ -170,4 +170,4 @@ std::vector<glm::dmat4> world_transforms(const Scene& scene, double seconds);
 /// Duration of the longest channel, s; 0 without animation.
 double animation_length(const Scene& scene);
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -16,7 +16,7 @@
 #include "scene/reflectance.h"
 #include "scene/scene_warnings.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 struct ReportedLamp {
@@ -64,9 +64,9 @@ std::vector<ReportedLamp> reported_lamps(const Scene& scene, const std::vector<g
             LampReport made{.name = lamp.name, .kind = lamp.kind, .candela = static_cast<double>(lamp.intensity)};
             made.colour = lamp.colour;
             if (lamp.kind == Lamp::Kind::Measured) {
-                const Distribution& d = scene.distributions[lamp.distribution];
-                made.lumens = made.candela * luminous_flux(d);
-                made.candela *= largest_intensity(d);
+                const photometry::Distribution& d = scene.distributions[lamp.distribution];
+                made.lumens = made.candela * photometry::luminous_flux(d);
+                made.candela *= photometry::largest_intensity(d);
             } else if (lamp.kind != Lamp::Kind::Directional) {
                 made.lumens = luminous_flux(lamp);
             }
@@ -235,10 +235,10 @@ SceneReport report_scene(const Scene& scene) {
         made.textured = m.base_colour_texture.image != kNone;
         made.emission = luminance(m.emission);
         if (m.emission_picture.image != kNone) {
-            const LuminancePicture& picture = scene.luminance_pictures[m.emission_picture.image];
+            const photometry::LuminancePicture& picture = scene.luminance_pictures[m.emission_picture.image];
             made.picture = picture.name;
-            made.mean_emission = made.emission * luminance(mean_colour(picture));
-            made.emission *= largest_luminance(picture);
+            made.mean_emission = made.emission * luminance(photometry::mean_colour(picture));
+            made.emission *= photometry::largest_luminance(picture);
         } else if (m.emission_texture.image != kNone) {
             made.emission = largest_luminance(m.emission, scene.images[m.emission_texture.image]);
         }
@@ -269,4 +269,4 @@ const char* name_of(Lamp::Kind kind) {
     return "";
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -7,7 +7,7 @@
 
 #include "scene/scene.h"
 
-namespace vesper {
+namespace vesper::scene {
 
 /// Lamps that shine alike and whose names differ by a number at most.
 struct LampReport {
@@ -51,4 +51,4 @@ SceneReport report_scene(const Scene&);
 
 const char* name_of(Lamp::Kind);
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -6,7 +6,7 @@
 
 #include "scene/convert_rules.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 // Bounds are wide: what lies outside is a mistake of units, of scale, or of a decimal point, not a matter of taste.
@@ -103,4 +103,4 @@ void warn_of(const Scene& scene, SceneReport& report) {
     warnings.whole();
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

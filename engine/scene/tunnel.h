@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-namespace vesper {
+namespace vesper::scene {
 
 /// Where light from everywhere comes in at the two ends only.
 struct Tunnel {
@@ -11,4 +11,4 @@ struct Tunnel {
     float width = 0, height = 0;  ///< inside, m
 };
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -10,7 +10,7 @@
 #include "base/one_line.h"
 #include "io/named_file.h"
 
-namespace vesper {
+namespace vesper::scene {
 namespace {
 
 constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -115,7 +115,7 @@ std::filesystem::path resolve_uri(const std::filesystem::path& folder, const std
             throw Error("URI '" + one_line(uri) + "' is an absolute path: only files beside this one are read");
     std::error_code ignored;
     // Exporters that forget to encode write "50%20off.png" for a file of that very name.
-    return named_file(folder, uri != decoded && std::filesystem::exists(folder / uri, ignored) ? uri : decoded);
+    return io::named_file(folder, uri != decoded && std::filesystem::exists(folder / uri, ignored) ? uri : decoded);
 }
 
-}  // namespace vesper
+}  // namespace vesper::scene

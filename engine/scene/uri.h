@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-namespace vesper {
+namespace vesper::scene {
 
 /// Whether the URI holds its bytes itself ("data:...", in small or capital letters).
 bool is_data_uri(std::string_view uri);
@@ -24,4 +24,4 @@ std::string encode_data_uri(std::string_view media_type, std::span<const uint8_t
 /// Throws Error (reason only).
 std::filesystem::path resolve_uri(const std::filesystem::path& folder, const std::string& uri);
 
-}  // namespace vesper
+}  // namespace vesper::scene

@@ -13,6 +13,8 @@
 namespace vesper::traffic {
 namespace {
 
+using scene::JsonValue;
+
 constexpr uint64_t kMostBytes = 64u << 20;
 constexpr double kFar = 1e6;  // m
 // With more, steps would take longer than a drive has patience for.
@@ -121,7 +123,7 @@ void read_driver(const JsonValue& driver, WorldFile& file) {
 }  // namespace
 
 WorldFile read_world(const std::filesystem::path& path) {
-    const JsonFile json = parse_json(read_file(path, kMostBytes), path.string());
+    const scene::JsonFile json = scene::parse_json(io::read_file(path, kMostBytes), path.string());
     const JsonValue root(json);
     root.allow_only({"$schema", "version", "scene", "photometry", "driver", "lanes", "paths", "barriers", "cars",
                      "walkers", "lamps", "lit_by_day", "tunnels"});
@@ -129,7 +131,7 @@ WorldFile read_world(const std::filesystem::path& path) {
     WorldFile file;
     const auto beside = [&](const JsonValue& name) {
         try {
-            return resolve_uri(path.parent_path(), name.text());
+            return scene::resolve_uri(path.parent_path(), name.text());
         } catch (const Error& error) {
             name.fail(error.what());
         }

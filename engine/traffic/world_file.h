@@ -34,7 +34,7 @@ struct WorldFile {
     std::map<std::string, double> turns;  ///< rad about +Y from the front of a node's model to -Z; missing: 0
     LampRoles roles;
     std::vector<std::string> by_day;  ///< names of lamps that are lit by day, too; empty: all
-    std::vector<Tunnel> tunnels;
+    std::vector<scene::Tunnel> tunnels;
 };
 
 /// Reads a world file. Throws Error, naming file, place and reason.

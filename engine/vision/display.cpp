@@ -7,7 +7,7 @@
 #include "base/error.h"
 #include "base/srgb.h"
 
-namespace vesper {
+namespace vesper::vision {
 namespace {
 
 constexpr double kRoot = 2.2;
@@ -42,8 +42,8 @@ void check_display(const Display& d) {
         throw Error("black and reflected light of a display together must be at least 1e-6 cd/m^2");
     if (d.bits != 8 && d.bits != 10) throw Error("a display has 8 or 10 bits a channel");
     if (d.eotf == Eotf::Pq && d.peak > 10000) throw Error("PQ ends at 10,000 cd/m^2");
-    to_rec709(d.primaries);
-    if (!make_white(d.primaries)) throw Error("the white of a display lies inside the triangle of its primaries");
+    io::to_rec709(d.primaries);
+    if (!io::make_white(d.primaries)) throw Error("the white of a display lies inside the triangle of its primaries");
     if (d.eotf != Eotf::Table) return;
     if (d.table.size() < 2 || d.table.size() > 4096) throw Error("the table of a display has 2 to 4096 measurements");
     if (d.table.front().code != 0 || d.table.back().code != 1)
@@ -113,7 +113,7 @@ const std::vector<NamedDisplay>& known_displays() {
          {.peak = 80, .black = 0.2f, .ambient = 64, .eotf = Eotf::Srgb}},
         {"hdr10",
          "1000 cd/m^2, black 0.005, PQ with 10 bits in Rec. 2020, 5 lx",
-         {.peak = 1000, .black = 0.005f, .ambient = 5, .eotf = Eotf::Pq, .bits = 10, .primaries = kRec2020}},
+         {.peak = 1000, .black = 0.005f, .ambient = 5, .eotf = Eotf::Pq, .bits = 10, .primaries = io::kRec2020}},
     };
     return displays;
 }
@@ -124,4 +124,4 @@ std::string known_display_names() {
     return names;
 }
 
-}  // namespace vesper
+}  // namespace vesper::vision

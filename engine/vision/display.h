@@ -9,7 +9,7 @@
 
 #include "io/primaries.h"
 
-namespace vesper {
+namespace vesper::vision {
 
 /// How codes become light (electro-optical transfer function).
 enum class Eotf : uint8_t {
@@ -41,7 +41,7 @@ struct Display {
     float reflection = 0.01f;  ///< diffuse reflectance of the screen
     Eotf eotf = Eotf::Gamma;
     uint32_t bits = 8;  ///< of a channel's code: 8 or 10
-    Primaries primaries = kRec709;
+    io::Primaries primaries = io::kRec709;
     /// Of Eotf::Table: from code 0 (luminance `black`) to code 1 (luminance `peak`); codes and luminances ascend.
     std::vector<DisplaySample> table;
 
@@ -80,4 +80,4 @@ const std::vector<NamedDisplay>& known_displays();
 /// Names of the known displays, separated by commas.
 std::string known_display_names();
 
-}  // namespace vesper
+}  // namespace vesper::vision

@@ -11,7 +11,7 @@
 #include "io/read_file.h"
 #include "photometry/table.h"
 
-namespace vesper {
+namespace vesper::vision {
 namespace {
 
 constexpr uint64_t kMaxBytes = 1u << 20;
@@ -23,24 +23,24 @@ double peak_of(std::span<const DisplayMeasurement> measured) {
     return peak;
 }
 
-std::optional<DisplayMeasurement> read_line(const LineReader& lines, std::string_view line, uint32_t largest,
-                                            bool heading_allowed) {
+std::optional<DisplayMeasurement> read_line(const photometry::LineReader& lines, std::string_view line,
+                                            uint32_t largest, bool heading_allowed) {
     const size_t end = line.find_first_of(",;\t ");
-    if (end == line.npos) lines.fail(quoted(line) + " is not a code and a luminance");
+    if (end == line.npos) lines.fail(photometry::quoted(line) + " is not a code and a luminance");
     std::string_view rest = line.substr(end);
     while (!rest.empty() && std::string_view(",;\t ").find(rest.front()) != rest.npos) rest.remove_prefix(1);
-    const auto code = number_of(line.substr(0, end)), luminance = number_of(rest);
+    const auto code = photometry::number_of(line.substr(0, end)), luminance = photometry::number_of(rest);
     if (!code && !luminance && heading_allowed) return std::nullopt;
     if (!code || *code != std::floor(*code) || *code < 0 || *code > largest)
-        lines.fail(quoted(line.substr(0, end)) + " is not a code from 0 to " + std::to_string(largest));
+        lines.fail(photometry::quoted(line.substr(0, end)) + " is not a code from 0 to " + std::to_string(largest));
     if (!luminance || *luminance < 0 || *luminance > 1e5)
-        lines.fail(quoted(rest) + " is not a luminance from 0 to 1e5 cd/m^2");
+        lines.fail(photometry::quoted(rest) + " is not a luminance from 0 to 1e5 cd/m^2");
     return DisplayMeasurement{uint32_t(*code), *luminance, 0};
 }
 
 /// No display has luminances that fall as codes rise, or two of one code: by more than 10 % and 0.1 % of the peak they
 /// are no noise.
-void check_rise(const LineReader& lines, const std::vector<DisplayMeasurement>& sorted, double peak) {
+void check_rise(const photometry::LineReader& lines, const std::vector<DisplayMeasurement>& sorted, double peak) {
     const auto falls = [peak](double from, double to) { return to < 0.9 * from && to < from - 1e-3 * peak; };
     const DisplayMeasurement* brightest = nullptr;  // of all smaller codes
     for (size_t first = 0, end = 0; first < sorted.size(); first = end) {
@@ -63,7 +63,8 @@ void check_rise(const LineReader& lines, const std::vector<DisplayMeasurement>& 
     }
 }
 
-void check_measurements(const LineReader& lines, const std::vector<DisplayMeasurement>& measured, uint32_t largest) {
+void check_measurements(const photometry::LineReader& lines, const std::vector<DisplayMeasurement>& measured,
+                        uint32_t largest) {
     std::vector<DisplayMeasurement> sorted = measured;
     std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.code < b.code; });
     std::map<uint32_t, int> codes;
@@ -168,13 +169,13 @@ void fit_table(Display& display, std::span<const DisplayMeasurement> measured) {
 }  // namespace
 
 std::vector<DisplayMeasurement> read_display_measurements(const std::filesystem::path& file, uint32_t bits) {
-    const std::vector<uint8_t> bytes = read_file(file, kMaxBytes);
-    LineReader lines(bytes, file.string());
+    const std::vector<uint8_t> bytes = io::read_file(file, kMaxBytes);
+    photometry::LineReader lines(bytes, file.string());
     const uint32_t largest = (1u << bits) - 1;
     std::vector<DisplayMeasurement> measured;
     bool heading_allowed = true;
     while (const auto next = lines.next()) {
-        const std::string_view line = trimmed(next->substr(0, next->find('#')));
+        const std::string_view line = photometry::trimmed(next->substr(0, next->find('#')));
         if (line.empty()) continue;
         if (measured.size() == kMaxMeasurements) lines.fail("is one measurement too many: 100000 are read");
         if (auto m = read_line(lines, line, largest, heading_allowed)) {
@@ -231,4 +232,4 @@ DisplayFit fit_display(std::span<const DisplayMeasurement> measured, uint32_t bi
     return fit_display(measured, bits, Eotf::Table);
 }
 
-}  // namespace vesper
+}  // namespace vesper::vision

@@ -7,7 +7,7 @@
 
 #include "vision/display.h"
 
-namespace vesper {
+namespace vesper::vision {
 
 struct DisplayMeasurement {
     uint32_t code = 0;
@@ -38,4 +38,4 @@ DisplayFit fit_display(std::span<const DisplayMeasurement>, uint32_t bits, Eotf)
 /// The simplest description: gamma, sRGB or PQ if its residuals are at most 1 % rms and 3 % each; else the table.
 DisplayFit fit_display(std::span<const DisplayMeasurement>, uint32_t bits);
 
-}  // namespace vesper
+}  // namespace vesper::vision

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vesper {
+namespace vesper::vision {
 
 Receptors Receptors::cones() {
     return {.weber = -1.255,
@@ -98,4 +98,4 @@ Receptors Observer::observed_rods() const {
     return r;
 }
 
-}  // namespace vesper
+}  // namespace vesper::vision

@@ -8,7 +8,7 @@
 
 #include "vision/thresholds.h"
 
-namespace vesper {
+namespace vesper::vision {
 
 /// Parameters of cones or rods: response R = L / (L + sigma), and the time course of sigma.
 struct Receptors {
@@ -82,4 +82,4 @@ struct Observer {
     Receptors observed_rods() const;
 };
 
-}  // namespace vesper
+}  // namespace vesper::vision

@@ -9,7 +9,7 @@
 
 #include "base/angle.h"
 
-namespace vesper {
+namespace vesper::vision {
 namespace {
 
 using glm::dvec2;
@@ -151,4 +151,4 @@ std::vector<double> far_field(const std::vector<std::complex<double>>& amplitude
     return intensity;
 }
 
-}  // namespace vesper
+}  // namespace vesper::vision

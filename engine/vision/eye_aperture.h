@@ -9,7 +9,7 @@
 
 #include <glm/glm.hpp>
 
-namespace vesper {
+namespace vesper::vision {
 
 /// Diameter of a pupil that is never at rest (hippus), mm: p + u(t) (p_max / p) sqrt(1 - p / p_max), p_max = 9 mm
 /// (Ritschel et al. 2009, with u(t) in place of u(t / p)). u is smooth noise of three octaves from 0.4 Hz, about 0.2
@@ -58,4 +58,4 @@ private:
 /// retina).
 std::vector<double> far_field(const std::vector<std::complex<double>>& amplitude, int side);
 
-}  // namespace vesper
+}  // namespace vesper::vision

@@ -7,7 +7,7 @@
 
 #include "base/angle.h"
 
-namespace vesper {
+namespace vesper::vision {
 namespace {
 
 double square(double x) { return x * x; }
@@ -123,4 +123,4 @@ double EyeScatter::integral(double theta) const {
     return sums_[i] + ring(psf_, angles_[i], theta);
 }
 
-}  // namespace vesper
+}  // namespace vesper::vision

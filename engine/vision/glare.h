@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-namespace vesper {
+namespace vesper::vision {
 
 /// Age and iris of the scattering eye. Pigmentation of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue (CIE
 /// 135/1-6, 1999).
@@ -71,4 +71,4 @@ private:
     double scale_ = 1;
 };
 
-}  // namespace vesper
+}  // namespace vesper::vision

@@ -9,7 +9,7 @@
 #include "base/luminance.h"
 #include "photometry/observer.h"
 
-namespace vesper {
+namespace vesper::vision {
 namespace {
 
 using glm::dvec3, glm::vec3;
@@ -29,9 +29,10 @@ double fade(double theta) { return 1 - glm::smoothstep(kFade, double(GlarePatter
 
 // Spencer's halo in colours: f3 of each wavelength with its part of white light.
 dvec3 coloured_halo(double theta) {
-    static const std::array<dvec3, kWavelengths> white = white_light();
+    static const std::array<dvec3, photometry::kWavelengths> white = photometry::white_light();
     dvec3 sum(0);
-    for (int i = 0; i < kWavelengths; ++i) sum += spencer_halo(theta, wavelength(i)) * white[size_t(i)];
+    for (int i = 0; i < photometry::kWavelengths; ++i)
+        sum += spencer_halo(theta, photometry::wavelength(i)) * white[size_t(i)];
     return sum;
 }
 
@@ -79,11 +80,13 @@ Rows rings_of(const std::vector<double>& intensity, int first, int count) {
 // White light through rings that are those of kWavelength, larger or smaller by the wavelength: along ln theta, a
 // convolution.
 std::vector<vec3> chromatic(const std::vector<double>& intensity) {
-    static const std::array<dvec3, kWavelengths> white = white_light();
-    const auto shift = [](int i) { return std::log(wavelength(i) * 1e-6 / EyeAperture::kWavelength) / kStep; };
-    const int most = int(std::ceil(shift(kWavelengths - 1))), least = int(std::floor(shift(0)));
+    static const std::array<dvec3, photometry::kWavelengths> white = photometry::white_light();
+    const auto shift = [](int i) {
+        return std::log(photometry::wavelength(i) * 1e-6 / EyeAperture::kWavelength) / kStep;
+    };
+    const int most = int(std::ceil(shift(photometry::kWavelengths - 1))), least = int(std::floor(shift(0)));
     std::vector<vec3> kernel(size_t(most - least + 1), vec3(0));
-    for (int i = 0; i < kWavelengths; ++i) {
+    for (int i = 0; i < photometry::kWavelengths; ++i) {
         const double whole = std::floor(shift(i)), part = shift(i) - whole;
         kernel[size_t(int(whole) - least)] += vec3((1 - part) * white[size_t(i)]);
         if (part > 0) kernel[size_t(int(whole) - least + 1)] += vec3(part * white[size_t(i)]);
@@ -193,4 +196,4 @@ GlarePattern spencer_pattern(const EyeScatter& smooth, SpencerState state, uint3
     return pattern;
 }
 
-}  // namespace vesper
+}  // namespace vesper::vision

@@ -7,7 +7,7 @@
 #include "vision/eye_aperture.h"
 #include "vision/glare.h"
 
-namespace vesper {
+namespace vesper::vision {
 
 /// Light in the direction (theta, azimuth) from a lamp: smooth(theta) + ring(theta) + needles(theta) modulation(theta,
 /// azimuth), at least a tenth of the smooth veil. Rows are rings, evenly spaced in the logarithm of their radius.
@@ -40,4 +40,4 @@ double spencer_veil(double theta, SpencerState);
 /// 0.033 of a scotopic eye (4.9 mm); his mesopic eye has 0.016.
 double halo_share(double diameter);
 
-}  // namespace vesper
+}  // namespace vesper::vision

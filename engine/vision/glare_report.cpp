@@ -10,7 +10,7 @@
 #include "base/luminance.h"
 #include "vision/visibility.h"
 
-namespace vesper {
+namespace vesper::vision {
 namespace {
 
 using glm::dvec2, glm::dvec3;
@@ -135,4 +135,4 @@ GlareReport report_glare(const ImageAngles& image, std::span<const float> rgba, 
     return report;
 }
 
-}  // namespace vesper
+}  // namespace vesper::vision

@@ -6,7 +6,7 @@
 
 #include "vision/scatter_fit.h"
 
-namespace vesper {
+namespace vesper::vision {
 
 /// Light at the eye from one direction (view frame: x right, y up, along -z).
 struct DazzlingLight {
@@ -51,4 +51,4 @@ struct GlareReport {
 GlareReport report_glare(const ImageAngles&, std::span<const float> rgba, std::span<const DazzlingLight> outside,
                          const GlareQuestion&);
 
-}  // namespace vesper
+}  // namespace vesper::vision

@@ -3,7 +3,7 @@
 
 #include <glm/glm.hpp>
 
-namespace vesper {
+namespace vesper::vision {
 
 /// A picture on the plane one unit before the eye.
 struct ImageAngles {
@@ -23,4 +23,4 @@ struct ImageAngles {
     bool operator==(const ImageAngles&) const = default;
 };
 
-}  // namespace vesper
+}  // namespace vesper::vision

@@ -9,7 +9,7 @@
 
 #include "base/angle.h"
 
-namespace vesper {
+namespace vesper::vision {
 namespace {
 
 using glm::dvec2, glm::dvec3, glm::ivec2, glm::vec3, glm::vec4;
@@ -360,4 +360,4 @@ uint64_t LightElsewhere::bytes() const {
     return sum;
 }
 
-}  // namespace vesper
+}  // namespace vesper::vision

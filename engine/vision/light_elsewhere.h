@@ -8,7 +8,7 @@
 
 #include "vision/light_sums.h"
 
-namespace vesper {
+namespace vesper::vision {
 
 /// One of several pictures of one eye.
 struct EyePicture {
@@ -99,4 +99,4 @@ private:
     std::vector<Giver> givers_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::vision

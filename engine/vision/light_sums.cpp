@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace vesper {
+namespace vesper::vision {
 
 using glm::ivec2, glm::vec4;
 
@@ -70,4 +70,4 @@ void LightSums::take(std::span<const float> rgba) {
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::vision

@@ -6,7 +6,7 @@
 
 #include "vision/scatter_fit.h"
 
-namespace vesper {
+namespace vesper::vision {
 
 /// Nodes of the sums. Nodes of level 0 are the pixels of a picture; nodes of level k are every 2^k-th pixel along both
 /// axes (the last may lie beyond the picture). Each node sums the light under a tent, 1 at the node and 0 at its
@@ -46,4 +46,4 @@ private:
     std::span<const float> rgba_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::vision

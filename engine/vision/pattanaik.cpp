@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vesper::pattanaik {
+namespace vesper::vision::pattanaik {
 namespace {
 
 constexpr double kWhite = 5, kBlack = 5.0 / 32;  // reference luminances over the adaptation luminance
@@ -76,4 +76,4 @@ Shown Appearance::operator()(double luminance, double scotopic) const {
             from_cones + from_rods > 0 ? from_cones / (from_cones + from_rods) : 1};
 }
 
-}  // namespace vesper::pattanaik
+}  // namespace vesper::vision::pattanaik

@@ -1,7 +1,7 @@
 // Visual adaptation after Pattanaik, Tumblin, Yee and Greenberg 2000, on Hunt's model. SPDX-License-Identifier: MIT
 #pragma once
 
-namespace vesper::pattanaik {
+namespace vesper::vision::pattanaik {
 
 /// Pattanaik adaptation state. Luminances in cd/m^2; pigment is the unbleached part.
 struct State {
@@ -47,4 +47,4 @@ private:
     double scale_ = 1, offset_ = 0;
 };
 
-}  // namespace vesper::pattanaik
+}  // namespace vesper::vision::pattanaik

@@ -8,7 +8,7 @@
 
 #include "base/luminance.h"
 
-namespace vesper {
+namespace vesper::vision {
 namespace {
 
 constexpr double kHighlights = 0.99, kSuns = 0.999;  // parts of the pixels with light that are darker
@@ -69,4 +69,4 @@ double plausible_scale(const RelativeLuminance& picture) {
     return std::round(scale * digits) / digits;
 }
 
-}  // namespace vesper
+}  // namespace vesper::vision

@@ -3,7 +3,7 @@
 
 #include <span>
 
-namespace vesper {
+namespace vesper::vision {
 
 /// Luminance of a picture, in its own unit.
 struct RelativeLuminance {
@@ -24,4 +24,4 @@ double plausible_luminance(const RelativeLuminance&);
 /// light.
 double plausible_scale(const RelativeLuminance&);
 
-}  // namespace vesper
+}  // namespace vesper::vision

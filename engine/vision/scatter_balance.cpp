@@ -6,7 +6,7 @@
 
 #include "vision/scatter_cascade.h"
 
-namespace vesper {
+namespace vesper::vision {
 namespace {
 
 using glm::dvec2, glm::ivec2;
@@ -213,4 +213,4 @@ void conserve_light(const EyeScatter& psf, ScatterFit& fit) {
         }
 }
 
-}  // namespace vesper
+}  // namespace vesper::vision

@@ -5,7 +5,7 @@
 
 #include "vision/scatter_fit.h"
 
-namespace vesper {
+namespace vesper::vision {
 
 /// Weights of the texels of a level, from the one at `first` on.
 struct CascadeTaps {
@@ -36,4 +36,4 @@ inline std::vector<CascadeTaps> cascade(int pixel, int levels, double gain) {
 inline std::vector<CascadeTaps> given(int pixel, int levels) { return cascade(pixel, levels, 1.0 / 32); }
 inline std::vector<CascadeTaps> taken(int pixel, int levels) { return cascade(pixel, levels, 1.0 / 16); }
 
-}  // namespace vesper
+}  // namespace vesper::vision

@@ -9,7 +9,7 @@
 #include "vision/scatter_balance.h"
 #include "vision/scatter_cascade.h"
 
-namespace vesper {
+namespace vesper::vision {
 namespace {
 
 using glm::bvec2, glm::dvec2, glm::dvec3, glm::ivec2;
@@ -381,4 +381,4 @@ ScatterFit fit_scatter(const EyeScatter& psf, const ImageAngles& image, ivec2 st
     return fit;
 }
 
-}  // namespace vesper
+}  // namespace vesper::vision

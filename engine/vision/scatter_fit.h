@@ -11,7 +11,7 @@
 #include "vision/glare.h"
 #include "vision/image_angles.h"
 
-namespace vesper {
+namespace vesper::vision {
 
 /// Solid angle of the plane at a point over its area, sr: cos^3 of the angle to its middle.
 double steradians_per_area(glm::dvec2 tangents);
@@ -107,4 +107,4 @@ struct ScatterFit {
 /// Fits the kernels by least squares of relative differences to the exact function, with conservation of light.
 ScatterFit fit_scatter(const EyeScatter&, const ImageAngles&, glm::ivec2 strip);
 
-}  // namespace vesper
+}  // namespace vesper::vision

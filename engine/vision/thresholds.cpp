@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vesper {
+namespace vesper::vision {
 namespace {
 
 double power_of_ten(double exponent) { return std::pow(10.0, exponent); }
@@ -65,4 +65,4 @@ double age_factor(double years) {
     return std::max(1.0, over * over / 2160 + 0.99);
 }
 
-}  // namespace vesper
+}  // namespace vesper::vision

@@ -2,7 +2,7 @@
 // Pure functions in double, without a device. Luminance L in cd/m^2; l stands for log10 L.
 #pragma once
 
-namespace vesper {
+namespace vesper::vision {
 
 /// Break points of the threshold curves. The published ones leave steps of 0.003 (cones) and 0.012 (rods) log units;
 /// the continuous ones do not.
@@ -44,4 +44,4 @@ double acuity(double luminance);
 /// Factor of age on thresholds (Adrian 1989): 1 up to 23 years, 1.93 at 64, 4.3 at 75 and more.
 double age_factor(double years);
 
-}  // namespace vesper
+}  // namespace vesper::vision

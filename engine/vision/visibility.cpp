@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vesper {
+namespace vesper::vision {
 namespace {
 
 // Flux and luminance functions: their square roots, cd/m^2 (square root) per arc minute and without.
@@ -65,4 +65,4 @@ double visibility_level(double target_luminance, double background, Target targe
     return difference / target_threshold(background, target);
 }
 
-}  // namespace vesper
+}  // namespace vesper::vision

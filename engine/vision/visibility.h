@@ -1,7 +1,7 @@
 // Visibility of small targets (Adrian 1989). SPDX-License-Identifier: MIT
 #pragma once
 
-namespace vesper {
+namespace vesper::vision {
 
 /// A uniform target on a uniform background, with observer and time of observation.
 struct Target {
@@ -20,4 +20,4 @@ double target_threshold(double background, const Target& target = {});
 /// ignored.
 double visibility_level(double target_luminance, double background, Target target = {});
 
-}  // namespace vesper
+}  // namespace vesper::vision

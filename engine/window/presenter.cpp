@@ -10,7 +10,7 @@
 #include "shaders/window/present.vert.inc"
 #include "shared/present.h"
 
-namespace vesper {
+namespace vesper::window {
 namespace {
 
 constexpr VkFormat kCoverageFormat = VK_FORMAT_R8_UNORM;
@@ -18,7 +18,7 @@ constexpr VkShaderStageFlags kPushStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADE
 
 constexpr VkDescriptorType kTexels[]{VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER},
     kLetters[]{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
-constexpr GraphicsShaders kPicture{
+constexpr gpu::GraphicsShaders kPicture{
     "present.frag", present_vert, present_frag, kTexels, sizeof(shared::PresentPush), VK_SHADER_STAGE_FRAGMENT_BIT};
 
 constexpr VkVertexInputBindingDescription kVertices[]{{0, sizeof(Overlay::Vertex), VK_VERTEX_INPUT_RATE_VERTEX}};
@@ -26,12 +26,14 @@ constexpr VkVertexInputAttributeDescription kAttributes[]{
     {0, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(Overlay::Vertex, position)},
     {1, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(Overlay::Vertex, uv)},
     {2, 0, VK_FORMAT_R8G8B8A8_UNORM, offsetof(Overlay::Vertex, colour)}};
-constexpr GraphicsShaders kOverlay{"overlay.frag", overlay_vert, overlay_frag, kLetters, sizeof(shared::OverlayPush),
-                                   kPushStages,    kVertices,    kAttributes};
+constexpr gpu::GraphicsShaders kOverlay{
+    "overlay.frag", overlay_vert, overlay_frag, kLetters, sizeof(shared::OverlayPush),
+    kPushStages,    kVertices,    kAttributes};
 
 /// Room for so many bytes, kept where there is enough.
-void reserve(const Device& device, HostBuffer& buffer, uint64_t bytes, VkBufferUsageFlags usage) {
-    if (buffer.bytes() < bytes) buffer = HostBuffer(device, bytes * 3 / 2, usage, HostBuffer::Direction::ToDevice);
+void reserve(const gpu::Device& device, gpu::HostBuffer& buffer, uint64_t bytes, VkBufferUsageFlags usage) {
+    if (buffer.bytes() < bytes)
+        buffer = gpu::HostBuffer(device, bytes * 3 / 2, usage, gpu::HostBuffer::Direction::ToDevice);
 }
 
 }  // namespace
@@ -55,7 +57,7 @@ Placement place(VkExtent2D picture, VkExtent2D window, Scaling scaling) {
             whole ? times : 0};
 }
 
-Presenter::Presenter(Device& device, VkExtent2D coverage_extent, std::span<const uint8_t> coverage)
+Presenter::Presenter(gpu::Device& device, VkExtent2D coverage_extent, std::span<const uint8_t> coverage)
     : device_(device), pipelines_(device), arena_(device) {
     upload_coverage(coverage_extent, coverage);
     const VkSamplerCreateInfo sampler{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
@@ -64,7 +66,7 @@ Presenter::Presenter(Device& device, VkExtent2D coverage_extent, std::span<const
                                       .addressModeU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                       .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE};
     VkSampler raw = VK_NULL_HANDLE;
-    check(vkCreateSampler(device.handle(), &sampler, nullptr, &raw), "making a sampler");
+    gpu::check(vkCreateSampler(device.handle(), &sampler, nullptr, &raw), "making a sampler");
     sampler_ = {device.handle(), raw};
 }
 
@@ -73,18 +75,18 @@ Presenter::~Presenter() { vkQueueWaitIdle(device_.queue()); }
 void Presenter::upload_coverage(VkExtent2D extent, std::span<const uint8_t> coverage) {
     if (coverage.size() != size_t(extent.width) * extent.height)
         throw Error("letters of an overlay: not a byte a texel");
-    coverage_ = make_image(
-        device_, image_info(kCoverageFormat, extent, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
+    coverage_ = gpu::make_image(device_, gpu::image_info(kCoverageFormat, extent, 1,
+                                                         VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
     arena_.bind(coverage_.get());
-    coverage_view_ = make_view(device_, coverage_.get(), kCoverageFormat);
-    const HostBuffer staging(device_, coverage.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                             HostBuffer::Direction::ToDevice);
+    coverage_view_ = gpu::make_view(device_, coverage_.get(), kCoverageFormat);
+    const gpu::HostBuffer staging(device_, coverage.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                  gpu::HostBuffer::Direction::ToDevice);
     std::memcpy(staging.data(), coverage.data(), coverage.size());
     staging.flush();
     device_.run_once([&](VkCommandBuffer commands) {
         const VkBufferImageCopy copy{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                      .imageExtent = {extent.width, extent.height, 1}};
-        record_upload(commands, staging.buffer(), coverage_.get(), 1, {&copy, 1});
+        gpu::record_upload(commands, staging.buffer(), coverage_.get(), 1, {&copy, 1});
     });
 }
 
@@ -119,14 +121,14 @@ void Presenter::draw_picture(VkCommandBuffer commands, const WindowImage& image,
                     std::to_string(picture.extent.height) + " is too large to be shown by " + device_.name());
     if (slot.words.bytes() != pixels * 4) {
         slot.texels = {};
-        slot.words =
-            HostBuffer(device_, pixels * 4, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT, HostBuffer::Direction::ToDevice);
+        slot.words = gpu::HostBuffer(device_, pixels * 4, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                                     gpu::HostBuffer::Direction::ToDevice);
         const VkBufferViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
                                           .buffer = slot.words.buffer(),
                                           .format = VK_FORMAT_R32_UINT,
                                           .range = VK_WHOLE_SIZE};
         VkBufferView view = VK_NULL_HANDLE;
-        check(vkCreateBufferView(device_.handle(), &info, nullptr, &view), "viewing a picture");
+        gpu::check(vkCreateBufferView(device_.handle(), &info, nullptr, &view), "viewing a picture");
         slot.texels = {device_.handle(), view};
     }
     std::memcpy(slot.words.data(), picture.codes.data(), picture.codes.size());
@@ -150,7 +152,7 @@ void Presenter::draw_picture(VkCommandBuffer commands, const WindowImage& image,
                                      .descriptorCount = 1,
                                      .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
                                      .pTexelBufferView = &view};
-    const GraphicsPipeline& pipeline = pipelines_.get(kPicture, {.targets = {{image.format}}});
+    const gpu::GraphicsPipeline& pipeline = pipelines_.get(kPicture, {.targets = {{image.format}}});
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.pipeline());
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &at.area);
@@ -179,7 +181,7 @@ void Presenter::draw_overlay(VkCommandBuffer commands, const WindowImage& image,
                                      .pImageInfo = &letters};
     const VkBuffer buffer = slot.vertices.buffer();
     const VkDeviceSize offset = 0;
-    const GraphicsPipeline& pipeline = pipelines_.get(kOverlay, {.targets = {{image.format, true, true}}});
+    const gpu::GraphicsPipeline& pipeline = pipelines_.get(kOverlay, {.targets = {{image.format, true, true}}});
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.pipeline());
     vkCmdSetViewport(commands, 0, 1, &viewport);
     device_.push_descriptors(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout(), 0, 1, &write);
@@ -199,4 +201,4 @@ void Presenter::draw_overlay(VkCommandBuffer commands, const WindowImage& image,
     }
 }
 
-}  // namespace vesper
+}  // namespace vesper::window

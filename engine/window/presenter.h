@@ -11,7 +11,7 @@
 #include "gpu/memory.h"
 #include "window/swapchain.h"
 
-namespace vesper {
+namespace vesper::window {
 
 /// Display codes on the host, 4 bytes a pixel from the top left: RGBA, or words of A2B10G10R10.
 struct Picture {
@@ -53,7 +53,7 @@ struct Overlay {
 class Presenter {
 public:
     /// `coverage` is what overlays take their letters from: a byte a texel.
-    Presenter(Device&, VkExtent2D coverage_extent, std::span<const uint8_t> coverage);
+    Presenter(gpu::Device&, VkExtent2D coverage_extent, std::span<const uint8_t> coverage);
     ~Presenter();  ///< waits for what was drawn
     Presenter(const Presenter&) = delete;
     Presenter& operator=(const Presenter&) = delete;
@@ -66,20 +66,20 @@ public:
 
 private:
     struct Slot {
-        HostBuffer words, vertices, indices;
-        OwnedBufferView texels;
+        gpu::HostBuffer words, vertices, indices;
+        gpu::OwnedBufferView texels;
     };
     void upload_coverage(VkExtent2D, std::span<const uint8_t>);
     void draw_picture(VkCommandBuffer, const WindowImage&, const Picture&, Scaling, Slot&);
     void draw_overlay(VkCommandBuffer, const WindowImage&, const Overlay&, Slot&);
 
-    Device& device_;
-    GraphicsPipelineCache pipelines_;
-    Arena arena_;
-    OwnedImage coverage_;
-    OwnedImageView coverage_view_;
-    OwnedSampler sampler_;
+    gpu::Device& device_;
+    gpu::GraphicsPipelineCache pipelines_;
+    gpu::Arena arena_;
+    gpu::OwnedImage coverage_;
+    gpu::OwnedImageView coverage_view_;
+    gpu::OwnedSampler sampler_;
     std::array<Slot, Swapchain::kSlots> slots_;
 };
 
-}  // namespace vesper
+}  // namespace vesper::window

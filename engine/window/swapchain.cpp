@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <optional>
 
-namespace vesper {
+namespace vesper::window {
 namespace {
+
+using gpu::check;
 
 /// How long a hidden window is waited for, ns, before the program looks after its other work.
 constexpr uint64_t kPatience = 200'000'000;
@@ -35,7 +37,7 @@ const char* name_of(WindowCodes codes) {
     return codes == WindowCodes::Sdr8 ? "8 bits" : codes == WindowCodes::Sdr10 ? "10 bits" : "HDR10";
 }
 
-Owned<VkSemaphore, vkDestroySemaphore> make_semaphore(VkDevice device) {
+gpu::Owned<VkSemaphore, vkDestroySemaphore> make_semaphore(VkDevice device) {
     const VkSemaphoreCreateInfo info{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
     VkSemaphore semaphore = VK_NULL_HANDLE;
     check(vkCreateSemaphore(device, &info, nullptr, &semaphore), "making a semaphore");
@@ -45,18 +47,18 @@ Owned<VkSemaphore, vkDestroySemaphore> make_semaphore(VkDevice device) {
 void change_layout(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to, VkAccessFlags2 before,
                    VkAccessFlags2 after) {
     constexpr VkPipelineStageFlags2 drawing = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
-    const VkImageMemoryBarrier2 barrier = image_barrier(image, {drawing, before}, {drawing, after}, from, to);
-    pipeline_barrier(commands, {&barrier, 1});
+    const VkImageMemoryBarrier2 barrier = gpu::image_barrier(image, {drawing, before}, {drawing, after}, from, to);
+    gpu::pipeline_barrier(commands, {&barrier, 1});
 }
 
 }  // namespace
 
-Swapchain::Swapchain(Device& device, MakeSurface make_surface)
+Swapchain::Swapchain(gpu::Device& device, MakeSurface make_surface)
     : device_(device), make_surface_(std::move(make_surface)) {
     open_surface();
     for (Slot& slot : slots_) {
-        slot.commands = CommandBuffer(device_);
-        slot.done = make_fence(device_, VK_FENCE_CREATE_SIGNALED_BIT);
+        slot.commands = gpu::CommandBuffer(device_);
+        slot.done = gpu::make_fence(device_, VK_FENCE_CREATE_SIGNALED_BIT);
         slot.acquired = make_semaphore(device_.handle());
     }
 }
@@ -254,4 +256,4 @@ std::string Swapchain::describe() const {
            ", " + mode;
 }
 
-}  // namespace vesper
+}  // namespace vesper::window

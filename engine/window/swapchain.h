@@ -8,7 +8,7 @@
 
 #include "gpu/commands.h"
 
-namespace vesper {
+namespace vesper::window {
 
 /// When a finished picture replaces the one that is shown.
 enum class Vsync : uint8_t {
@@ -48,7 +48,7 @@ public:
     using Draw = std::function<void(VkCommandBuffer, const WindowImage&)>;
 
     /// The device was opened with a presentation. `make_surface` throws Error if it cannot.
-    Swapchain(Device&, MakeSurface make_surface);
+    Swapchain(gpu::Device&, MakeSurface make_surface);
     ~Swapchain();
     Swapchain(const Swapchain&) = delete;
     Swapchain& operator=(const Swapchain&) = delete;
@@ -65,14 +65,14 @@ public:
 
 private:
     struct Slot {
-        CommandBuffer commands;
-        OwnedFence done;
-        Owned<VkSemaphore, vkDestroySemaphore> acquired;
+        gpu::CommandBuffer commands;
+        gpu::OwnedFence done;
+        gpu::Owned<VkSemaphore, vkDestroySemaphore> acquired;
     };
     struct Image {
         VkImage image;
-        Owned<VkImageView, vkDestroyImageView> view;
-        Owned<VkSemaphore, vkDestroySemaphore> drawn;
+        gpu::Owned<VkImageView, vkDestroyImageView> view;
+        gpu::Owned<VkSemaphore, vkDestroySemaphore> drawn;
     };
 
     void open_surface();
@@ -82,12 +82,12 @@ private:
     void record(const Slot&, const Image&, const Draw&, uint32_t slot) const;
     VkResult present(const Slot&, uint32_t image);
 
-    Device& device_;
+    gpu::Device& device_;
     MakeSurface make_surface_;
     VkSurfaceKHR surface_ = VK_NULL_HANDLE;
     std::vector<VkSurfaceFormatKHR> formats_;
     std::vector<VkPresentModeKHR> modes_;
-    Owned<VkSwapchainKHR, vkDestroySwapchainKHR> swapchain_;
+    gpu::Owned<VkSwapchainKHR, vkDestroySwapchainKHR> swapchain_;
     std::vector<Image> images_;
     std::array<Slot, kSlots> slots_;
     uint32_t next_slot_ = 0;
@@ -98,4 +98,4 @@ private:
     bool stale_ = true;
 };
 
-}  // namespace vesper
+}  // namespace vesper::window

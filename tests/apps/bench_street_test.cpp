@@ -15,27 +15,29 @@
 #include "street.h"
 #include "support/pass_rig.h"
 
-namespace vesper {
+namespace vesper::test {
 namespace {
 
-uint64_t triangles_of(const Scene& scene) {
+using bench::lamp_street;
+
+uint64_t triangles_of(const scene::Scene& scene) {
     uint64_t total = 0;
-    for (const Node& node : scene.nodes)
-        if (node.mesh != kNone)
-            for (const Primitive& p : scene.meshes[node.mesh].primitives) total += p.indices.size() / 3;
+    for (const scene::Node& node : scene.nodes)
+        if (node.mesh != scene::kNone)
+            for (const scene::Primitive& p : scene.meshes[node.mesh].primitives) total += p.indices.size() / 3;
     return total;
 }
 
-uint32_t lamps_of(const Scene& scene) {
+uint32_t lamps_of(const scene::Scene& scene) {
     uint32_t total = 0;
-    for (const Node& node : scene.nodes) total += node.lamp != kNone;
+    for (const scene::Node& node : scene.nodes) total += node.lamp != scene::kNone;
     return total;
 }
 
 TEST(BenchStreet, HasAsManyLampsAndTrianglesAsAskedFor) {
     for (const uint32_t lamps : {1u, 2u, 65u, 256u, 4096u})
         for (const uint64_t triangles : {0ull, 1000ull, 100000ull, 1000000ull}) {
-            const Scene scene = lamp_street(lamps, triangles);
+            const scene::Scene scene = lamp_street(lamps, triangles);
             EXPECT_EQ(lamps_of(scene), lamps);
             EXPECT_GE(triangles_of(scene), triangles);
             // A patch has at most one row of cells more than it needs.
@@ -49,12 +51,12 @@ TEST(BenchStreet, HasAsManyLampsAndTrianglesAsAskedFor) {
 // Each patch is as large as the street's wall or road, whatever it is cut into, and its front is where its normals
 // point.
 TEST(BenchStreet, PatchesCoverTheStreetAndFaceIt) {
-    const Scene scene = lamp_street(10, 12345);
+    const scene::Scene scene = lamp_street(10, 12345);
     ASSERT_EQ(scene.meshes.size(), 3u);
     const double areas[]{14 * 12, 15 * 12, 15 * 12};  // m^2
     const glm::vec3 normals[]{{0, 1, 0}, {1, 0, 0}, {-1, 0, 0}};
     for (size_t i = 0; i < 3; ++i) {
-        const Primitive& p = scene.meshes[i].primitives[0];
+        const scene::Primitive& p = scene.meshes[i].primitives[0];
         double area = 0;
         for (size_t t = 0; t < p.indices.size(); t += 3) {
             const glm::vec3 a = p.vertices[p.indices[t]].position, b = p.vertices[p.indices[t + 1]].position,
@@ -64,16 +66,16 @@ TEST(BenchStreet, PatchesCoverTheStreetAndFaceIt) {
             area += 0.5 * double(glm::length(twice));
         }
         EXPECT_NEAR(area / areas[i], 1, 1e-5) << i;
-        for (const Vertex& v : p.vertices) EXPECT_NEAR(glm::distance(v.normal, normals[i]), 0, 1e-6);
+        for (const scene::Vertex& v : p.vertices) EXPECT_NEAR(glm::distance(v.normal, normals[i]), 0, 1e-6);
     }
 }
 
 TEST(BenchStreet, LampsStandAlongItAndShineDown) {
-    const Scene scene = lamp_street(64, 0);
-    const auto world = world_transforms(scene, 0);
+    const scene::Scene scene = lamp_street(64, 0);
+    const auto world = scene::world_transforms(scene, 0);
     float first = -1, last = 0;
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
-        if (scene.nodes[i].lamp == kNone) continue;
+        if (scene.nodes[i].lamp == scene::kNone) continue;
         const glm::vec3 at(world[i][3]), axis = glm::vec3(world[i] * glm::vec4(0, 0, -1, 0));
         EXPECT_NEAR(glm::distance(axis, glm::vec3(0, -1, 0)), 0, 1e-6);
         EXPECT_EQ(at.y, 6.5f);
@@ -83,19 +85,19 @@ TEST(BenchStreet, LampsStandAlongItAndShineDown) {
     EXPECT_EQ(first, 0);
     EXPECT_EQ(last, -31 * 12);
     // The eye drives 10 s at 50 km/h.
-    EXPECT_EQ(animation_length(scene), 10);
-    EXPECT_NEAR(world_transforms(scene, 10).back()[3].z, -500 / 3.6, 1e-3);
+    EXPECT_EQ(scene::animation_length(scene), 10);
+    EXPECT_NEAR(scene::world_transforms(scene, 10).back()[3].z, -500 / 3.6, 1e-3);
 }
 
 // Whatever they are, they send as much light down as a point of 1,500 cd.
 TEST(BenchStreet, LampsCanBeOfAnotherKind) {
-    const Scene measured = lamp_street(64, 0, VESPER_SOURCE_DIR "/data/photometry/street-lamp.ies"),
-                points = lamp_street(64, 0, "point"), dark = lamp_street(64, 0, "none");
+    const scene::Scene measured = lamp_street(64, 0, VESPER_SOURCE_DIR "/data/photometry/street-lamp.ies"),
+                       points = lamp_street(64, 0, "point"), dark = lamp_street(64, 0, "none");
     ASSERT_EQ(measured.distributions.size(), 1u);
-    EXPECT_EQ(measured.lamps.at(0).kind, Lamp::Kind::Measured);
-    EXPECT_NEAR(double(measured.lamps[0].intensity) * luminous_flux(measured.distributions[0]),
+    EXPECT_EQ(measured.lamps.at(0).kind, scene::Lamp::Kind::Measured);
+    EXPECT_NEAR(double(measured.lamps[0].intensity) * photometry::luminous_flux(measured.distributions[0]),
                 2 * std::numbers::pi * 1500, 0.01);
-    EXPECT_EQ(points.lamps.at(0).kind, Lamp::Kind::Point);
+    EXPECT_EQ(points.lamps.at(0).kind, scene::Lamp::Kind::Point);
     EXPECT_EQ(points.lamps[0].intensity, 1500);
     EXPECT_EQ(lamps_of(measured), 64u);
     EXPECT_EQ(lamps_of(points), 64u);
@@ -105,24 +107,24 @@ TEST(BenchStreet, LampsCanBeOfAnotherKind) {
 }
 
 TEST(BenchScenes, TheNearestLampsStay) {
-    Scene scene = lamp_street(64, 0);
-    keep_nearest_lamps(scene, {0, 6.5f, -120}, 6);
-    const auto world = world_transforms(scene, 0);
+    scene::Scene scene = lamp_street(64, 0);
+    bench::keep_nearest_lamps(scene, {0, 6.5f, -120}, 6);
+    const auto world = scene::world_transforms(scene, 0);
     EXPECT_EQ(lamps_of(scene), 6u);
     for (size_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].lamp != kNone) {
+        if (scene.nodes[i].lamp != scene::kNone) {
             EXPECT_LE(std::abs(world[i][3].z + 120), 12);
         }
-    EXPECT_THROW(keep_nearest_lamps(scene, {}, 7), Error);
+    EXPECT_THROW(bench::keep_nearest_lamps(scene, {}, 7), Error);
 }
 
 // Where one channel's image ends the next begins: the direction of the right edge of one is that of the left edge of
 // the other.
 TEST(BenchChannels, StandSideBySide) {
-    const View camera = View::symmetric({1600, 1000}, 0.6f, glm::mat4(1));
-    ASSERT_EQ(channel_views(camera, 1).at(0).world_to_view, camera.world_to_view);
-    const std::vector<View> views = channel_views(camera, 3);
-    const auto edge = [](const View& view, float tangent) {
+    const gpu_scene::View camera = gpu_scene::View::symmetric({1600, 1000}, 0.6f, glm::mat4(1));
+    ASSERT_EQ(bench::channel_views(camera, 1).at(0).world_to_view, camera.world_to_view);
+    const std::vector<gpu_scene::View> views = bench::channel_views(camera, 3);
+    const auto edge = [](const gpu_scene::View& view, float tangent) {
         return glm::normalize(glm::vec3(glm::inverse(view.world_to_view) * glm::vec4(tangent, 0, -1, 0)));
     };
     EXPECT_NEAR(glm::distance(edge(views[0], camera.tangent_high.x), edge(views[1], camera.tangent_low.x)), 0, 1e-6);
@@ -133,51 +135,52 @@ TEST(BenchChannels, StandSideBySide) {
 
 TEST(BenchMachine, CopiesInOrder) {
     PassRig rig;
-    EXPECT_GT(device_copy_bandwidth(rig.device(), 1 << 16), 0);
-    EXPECT_GT(host_copy_bandwidth(1 << 16), 0);
+    EXPECT_GT(bench::device_copy_bandwidth(rig.device(), 1 << 16), 0);
+    EXPECT_GT(bench::host_copy_bandwidth(1 << 16), 0);
     EXPECT_EQ(rig.complaints(), "") << "validation";
 }
 
 TEST(BenchMachine, ThePeakOfMemoryIsForgotten) {
     if (access("/proc/self/clear_refs", W_OK) != 0) GTEST_SKIP() << "this system does not forget";
-    forget_peak_host_bytes();
-    const uint64_t before = peak_host_bytes();
+    bench::forget_peak_host_bytes();
+    const uint64_t before = bench::peak_host_bytes();
     {
         const std::vector<char> large(200 << 20, 'x');
         asm volatile("" : : "r"(large.data()) : "memory");  // is used: clang makes none that is not
     }
-    EXPECT_GE(peak_host_bytes(), before + (190 << 20));
-    forget_peak_host_bytes();
-    EXPECT_LT(peak_host_bytes(), before + (100 << 20));
+    EXPECT_GE(bench::peak_host_bytes(), before + (190 << 20));
+    bench::forget_peak_host_bytes();
+    EXPECT_LT(bench::peak_host_bytes(), before + (100 << 20));
 }
 
 // What is given back counts no more, but was there.
 TEST(BenchMachine, TheDeviceKeepsAccount) {
-    const Device device;
-    const DeviceUse& use = device.use();
+    const gpu::Device device;
+    const gpu::DeviceUse& use = device.use();
     const uint64_t start = use.bytes;
     {
         const uint32_t type = device.memory_type(~0u, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-        OwnedMemory a = allocate(device, 3 << 20, type), b = allocate(device, 1 << 20, type);
+        gpu::OwnedMemory a = gpu::allocate(device, 3 << 20, type), b = gpu::allocate(device, 1 << 20, type);
         EXPECT_EQ(use.bytes, start + (4 << 20));
         a = {};
         EXPECT_EQ(use.bytes, start + (1 << 20));
-        const OwnedMemory c = std::move(b);
+        const gpu::OwnedMemory c = std::move(b);
         EXPECT_EQ(use.bytes, start + (1 << 20));
     }
     EXPECT_EQ(use.bytes, start);
     EXPECT_EQ(use.peak_bytes, start + (4 << 20));
     const uint32_t pipelines = use.pipelines;
-    const KernelCache kernels(device);
-    const GraphicsPipelineCache none(device);
+    const gpu::KernelCache kernels(device);
+    const gpu::GraphicsPipelineCache none(device);
     for (int time = 0; time < 2; ++time) {
-        FrameGraph graph;
-        const Resource scene = PassRig::image(graph, "scene", kSceneFormat, {4, 4}, std::vector<glm::vec4>(16));
-        add_pyramid({graph, kernels, none, {.extent = {4, 4}}}, scene);
+        graph::FrameGraph graph;
+        const graph::Resource scene =
+            PassRig::image(graph, "scene", render::kSceneFormat, {4, 4}, std::vector<glm::vec4>(16));
+        render::add_pyramid({graph, kernels, none, {.extent = {4, 4}}}, scene);
         EXPECT_EQ(use.pipelines, pipelines + 2) << "one for the first level, one for the others; none the second time";
     }
     EXPECT_GT(use.pipeline_ms, 0);
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

@@ -12,6 +12,8 @@
 namespace vesper::test {
 namespace {
 
+using bench::BenchResult;
+
 class BenchProgram : public ProgramTest {
 protected:
     BenchProgram() : ProgramTest(VESPER_BENCH) {}
@@ -20,11 +22,11 @@ protected:
         std::ofstream(folder / name) << text;
         return (folder / name).string();
     }
-    std::string put(const std::string& name, const BenchResult& result) { return put(name, json_of(result)); }
+    std::string put(const std::string& name, const BenchResult& result) { return put(name, bench::json_of(result)); }
 };
 
-RunResult made_up_run(uint32_t lamps, double scale) {
-    RunResult run;
+bench::RunResult made_up_run(uint32_t lamps, double scale) {
+    bench::RunResult run;
     run.settings = {.scene = "street",
                     .tone_operator = "ward",
                     .glare = "none",
@@ -65,8 +67,8 @@ BenchResult made_up(std::vector<uint32_t> lamps, double scale = 1) {
 
 TEST_F(BenchProgram, ReadsWhatItWrites) {
     const BenchResult result = made_up({64, 256});
-    const std::string text = json_of(result);
-    EXPECT_EQ(json_of(read_result(put("a.json", text))), text);
+    const std::string text = bench::json_of(result);
+    EXPECT_EQ(bench::json_of(bench::read_result(put("a.json", text))), text);
     const auto json = nlohmann::json::parse(text);
     EXPECT_EQ(json["schema"], "vesper-bench 1");
     EXPECT_EQ(json["runs"][1]["settings"]["lamps"], 256);
@@ -120,7 +122,7 @@ TEST_F(BenchProgram, PassesThatOneAloneHasAreNamed) {
 }
 
 TEST_F(BenchProgram, RefusesFilesThatAreNone) {
-    const std::string good = json_of(made_up({64}));
+    const std::string good = bench::json_of(made_up({64}));
     put("good.json", good);
     const auto with = [&](const char* pointer, const nlohmann::json& value) {
         nlohmann::json json = nlohmann::json::parse(good);
@@ -192,7 +194,7 @@ TEST_F(BenchProgram, KeepsWhatItMeasuredBeforeAFailure) {
     EXPECT_NE(run("--scene street --lamps 0,8 --luminaire point,a.csv --triangles 0 --size 8x8 --frames 1 --laps 1 "
                   "--warm-up 0 --no-start --json a.json"),
               0);
-    const BenchResult result = read_result((folder / "a.json").string());
+    const BenchResult result = bench::read_result((folder / "a.json").string());
     ASSERT_EQ(result.runs.size(), 2u) << said;
     EXPECT_EQ(result.runs[0].settings.lamps, 0u);
     EXPECT_EQ(result.runs[1].settings.lamps, 8u);
@@ -219,10 +221,10 @@ TEST_F(BenchProgram, DrivesASmallStreet) {
     EXPECT_EQ(said, "");
     EXPECT_TRUE(printed.starts_with("64x36 street reinhard: ")) << printed;
     EXPECT_NE(printed.substr(0, printed.find('\n')).find(" fps ("), std::string::npos) << printed;
-    const BenchResult result = read_result((folder / "a.json").string());
+    const BenchResult result = bench::read_result((folder / "a.json").string());
     ASSERT_EQ(result.runs.size(), 1u);
-    const RunResult& r = result.runs[0];
-    EXPECT_EQ(printed.find(headline(result, r)), 0u) << "the file says what the terminal does";
+    const bench::RunResult& r = result.runs[0];
+    EXPECT_EQ(printed.find(bench::headline(result, r)), 0u) << "the file says what the terminal does";
     EXPECT_EQ(r.settings.lamps, 8u);
     EXPECT_GE(r.settings.triangles, 500u);
     EXPECT_EQ(r.settings.glare, "ldr");
@@ -235,13 +237,13 @@ TEST_F(BenchProgram, DrivesASmallStreet) {
     EXPECT_LE(1000 / r.low_fps, r.p99 * 1.5);
     EXPECT_LE(r.low_fps, r.fps);
     EXPECT_LE(r.frame.low, r.frame.high);
-    for (const Spread& part : r.host)
+    for (const bench::Spread& part : r.host)
         EXPECT_LE(part.high, 1000 / r.low_fps) << "no part is longer than the longest frame";
     ASSERT_FALSE(r.passes.empty());
-    for (const PassResult& pass : r.passes) EXPECT_GT(pass.bytes(), 0) << pass.name;
+    for (const bench::PassResult& pass : r.passes) EXPECT_GT(pass.bytes(), 0) << pass.name;
     // The composite reads the scene, 16 bytes a pixel, and writes codes of 4, for both channels.
-    const auto composite =
-        std::find_if(r.passes.begin(), r.passes.end(), [](const PassResult& pass) { return pass.name == "composite"; });
+    const auto composite = std::find_if(r.passes.begin(), r.passes.end(),
+                                        [](const bench::PassResult& pass) { return pass.name == "composite"; });
     ASSERT_NE(composite, r.passes.end());
     EXPECT_EQ(composite->bytes_written, 2 * 64 * 36 * 4);
     EXPECT_GE(composite->bytes_read, 2 * 64 * 36 * 16);
@@ -251,7 +253,7 @@ TEST_F(BenchProgram, DrivesASmallStreet) {
     ASSERT_EQ(r.starts.size(), 2u);
     EXPECT_EQ(r.starts[0].cache + r.starts[1].cache, "coldwarm");
     EXPECT_GT(r.starts[1].seconds, 0);
-    EXPECT_EQ(decode_image(read_file(folder / "a.png", 1u << 20), 64).width, 64u);
+    EXPECT_EQ(io::decode_image(io::read_file(folder / "a.png", 1u << 20), 64).width, 64u);
 }
 
 TEST_F(BenchProgram, DrawsGrowth) {
@@ -259,14 +261,14 @@ TEST_F(BenchProgram, DrawsGrowth) {
                   "--json growth/all.json"),
               0)
         << said;
-    const BenchResult result = read_result((folder / "growth/all.json").string());
+    const BenchResult result = bench::read_result((folder / "growth/all.json").string());
     ASSERT_EQ(result.runs.size(), 4u);
     EXPECT_TRUE(printed.starts_with("16x9 street linear: ")) << printed;
     EXPECT_EQ(result.runs[1].settings.width, 32u);
     EXPECT_EQ(result.runs[2].settings.lamps, 4u);
     EXPECT_TRUE(result.runs[0].starts.empty());
     for (const char* plot : {"lamps.png", "passes.png", "pixels.png"})
-        EXPECT_EQ(decode_image(read_file(folder / "growth" / plot, 1u << 24), 2000).width, 1100u) << plot;
+        EXPECT_EQ(io::decode_image(io::read_file(folder / "growth" / plot, 1u << 24), 2000).width, 1100u) << plot;
 }
 
 }  // namespace

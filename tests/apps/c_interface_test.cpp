@@ -62,8 +62,8 @@ VesperPicture picture_of(const std::vector<float>& rgb, uint32_t width, uint32_t
 TEST_F(CInterface, MapsAsTheEngineDoes) {
     VesperToneMapper* mapper = nullptr;
     ASSERT_EQ(vesper_tone_mapper_create(device, &mapper, &error), VESPER_OK) << error.message;
-    Device own;
-    ToneMapper engine(own);
+    gpu::Device own;
+    render::ToneMapper engine(own);
     for (const auto& [width, height] : {std::pair{1u, 1u}, {7u, 5u}, {65u, 33u}}) {
         const std::vector<float> rgb = night_values(width, height);
         const VesperPicture picture = picture_of(rgb, width, height);
@@ -77,10 +77,10 @@ TEST_F(CInterface, MapsAsTheEngineDoes) {
         outputs.codes = codes.data(), outputs.display_light = light.data(), outputs.report = &report;
         ASSERT_EQ(vesper_tone_map(mapper, &settings, &picture, 0.5f, &outputs, &error), VESPER_OK) << error.message;
 
-        ToneChainSettings same;
-        same.tone_operator = Operator::Ward, same.histogram.bins = 64;
-        same.display = known_displays().front().display, same.display.peak = 150;
-        const ToneMapped want =
+        render::ToneChainSettings same;
+        same.tone_operator = render::Operator::Ward, same.histogram.bins = 64;
+        same.display = vision::known_displays().front().display, same.display.peak = 150;
+        const render::ToneMapped want =
             engine.map(same, {.extent = {width, height}, .values = rgb, .vertical_fov = double(0.7f)}, 0.5f,
                        {.display_light = true});
         EXPECT_EQ(codes, want.display);
@@ -96,8 +96,8 @@ TEST_F(CInterface, MapsAsTheEngineDoes) {
 TEST_F(CInterface, EverySettingArrives) {
     VesperToneMapper* mapper = nullptr;
     ASSERT_EQ(vesper_tone_mapper_create(device, &mapper, &error), VESPER_OK) << error.message;
-    Device own;
-    ToneMapper engine(own);
+    gpu::Device own;
+    render::ToneMapper engine(own);
     constexpr uint32_t width = 40, height = 30;
     std::vector<float> rgb = night_values(width, height);
     for (size_t i = 0; i < 3; ++i) rgb[3 * (width * 9 + 11) + i] = 3e5f / float(i + 1);  // a warm lamp
@@ -106,12 +106,14 @@ TEST_F(CInterface, EverySettingArrives) {
     struct Case {
         const char* name;
         void (*set)(VesperToneSettings&);
-        void (*same)(ToneChainSettings&);
+        void (*same)(render::ToneChainSettings&);
         float fov = 0.05f;
     };
     const Case cases[] = {
-        {"ward", [](auto& s) { s.tone_operator = VESPER_WARD; }, [](auto& e) { e.tone_operator = Operator::Ward; }},
-        {"grave", [](auto& s) { s.tone_operator = VESPER_GRAVE; }, [](auto& e) { e.tone_operator = Operator::Grave; }},
+        {"ward", [](auto& s) { s.tone_operator = VESPER_WARD; },
+         [](auto& e) { e.tone_operator = render::Operator::Ward; }},
+        {"grave", [](auto& s) { s.tone_operator = VESPER_GRAVE; },
+         [](auto& e) { e.tone_operator = render::Operator::Grave; }},
         {"bins", [](auto& s) { s.bins = 7; }, [](auto& e) { e.histogram.bins = 7; }},
         {"low", [](auto& s) { s.histogram_low = 0.1f; }, [](auto& e) { e.histogram.log10_low = std::log10(0.1f); }},
         {"high", [](auto& s) { s.histogram_high = 100; }, [](auto& e) { e.histogram.log10_high = std::log10(100.0f); }},
@@ -134,30 +136,31 @@ TEST_F(CInterface, EverySettingArrives) {
          [](auto& e) { e.tone.gamut = shared::kGamutChromaticity; }},
         {"clip", [](auto& s) { s.gamut = VESPER_GAMUT_CLIP; }, [](auto& e) { e.tone.gamut = shared::kGamutClip; }},
         {"key", [](auto& s) { s.tone_operator = VESPER_REINHARD, s.key = 0.5f; },
-         [](auto& e) { e.tone_operator = Operator::Reinhard, e.tone.operators.reinhard.key = 0.5f; }},
+         [](auto& e) { e.tone_operator = render::Operator::Reinhard, e.tone.operators.reinhard.key = 0.5f; }},
         {"white", [](auto& s) { s.tone_operator = VESPER_REINHARD, s.white = 50; },
-         [](auto& e) { e.tone_operator = Operator::Reinhard, e.tone.operators.reinhard.white = 50; }},
+         [](auto& e) { e.tone_operator = render::Operator::Reinhard, e.tone.operators.reinhard.white = 50; }},
         {"linear", [](auto& s) { s.tone_operator = VESPER_LINEAR, s.white = 50, s.black = 1; },
-         [](auto& e) { e.tone_operator = Operator::Linear, e.tone.operators.linear = {.low = 1, .high = 50}; }},
+         [](auto& e) { e.tone_operator = render::Operator::Linear, e.tone.operators.linear = {.low = 1, .high = 50}; }},
         {"gamma", [](auto& s) { s.display_gamma = 1.8f; }, [](auto& e) { e.display.gamma = 1.8f; }},
         {"reflection", [](auto& s) { s.display_reflection = 0.1f; }, [](auto& e) { e.display.reflection = 0.1f; }},
         {"ambient", [](auto& s) { s.display_ambient = 500; }, [](auto& e) { e.display.ambient = 500; }},
-        {"profile", [](auto& s) { s.display = "projector"; }, [](auto& e) { e.display = find_display("projector"); }},
+        {"profile", [](auto& s) { s.display = "projector"; },
+         [](auto& e) { e.display = scene::find_display("projector"); }},
         {"cie", [](auto& s) { s.glare = VESPER_GLARE_CIE, s.pigmentation = 1.2f; },
-         [](auto& e) { e.glare = Glare::Scatter, e.scatter.eye.pigmentation = double(1.2f); }},
+         [](auto& e) { e.glare = render::Glare::Scatter, e.scatter.eye.pigmentation = double(1.2f); }},
         {"ward's veil", [](auto& s) { s.glare = VESPER_GLARE_WARD; },
-         [](auto& e) { e.glare = Glare::Scatter, e.scatter.model = ScatterSettings::Model::Ward; }},
+         [](auto& e) { e.glare = render::Glare::Scatter, e.scatter.model = gpu_scene::ScatterSettings::Model::Ward; }},
         {"spencer", [](auto& s) { s.glare = VESPER_GLARE_SPENCER, s.pupil = VESPER_PUPIL_SCOTOPIC; },
          [](auto& e) {
-             e.glare = Glare::Scatter, e.scatter.model = ScatterSettings::Model::Spencer,
-             e.scatter.state = SpencerState::Scotopic;
+             e.glare = render::Glare::Scatter, e.scatter.model = gpu_scene::ScatterSettings::Model::Spencer,
+             e.scatter.state = vision::SpencerState::Scotopic;
          }},
         {"temporal", [](auto& s) { s.glare = VESPER_GLARE_TEMPORAL, s.eye_seed = 5, s.lashes = 1; },
          [](auto& e) {
-             e.glare = Glare::Scatter, e.scatter.model = ScatterSettings::Model::Temporal,
+             e.glare = render::Glare::Scatter, e.scatter.model = gpu_scene::ScatterSettings::Model::Temporal,
              e.scatter.aperture = {5, true};
          }},
-        {"paper's glare", [](auto& s) { s.glare = VESPER_GLARE_LDR; }, [](auto& e) { e.glare = Glare::Ldr; }},
+        {"paper's glare", [](auto& s) { s.glare = VESPER_GLARE_LDR; }, [](auto& e) { e.glare = render::Glare::Ldr; }},
     };
     std::vector<uint8_t> codes(4 * width * height);
     std::map<float, std::vector<uint8_t>> plain;
@@ -176,14 +179,14 @@ TEST_F(CInterface, EverySettingArrives) {
         ASSERT_EQ(vesper_tone_mapper_reset(mapper, &error), VESPER_OK);
         ASSERT_EQ(vesper_tone_map(mapper, &settings, &picture, 0, &outputs, &error), VESPER_OK)
             << c.name << ": " << error.message;
-        ToneChainSettings same;
-        same.tone.observer.age = same.scatter.eye.age = 23, same.display = known_displays().front().display;
+        render::ToneChainSettings same;
+        same.tone.observer.age = same.scatter.eye.age = 23, same.display = vision::known_displays().front().display;
         c.same(same);
         engine.reset_adaptation();
-        const HostPicture shown{.extent = {width, height},
-                                .values = rgb,
-                                .scale = picture.scale,
-                                .vertical_fov = double(picture.vertical_fov)};
+        const render::HostPicture shown{.extent = {width, height},
+                                        .values = rgb,
+                                        .scale = picture.scale,
+                                        .vertical_fov = double(picture.vertical_fov)};
         EXPECT_TRUE(codes == engine.map(same, shown, 0).display) << c.name;
         EXPECT_TRUE(codes != plain.at(c.fov)) << c.name;
     }
@@ -211,7 +214,7 @@ TEST_F(CInterface, EditedDisplayFilesAreReadAgain) {
     const auto lcd = shown("lcd"), projector = shown("projector");
     ASSERT_NE(lcd, projector);
     const auto edited = [&](const char* as) {
-        return folder.write("d.json", display_json(find_display(as), "")).string();
+        return folder.write("d.json", scene::display_json(scene::find_display(as), "")).string();
     };
     const std::string file = edited("lcd");
     EXPECT_EQ(shown(file.c_str()), lcd);
@@ -317,7 +320,7 @@ TEST_F(CInterface, RefusesWhatCannotBeAndTouchesNothing) {
     refuses([](auto& p, auto&, auto&, auto&) { p.scale = kNan; });
     refuses([](auto& p, auto&, auto&, auto&) { p.vertical_fov = 4; });
     refuses([](auto& p, auto&, auto&, auto&) { p.edges[0] = 1; });
-    refuses([](auto&, auto& s, auto&, auto&) { s.tone_operator = uint32_t(Operator::Ldr); });
+    refuses([](auto&, auto& s, auto&, auto&) { s.tone_operator = uint32_t(render::Operator::Ldr); });
     refuses([](auto&, auto& s, auto&, auto&) { s.tone_operator = 99; });
     refuses([](auto&, auto& s, auto&, auto&) { s.glare = 9; });
     refuses([](auto&, auto& s, auto&, auto&) { s.bins = 257; });

@@ -152,18 +152,19 @@ TEST_F(CScene, DirectionsAreOfAnyLength) {
 // A measured lamp gives what its file says towards the ground, along its axis and off it, as it is turned.
 TEST_F(CScene, MeasuredLampsShineAsTheirFile) {
     const std::string file = VESPER_SOURCE_DIR "/data/photometry/street-lamp.ies";
-    const Distribution distribution = read_distribution(file);
+    const photometry::Distribution distribution = photometry::read_distribution(file);
     VesperLamp lamp = candle();
     lamp.position[1] = 4, lamp.axis[1] = -1, lamp.up[2] = 1, lamp.distribution = file.c_str(), lamp.intensity = 0.5f;
     const uint32_t first = add(lamp);
     // Its frame: +y is the world's +z and -z is down, so +x is -x of the world.
-    const double below = 0.5 * intensity(distribution, {0, 0, -1}), aside = 0.5 * intensity(distribution, {-3, 0, -4});
+    const double below = 0.5 * photometry::intensity(distribution, {0, 0, -1}),
+                 aside = 0.5 * photometry::intensity(distribution, {-3, 0, -4});
     EXPECT_NEAR(lux(0), below / 16, 3e-3 * below / 16);
     EXPECT_NEAR(lux(3), aside * 0.8 / 25, 1e-2 * aside * 0.8 / 25);
     expect(vesper_scene_remove(scene, first, &error));
     lamp.up[2] = 0, lamp.up[0] = 1;
     add(lamp);
-    const double turned = 0.5 * intensity(distribution, {0, 3, -4});
+    const double turned = 0.5 * photometry::intensity(distribution, {0, 3, -4});
     EXPECT_NEAR(lux(3), turned * 0.8 / 25, 1e-2 * turned * 0.8 / 25);
     lamp.distribution = "/nothing.ies";
     uint32_t node = 0;
@@ -176,10 +177,10 @@ TEST_F(CScene, MeasuredLampsShineAsTheirFile) {
 TEST_F(CScene, ChangedLampFilesAreReadAnew) {
     const TempFolder folder;
     const auto written = [&](double candela) {
-        Distribution even;
-        even.goniometry = Goniometry::CGamma, even.horizontal = {0}, even.vertical = {0, 90},
+        photometry::Distribution even;
+        even.goniometry = photometry::Goniometry::CGamma, even.horizontal = {0}, even.vertical = {0, 90},
         even.candela = {candela, candela};
-        return folder.write("x.ies", write_ies(even)).string();
+        return folder.write("x.ies", photometry::write_ies(even)).string();
     };
     const std::string file = written(100);
     VesperLamp lamp = candle();

@@ -15,14 +15,17 @@
 namespace vesper::test {
 namespace {
 
+using drive::ChannelMosaic, drive::Channels;
+using gpu_scene::View;
+
 constexpr uint32_t kSide = 96;
 
 // A wall 20 m ahead, evenly lit, and a lamp before it far to the left: to all sides, or to the eye alone.
-Scene wall_scene(float ambient, float candela, Lamp::Kind kind) {
-    Scene scene;
+scene::Scene wall_scene(float ambient, float candela, scene::Lamp::Kind kind) {
+    scene::Scene scene;
     scene.name = "wall";
     scene.materials.push_back({.name = "grey", .base_colour = {0.3f, 0.3f, 0.3f, 1}});
-    Primitive wall;
+    scene::Primitive wall;
     for (const glm::vec3 corner : {glm::vec3(-80, -40, -20), {80, -40, -20}, {80, 40, -20}, {-80, 40, -20}}) {
         wall.vertices.push_back({.position = corner, .normal = {0, 0, 1}});
         wall.bounds.add(corner);
@@ -67,12 +70,12 @@ View whole() {
     return view;
 }
 
-double code(const ToneMapped& shown, uint32_t x, uint32_t y) {
+double code(const render::ToneMapped& shown, uint32_t x, uint32_t y) {
     return shown.display[4 * (size_t(y) * shown.extent.width + x) + 1];
 }
 
 // What jumps from one screen to the next, beyond how codes change beside the seam.
-double step_at(const ToneMapped& shown, uint32_t seam) {
+double step_at(const render::ToneMapped& shown, uint32_t seam) {
     double worst = 0;
     for (uint32_t y = 0; y < kSide; ++y) {
         const double across = code(shown, seam, y) - code(shown, seam - 1, y);
@@ -84,26 +87,26 @@ double step_at(const ToneMapped& shown, uint32_t seam) {
 }
 
 struct Rig {
-    Device device{{.select = ""}};
-    Scene scene;
-    Renderer renderer;
-    ChannelRenderer wall{device};
-    SceneFrame frame;
-    explicit Rig(Scene s)
+    gpu::Device device{{.select = ""}};
+    scene::Scene scene;
+    render::Renderer renderer;
+    drive::ChannelRenderer wall{device};
+    gpu_scene::SceneFrame frame;
+    explicit Rig(scene::Scene s)
         : scene(std::move(s)),
           renderer(device, scene),
-          frame{.world = world_transforms(scene, 0), .dimming = {}, .ambient = {}, .tunnels = {}} {}
+          frame{.world = scene::world_transforms(scene, 0), .dimming = {}, .ambient = {}, .tunnels = {}} {}
 };
 
 // Without glare, three screens are the picture they are cut from: the only lamp is on the left one. Luminances differ
 // by what shading adds up over blocks (0.1 %), codes by one.
 TEST(Channels, AreThePictureTheyAreCutFrom) {
-    Rig rig(wall_scene(0.5f, 300, Lamp::Kind::Point));
-    RenderSettings settings;
+    Rig rig(wall_scene(0.5f, 300, scene::Lamp::Kind::Point));
+    render::RenderSettings settings;
     const ChannelMosaic wall =
         rig.wall.render(rig.renderer, three(), settings, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame, 0,
                         {.display = true, .scene = true});
-    const Frame one = rig.renderer.render(settings, whole(), rig.frame, 0, {.display = true, .scene = true});
+    const render::Frame one = rig.renderer.render(settings, whole(), rig.frame, 0, {.display = true, .scene = true});
     ASSERT_EQ(wall.shown.display.size(), one.display.size());
     int far = 0;
     for (size_t i = 0; i < one.display.size(); ++i)
@@ -115,11 +118,11 @@ TEST(Channels, AreThePictureTheyAreCutFrom) {
     EXPECT_LE(step_at(wall.shown, 2 * kSide), 2);
 
     // Each by itself, the left screen has the lamp to adapt to and the others have not.
-    ToneMapped alone = wall.shown;
+    render::ToneMapped alone = wall.shown;
     for (uint32_t i = 0; i < 3; ++i) {
-        Renderer renderer(rig.device, rig.scene);
-        const Frame part =
-            renderer.render(settings, channel_view(three().screens[i], View::symmetric({1, 1}, 1, glm::mat4(1))),
+        render::Renderer renderer(rig.device, rig.scene);
+        const render::Frame part =
+            renderer.render(settings, drive::channel_view(three().screens[i], View::symmetric({1, 1}, 1, glm::mat4(1))),
                             rig.frame, 0, {.display = true});
         for (uint32_t y = 0; y < kSide; ++y)
             std::copy_n(&part.display[4 * y * kSide], 4 * kSide, &alone.display[4 * (y * 3 * kSide + i * kSide)]);
@@ -130,14 +133,14 @@ TEST(Channels, AreThePictureTheyAreCutFrom) {
 // The lamp dazzles: its light is scattered into the screens beside. Two pixels to either side of the seam the veil
 // falls by what it does there, 5 %.
 TEST(Channels, GlareGoesOnAcrossTheSeam) {
-    Rig rig(wall_scene(0.02f, 20000, Lamp::Kind::Spot));
-    RenderSettings settings;
-    settings.glare = Glare::Scatter;
+    Rig rig(wall_scene(0.02f, 20000, scene::Lamp::Kind::Spot));
+    render::RenderSettings settings;
+    settings.glare = render::Glare::Scatter;
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
     const ChannelMosaic wall =
         rig.wall.render(rig.renderer, three(), settings, driver, rig.frame, 0, {.display = true, .scene = true});
-    RenderSettings clear = settings;
-    clear.glare = Glare::None;
+    render::RenderSettings clear = settings;
+    clear.glare = render::Glare::None;
     const ChannelMosaic without =
         rig.wall.render(rig.renderer, three(), clear, driver, rig.frame, 0, {.display = true, .scene = true});
     const auto veil = [&](uint32_t x) {
@@ -162,12 +165,12 @@ TEST(Channels, GlareGoesOnAcrossTheSeam) {
 }
 
 // A luminous sign, 4 x 3 degrees, 1000 cd/m^2, so many degrees to the left of the driver, and nothing else.
-Scene sign_scene(double degrees) {
-    Scene scene;
+scene::Scene sign_scene(double degrees) {
+    scene::Scene scene;
     scene.name = "sign";
     scene.materials.push_back({.name = "luminous", .base_colour = {0, 0, 0, 1}, .emission = {1000, 600, 200}});
     const glm::mat4 turn = glm::rotate(glm::mat4(1), float(degrees * kRadiansPerDegree), glm::vec3(0, 1, 0));
-    Primitive sign;
+    scene::Primitive sign;
     const float x = 20 * float(std::tan(2 * kRadiansPerDegree)), y = 20 * float(std::tan(1.5 * kRadiansPerDegree));
     for (const glm::vec3 corner : {glm::vec3(-x, -y, -20), {x, -y, -20}, {x, y, -20}, {-x, y, -20}}) {
         const glm::vec3 at(turn * glm::vec4(corner, 1));
@@ -197,9 +200,9 @@ Channels turned_screens() {
     return channels;
 }
 
-const RenderSettings kScattering = [] {
-    RenderSettings settings;
-    settings.glare = Glare::Scatter;
+const render::RenderSettings kScattering = [] {
+    render::RenderSettings settings;
+    settings.glare = render::Glare::Scatter;
     return settings;
 }();
 
@@ -250,16 +253,17 @@ TEST(Channels, GlareOfOtherScreensIsWhatTheyShow) {
     Rig rig(sign_scene(35));
     const Channels channels = turned_screens();
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
-    RenderSettings clear;
+    render::RenderSettings clear;
     const ChannelMosaic seen = rig.wall.render(rig.renderer, channels, kScattering, driver, rig.frame, 0,
                                                {.display = true}),
                         shown = rig.wall.render(rig.renderer, channels, clear, driver, rig.frame, 0, {.display = true});
     const auto towards = [&](size_t channel, glm::dvec2 pixels) {
-        const View view = channel_view(channels.screens[channel], driver);
-        return glm::transpose(glm::dmat3(view.world_to_view)) * reference::direction_of(angles_of(view), pixels);
+        const View view = drive::channel_view(channels.screens[channel], driver);
+        return glm::transpose(glm::dmat3(view.world_to_view)) *
+               reference::direction_of(gpu_scene::angles_of(view), pixels);
     };
-    const EyeScatter psf = eye_scatter({});
-    const ImageAngles left = angles_of(channel_view(channels.screens[0], driver));
+    const vision::EyeScatter psf = gpu_scene::eye_scatter({});
+    const vision::ImageAngles left = gpu_scene::angles_of(drive::channel_view(channels.screens[0], driver));
     for (const size_t channel : {1u, 2u})
         for (const glm::ivec2 at : {glm::ivec2(0, 48), {1, 3}, {30, 70}, {40, 95}}) {
             const VkExtent2D extent = seen.channels[channel].extent;
@@ -281,15 +285,15 @@ TEST(Channels, GlareOfOtherScreensIsWhatTheyShow) {
 
 // Lamps, too: what the left screen shows of it counts there, and not as a lamp besides.
 TEST(Channels, LampsOfOtherScreensCountOnce) {
-    Rig rig(wall_scene(0, 20000, Lamp::Kind::Spot));
+    Rig rig(wall_scene(0, 20000, scene::Lamp::Kind::Spot));
     const Channels channels = turned_screens();
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
     const ChannelMosaic wall =
         rig.wall.render(rig.renderer, channels, kScattering, driver, rig.frame, 0, {.display = true});
     const glm::dvec3 lamp(-19 * std::tan(32 * kRadiansPerDegree), 0, -19);
     const double distance = glm::length(lamp), lux = 20000 / (distance * distance);
-    const EyeScatter psf = eye_scatter({});
-    const ImageAngles middle = angles_of(channel_view(channels.screens[1], driver));
+    const vision::EyeScatter psf = gpu_scene::eye_scatter({});
+    const vision::ImageAngles middle = gpu_scene::angles_of(drive::channel_view(channels.screens[1], driver));
     for (const glm::ivec2 at : {glm::ivec2(0, 60), {60, 60}, {119, 10}}) {
         const double theta = reference::degrees_apart(lamp, reference::direction_of(middle, glm::dvec2(at) + 0.5));
         const double want = lux * psf(theta) * 1;
@@ -301,14 +305,14 @@ TEST(Channels, LampsOfOtherScreensCountOnce) {
 
 // One screen: the same picture and the same codes as without a file of screens, and the luminance of the scene.
 TEST(Channels, OneScreenIsAView) {
-    Rig rig(wall_scene(0.02f, 20000, Lamp::Kind::Spot));
+    Rig rig(wall_scene(0.02f, 20000, scene::Lamp::Kind::Spot));
     Channels one;
     one.screens.push_back(three().screens[0]);
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
     const ChannelMosaic wall =
         rig.wall.render(rig.renderer, one, kScattering, driver, rig.frame, 0, {.display = true, .scene = true});
-    const Frame alone = rig.renderer.render(kScattering, channel_view(one.screens[0], driver), rig.frame, 0,
-                                            {.display = true, .scene = true});
+    const render::Frame alone = rig.renderer.render(kScattering, drive::channel_view(one.screens[0], driver), rig.frame,
+                                                    0, {.display = true, .scene = true});
     EXPECT_EQ(wall.shown.scene, alone.scene);
     EXPECT_EQ(wall.channels[0].scene, alone.scene);
     EXPECT_NE(wall.channels[0].retina, alone.scene);
@@ -317,16 +321,16 @@ TEST(Channels, OneScreenIsAView) {
 
 // Needles are those of the one eye, which adapts and lives from frame to frame.
 TEST(Channels, NeedlesMoveWithTheOneEye) {
-    Rig rig(wall_scene(0.02f, 20000, Lamp::Kind::Spot));
-    RenderSettings settings = kScattering;
-    settings.scatter.model = ScatterSettings::Model::Temporal;
+    Rig rig(wall_scene(0.02f, 20000, scene::Lamp::Kind::Spot));
+    render::RenderSettings settings = kScattering;
+    settings.scatter.model = gpu_scene::ScatterSettings::Model::Temporal;
     const auto left = [&](float seconds) {
         return rig.wall
             .render(rig.renderer, three(), settings, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame, seconds,
                     {.display = true})
             .channels.front();
     };
-    const Frame first = left(0), later = left(0.4f), last = left(0.4f);
+    const render::Frame first = left(0), later = left(0.4f), last = left(0.4f);
     EXPECT_GT(first.pupil, 2);
     EXPECT_NE(later.pupil, first.pupil);
     EXPECT_NE(last.pupil, later.pupil);
@@ -338,23 +342,25 @@ TEST(Channels, NeedlesMoveWithTheOneEye) {
 TEST(Channels, TurnedScreensSeeWhereTheyLook) {
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
     const auto ahead = [&](double yaw, double pitch) {
-        ScreenChannel c{.name = "", .yaw = yaw, .pitch = pitch, .left = -0.1, .right = 0.1, .bottom = -0.1, .top = 0.1};
-        return glm::vec3(glm::inverse(channel_view(c, driver).world_to_view) * glm::vec4(0, 0, -1, 0));
+        drive::ScreenChannel c{
+            .name = "", .yaw = yaw, .pitch = pitch, .left = -0.1, .right = 0.1, .bottom = -0.1, .top = 0.1};
+        return glm::vec3(glm::inverse(drive::channel_view(c, driver).world_to_view) * glm::vec4(0, 0, -1, 0));
     };
     EXPECT_LT(glm::distance(ahead(90 * kRadiansPerDegree, 0), glm::vec3(-1, 0, 0)), 1e-6);
     EXPECT_LT(glm::distance(ahead(0, 90 * kRadiansPerDegree), glm::vec3(0, 1, 0)), 1e-6);
-    const ScreenChannel rolled{
+    const drive::ScreenChannel rolled{
         .name = "", .roll = 90 * kRadiansPerDegree, .left = -0.1, .right = 0.1, .bottom = -0.1, .top = 0.1};
     // Rolled clockwise, what is up in the picture lies to the right.
-    EXPECT_LT(glm::distance(glm::vec3(glm::inverse(channel_view(rolled, driver).world_to_view) * glm::vec4(0, 1, 0, 0)),
-                            glm::vec3(1, 0, 0)),
+    EXPECT_LT(glm::distance(
+                  glm::vec3(glm::inverse(drive::channel_view(rolled, driver).world_to_view) * glm::vec4(0, 1, 0, 0)),
+                  glm::vec3(1, 0, 0)),
               1e-6);
 }
 
 TEST(Channels, FilesAreReadOrRefused) {
     const std::string data = std::string(VESPER_SOURCE_DIR) + "/data/channels/";
-    EXPECT_EQ(read_channels(data + "one-screen.json").screens.size(), 1u);
-    const Channels screens = read_channels(data + "three-screens.json");
+    EXPECT_EQ(drive::read_channels(data + "one-screen.json").screens.size(), 1u);
+    const Channels screens = drive::read_channels(data + "three-screens.json");
     EXPECT_EQ(screens.screens.size(), 3u);
     EXPECT_EQ(screens.gaze, 1u);
     const TempFolder folder;
@@ -364,14 +370,16 @@ TEST(Channels, FilesAreReadOrRefused) {
          R"({"version": 1, "gaze": "x", "channels": [{"name": "a", "size_px": [8, 8], "left_deg": -1, "right_deg": 1, "bottom_deg": -1, "top_deg": 1}]})",
          R"({"version": 1, "channels": [{"name": "a", "size_px": [8, 8], "left_deg": 1, "right_deg": -1, "bottom_deg": -1, "top_deg": 1}]})",
          R"({"version": 1, "channels": [{"name": "a", "size_px": [0, 8], "left_deg": -1, "right_deg": 1, "bottom_deg": -1, "top_deg": 1}]})"})
-        EXPECT_THROW(read_channels(folder.write("bad.json", bad)), Error) << bad;
+        EXPECT_THROW(drive::read_channels(folder.write("bad.json", bad)), Error) << bad;
     const std::string huge =
         R"({"name": "x", "size_px": [16384, 16384], "left_deg": -20, "right_deg": 20, "bottom_deg": -10, "top_deg": 10})";
     const std::string one =
         R"({"name": "x", "size_px": [8, 8], "left_deg": -1, "right_deg": 1, "bottom_deg": -1, "top_deg": 1})";
-    EXPECT_THROW(read_channels(folder.write("twice.json", R"({"version": 1, "channels": [)" + one + ", " + one + "]}")),
+    EXPECT_THROW(
+        drive::read_channels(folder.write("twice.json", R"({"version": 1, "channels": [)" + one + ", " + one + "]}")),
+        Error);
+    EXPECT_THROW(drive::read_channels(folder.write("huge.json", R"({"version": 1, "channels": [)" + huge + "]}")),
                  Error);
-    EXPECT_THROW(read_channels(folder.write("huge.json", R"({"version": 1, "channels": [)" + huge + "]}")), Error);
 }
 
 }  // namespace

@@ -171,7 +171,7 @@ TEST_F(ClosedDoors, WorkAndMemoryOfAFileAreBounded) {
     expect_refused("convert trees.xodr -o t.glb", {"trees.xodr", "takes more than", "VESPER_LIMITS"}, little);
     // A picture of one colour: 20 kB for 64 MiB of texels.
     const std::vector<uint8_t> white(size_t(4096) * 4096 * 4, 255);
-    write_png(folder / "white.png", 4096, 4096, white, {}, {});
+    io::write_png(folder / "white.png", 4096, 4096, white, {}, {});
     GltfFile file;
     file.root["images"] = {{{"uri", "white.png"}}};
     file.root["textures"] = {{{"source", 0}}};
@@ -286,7 +286,7 @@ TEST_F(ClosedDoors, ExtrasOfAnyKindAreKept) {
 
 TEST_F(ClosedDoors, RefusalsOfMergeNameFiles) {
     const std::vector<uint8_t> grey(size_t(16) * 16 * 4, 128);
-    write_png(folder / "a.png", 16, 16, grey, {}, {}), write_png(folder / "b.png", 16, 16, grey, {}, {});
+    io::write_png(folder / "a.png", 16, 16, grey, {}, {}), io::write_png(folder / "b.png", 16, 16, grey, {}, {});
     for (const char* rest :
          {"-e 1,1 -o m.exr", "-e 1,2 -o m.exr", "-e 1,2 --curve srgb --luminance 99,99,1 -o m.exr", "-o m.exr"})
         expect_refused("merge a.png b.png " + std::string(rest), {"a.png"});

@@ -12,7 +12,7 @@ namespace {
 
 using DisplayProgram = ProgramTest;
 
-Image read_png(const std::filesystem::path& file) { return decode_image(read_file(file, 1u << 28), 8192); }
+Image read_png(const std::filesystem::path& file) { return io::decode_image(io::read_file(file, 1u << 28), 8192); }
 
 TEST_F(DisplayProgram, WritesPatternsThatHoldTheirCodes) {
     std::filesystem::create_directory(folder / "p");
@@ -47,18 +47,18 @@ TEST_F(DisplayProgram, ATenBitPatternHasItsCodesIn16Bits) {
 
 TEST_F(DisplayProgram, MakesAProfileThatOtherCommandsTake) {
     std::string table = "code,cd_m2\n";
-    const DisplayCurve curve(Display{.peak = 42, .black = 0.07f, .gamma = 2.4f});
+    const vision::DisplayCurve curve(vision::Display{.peak = 42, .black = 0.07f, .gamma = 2.4f});
     for (const uint32_t code : {0u, 16u, 64u, 128u, 200u, 255u})
         table += std::to_string(code) + "," + std::to_string(curve.emitted(code / 255.0)) + "\n";
     folder.write("m.csv", table);
     ASSERT_EQ(run("display fit m.csv -o wall.json --name wall --ambient 2"), 0) << said;
     EXPECT_NE(printed.find("gamma 2.4"), std::string::npos) << printed;
     EXPECT_NE(printed.find("root mean square"), std::string::npos);
-    const Display display = read_display(folder / "wall.json");
+    const vision::Display display = scene::read_display(folder / "wall.json");
     EXPECT_NEAR(double(display.peak), 42, 0.01);
     EXPECT_EQ(display.ambient, 2);
     ASSERT_EQ(run("display fit m.csv -o table.json --kind table"), 0) << said;
-    EXPECT_EQ(read_display(folder / "table.json").table.size(), 6u);
+    EXPECT_EQ(scene::read_display(folder / "table.json").table.size(), 6u);
     folder.write("empty.gltf", R"({"asset":{"version":"2.0"}})");
     for (const char* name : {"wall.json", "table.json", "projector", "hdr10"})
         EXPECT_EQ(run("render empty.gltf --size 16x8 -o a.png --display " + std::string(name)), 0) << name << said;

@@ -9,43 +9,45 @@
 #include "scene/scene_files.h"
 #include "support/complaints.h"
 
-namespace vesper {
+namespace vesper::test {
 namespace {
+
+using drive::Action;
 
 TEST(Keys, AreOnePerActionAndNoneTwice) {
     std::set<std::pair<int, int>> keys;
     std::set<std::string_view> names;
-    for (const KeyBinding& b : key_bindings()) {
+    for (const drive::KeyBinding& b : drive::key_bindings()) {
         EXPECT_TRUE(keys.emplace(b.key, b.modifiers).second) << b.shown;
         EXPECT_TRUE(names.insert(b.name).second) << b.name;
-        EXPECT_EQ(action_of(b.key, b.modifiers), b.action);
-        EXPECT_EQ(action_named(b.name), b.action);
+        EXPECT_EQ(drive::action_of(b.key, b.modifiers), b.action);
+        EXPECT_EQ(drive::action_named(b.name), b.action);
     }
-    EXPECT_EQ(key_bindings().size(), size_t(Action::Quit) + 1);  // every action has a key
-    EXPECT_FALSE(action_named("fly"));
+    EXPECT_EQ(drive::key_bindings().size(), size_t(Action::Quit) + 1);  // every action has a key
+    EXPECT_FALSE(drive::action_named("fly"));
 }
 
 TEST(Controllers, AxesRunFromRestToFull) {
     const std::vector<float> axes{0.5f, -1, 1, NAN};
-    EXPECT_DOUBLE_EQ((PedalAxis{.axis = 0, .rest = -1, .full = 1}).value(axes), 0.75);
-    EXPECT_DOUBLE_EQ((PedalAxis{.axis = 0, .rest = 1, .full = -1}).value(axes),
+    EXPECT_DOUBLE_EQ((drive::PedalAxis{.axis = 0, .rest = -1, .full = 1}).value(axes), 0.75);
+    EXPECT_DOUBLE_EQ((drive::PedalAxis{.axis = 0, .rest = 1, .full = -1}).value(axes),
                      0.25);  // pedals of many wheels rest at 1
-    EXPECT_DOUBLE_EQ((PedalAxis{.axis = 2, .rest = 0, .full = 0.5}).value(axes), 1);
-    EXPECT_DOUBLE_EQ((PedalAxis{.axis = 3}).value(axes), 0);     // not a number
-    EXPECT_DOUBLE_EQ((PedalAxis{.axis = 99}).value(axes), 0);    // no such axis
-    EXPECT_DOUBLE_EQ((SteeringAxis{.axis = 1}).value(axes), 1);  // left is positive
-    EXPECT_DOUBLE_EQ((SteeringAxis{.axis = 2}).value(axes), -1);
-    EXPECT_DOUBLE_EQ((SteeringAxis{.axis = 0, .dead = 0.25, .exponent = 2}).value(axes), -1.0 / 9);
-    EXPECT_DOUBLE_EQ((SteeringAxis{.axis = 0, .dead = 0.5}).value(axes), 0);
-    EXPECT_DOUBLE_EQ((SteeringAxis{.axis = 99}).value(axes), 0);
+    EXPECT_DOUBLE_EQ((drive::PedalAxis{.axis = 2, .rest = 0, .full = 0.5}).value(axes), 1);
+    EXPECT_DOUBLE_EQ((drive::PedalAxis{.axis = 3}).value(axes), 0);     // not a number
+    EXPECT_DOUBLE_EQ((drive::PedalAxis{.axis = 99}).value(axes), 0);    // no such axis
+    EXPECT_DOUBLE_EQ((drive::SteeringAxis{.axis = 1}).value(axes), 1);  // left is positive
+    EXPECT_DOUBLE_EQ((drive::SteeringAxis{.axis = 2}).value(axes), -1);
+    EXPECT_DOUBLE_EQ((drive::SteeringAxis{.axis = 0, .dead = 0.25, .exponent = 2}).value(axes), -1.0 / 9);
+    EXPECT_DOUBLE_EQ((drive::SteeringAxis{.axis = 0, .dead = 0.5}).value(axes), 0);
+    EXPECT_DOUBLE_EQ((drive::SteeringAxis{.axis = 99}).value(axes), 0);
 }
 
 class ControllerFile : public testing::Test {
 protected:
-    test::TempFolder folder;
+    TempFolder folder;
     std::string refused(const std::string& text) {
         folder.write("c.json", text);
-        return test::complaint_of([&] { read_controllers(folder / "c.json"); });
+        return complaint_of([&] { drive::read_controllers(folder / "c.json"); });
     }
 };
 
@@ -54,19 +56,19 @@ TEST_F(ControllerFile, SaysWhatAxesAndButtonsMean) {
         "c.json",
         R"({"controllers": [{"match": "g29", "steering": {"axis": 0, "dead": 0.01}, "throttle": {"axis": 2, "rest": 1, "full": -1},
         "brake": {"axis": 3, "rest": 1, "full": -1}, "buttons": [{"button": 4, "does": "indicate-right"}, {"button": 5, "does": "indicate-left"}]}]})");
-    const auto mappings = read_controllers(folder / "c.json");
+    const auto mappings = drive::read_controllers(folder / "c.json");
     ASSERT_EQ(mappings.size(), 1u);
     EXPECT_EQ(mappings[0].buttons.at(5), Action::IndicateLeft);
-    EXPECT_EQ(find_mapping(mappings, "Logitech G29 Driving Force", false), &mappings[0]);
-    EXPECT_EQ(find_mapping(mappings, "some pad", true), &gamepad_mapping());
-    EXPECT_EQ(find_mapping(mappings, "some stick", false), nullptr);
+    EXPECT_EQ(drive::find_mapping(mappings, "Logitech G29 Driving Force", false), &mappings[0]);
+    EXPECT_EQ(drive::find_mapping(mappings, "some pad", true), &drive::gamepad_mapping());
+    EXPECT_EQ(drive::find_mapping(mappings, "some stick", false), nullptr);
 }
 
 TEST_F(ControllerFile, IsRefusedWithPlaceAndReason) {
     const auto expect = [&](const std::string& text, const std::string& place, const std::string& reason) {
         const std::string said = refused(text);
-        EXPECT_TRUE(test::contains(said, place)) << text;
-        EXPECT_TRUE(test::contains(said, reason)) << text;
+        EXPECT_TRUE(contains(said, place)) << text;
+        EXPECT_TRUE(contains(said, reason)) << text;
         EXPECT_EQ(said.find('\n'), said.npos);
     };
     expect("{", "c.json", "");
@@ -84,24 +86,24 @@ TEST_F(ControllerFile, IsRefusedWithPlaceAndReason) {
     expect(
         R"({"controllers": [{"match": "x", "buttons": [{"button": 0, "does": "pause"}, {"button": 0, "does": "beam"}]}]})",
         "/controllers/0/buttons/1", "already");
-    EXPECT_TRUE(test::contains(test::complaint_of([&] { read_controllers(folder / "none.json"); }), "none.json"));
+    EXPECT_TRUE(contains(complaint_of([&] { drive::read_controllers(folder / "none.json"); }), "none.json"));
 }
 
-ControllerState wheel(float turned, float throttle, bool button) {
+drive::ControllerState wheel(float turned, float throttle, bool button) {
     return {.name = "G29", .axes = {turned, 0, throttle}, .buttons = {button}, .pad_axes = {}, .pad_buttons = {}};
 }
 
-std::vector<ControllerMapping> wheel_mapping() {
+std::vector<drive::ControllerMapping> wheel_mapping() {
     return {{.match = "G29",
              .gamepad = false,
-             .steering = SteeringAxis{},
-             .throttle = PedalAxis{.axis = 2, .rest = 1, .full = -1},
+             .steering = drive::SteeringAxis{},
+             .throttle = drive::PedalAxis{.axis = 2, .rest = 1, .full = -1},
              .brake = {},
              .buttons = {{0, Action::Pause}}}};
 }
 
 TEST(InputDevices, TakeTheWheelThatIsTurnedFurtherAndThePedalThatIsPressedHarder) {
-    InputDevices hands(wheel_mapping());
+    drive::InputDevices hands(wheel_mapping());
     hands.look({wheel(-0.5f, 0, false)});
     traffic::DriverInput input = hands.next({}, 0, 1.0 / 60);
     EXPECT_DOUBLE_EQ(input.steering, 0.5);
@@ -113,20 +115,20 @@ TEST(InputDevices, TakeTheWheelThatIsTurnedFurtherAndThePedalThatIsPressedHarder
 }
 
 TEST(InputDevices, NoticePlugsAndPressesOfButtonsOnce) {
-    InputDevices hands(wheel_mapping());
+    drive::InputDevices hands(wheel_mapping());
     EXPECT_TRUE(hands.look({wheel(0, 1, true)}).empty());  // held when it was plugged in: no press
-    EXPECT_TRUE(test::contains(hands.take_notice(), "G29 is ready"));
+    EXPECT_TRUE(contains(hands.take_notice(), "G29 is ready"));
     EXPECT_TRUE(hands.look({wheel(0, 1, false)}).empty());
     EXPECT_EQ(hands.look({wheel(0, 1, true)}), std::vector{Action::Pause});
     EXPECT_TRUE(hands.look({wheel(0, 1, true)}).empty());
     EXPECT_EQ(hands.take_notice(), "");
     hands.look({});
-    EXPECT_TRUE(test::contains(hands.take_notice(), "G29 was unplugged"));
+    EXPECT_TRUE(contains(hands.take_notice(), "G29 was unplugged"));
     EXPECT_DOUBLE_EQ(hands.next({}, 0, 1.0 / 60).throttle, 0);  // nothing stays pressed
 }
 
 TEST(InputDevices, SwitchesStayAsTheyWereSet) {
-    InputDevices hands;
+    drive::InputDevices hands;
     EXPECT_TRUE(hands.press(Action::IndicateLeft));
     EXPECT_EQ(hands.next({}, 0, 0.1).indicator, traffic::Indicator::Left);
     hands.press(Action::IndicateRight);
@@ -143,7 +145,7 @@ TEST(InputDevices, SwitchesStayAsTheyWereSet) {
 }
 
 TEST(KeyboardWheel, TurnsWhileHeldReturnsAndTurnsLessAtSpeed) {
-    KeyboardWheel wheel;
+    drive::KeyboardWheel wheel;
     double before = 0;
     for (int i = 0; i < 120; ++i) {
         const double now = wheel.turn({.left = true}, 0, 1.0 / 60);
@@ -162,17 +164,18 @@ TEST(KeyboardWheel, TurnsWhileHeldReturnsAndTurnsLessAtSpeed) {
 // one they are as they are meant.
 TEST(Panels, StayInTheWindow) {
     const glm::vec2 large(1280, 800);
-    const PanelPlace left = panel_place({8, 320}, {520, 260}, large), right = panel_place({-8, -8}, {420, 300}, large);
+    const drive::PanelPlace left = drive::panel_place({8, 320}, {520, 260}, large),
+                            right = drive::panel_place({-8, -8}, {420, 300}, large);
     EXPECT_EQ(left.corner, glm::vec2(8, 320));
     EXPECT_EQ(left.size, glm::vec2(520, 260));
-    EXPECT_EQ(right.corner, glm::vec2(1280 - 8 - 420, 800 - kStatusHeight - 8 - 300));
+    EXPECT_EQ(right.corner, glm::vec2(1280 - 8 - 420, 800 - drive::kStatusHeight - 8 - 300));
     EXPECT_EQ(right.size, glm::vec2(420, 300));
     using V = glm::vec2;
     for (const V window : {V(840, 525), V(1024, 600), V(400, 900), V(120, 80), V(3840, 2160)})
         for (const V size : {V(520, 260), V(430, 560), V(620, 740), V(5000, 5000)})
             for (const V place : {V(8, 8), V(8, 320), V(-8, 440), V(-446, 8), V(-8, -8)}) {
-                const PanelPlace at = panel_place(place, size, window);
-                const float low = std::max(window.y - kStatusHeight, window.y / 2);
+                const drive::PanelPlace at = drive::panel_place(place, size, window);
+                const float low = std::max(window.y - drive::kStatusHeight, window.y / 2);
                 EXPECT_GE(std::min(at.corner.x, at.corner.y), 0);
                 EXPECT_LE(at.corner.x + at.size.x, window.x + 0.01f);  // px, of floats
                 EXPECT_LE(at.corner.y + at.size.y, low + 0.01f);
@@ -181,11 +184,12 @@ TEST(Panels, StayInTheWindow) {
             }
     // The two columns of panels do not hide each other in the smallest window that they are meant for.
     const V small(840, 525);
-    const PanelPlace light = panel_place({8, 8}, {520, 300}, small), eye = panel_place({8, 320}, {520, 260}, small),
-                     passes = panel_place({-8, 8}, {380, 420}, small);
+    const drive::PanelPlace light = drive::panel_place({8, 8}, {520, 300}, small),
+                            eye = drive::panel_place({8, 320}, {520, 260}, small),
+                            passes = drive::panel_place({-8, 8}, {380, 420}, small);
     EXPECT_GE(eye.corner.y, light.corner.y + light.size.y);
     EXPECT_GE(passes.corner.x, light.corner.x + light.size.x);
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

@@ -8,10 +8,10 @@
 namespace vesper::test {
 namespace {
 
-using Kind = DriveEvent::Kind;
+using Kind = drive::DriveEvent::Kind;
 
 TEST(DriveEvents, ComeOutAsTheyWentIn) {
-    std::vector<DriveEvent> wanted;
+    std::vector<drive::DriveEvent> wanted;
     const auto add = [&](Kind kind, traffic::DriverInput input = {}, std::optional<glm::dvec4> pose = {},
                          const std::string& name = "", uint64_t place = 0) {
         wanted.push_back({.kind = kind,
@@ -33,13 +33,13 @@ TEST(DriveEvents, ComeOutAsTheyWentIn) {
     add(Kind::Set, {}, {}, "age", 9);
     add(Kind::Step);
     add(Kind::Frame);
-    DriveEvents events;
-    for (const DriveEvent& event : wanted) events.push_back(event);
+    drive::DriveEvents events;
+    for (const drive::DriveEvent& event : wanted) events.push_back(event);
     EXPECT_EQ(events.size(), wanted.size());
     EXPECT_EQ(events.frames(), 3u);
     for (int again = 0; again < 2; ++again) {
         size_t i = 0;
-        for (const DriveEvent& event : events) {
+        for (const drive::DriveEvent& event : events) {
             ASSERT_LT(i, wanted.size());
             EXPECT_EQ(event.kind, wanted[i].kind) << i;
             EXPECT_EQ(event.input, wanted[i].input) << i;
@@ -51,7 +51,7 @@ TEST(DriveEvents, ComeOutAsTheyWentIn) {
         }
         EXPECT_EQ(i, wanted.size());
     }
-    EXPECT_TRUE(DriveEvents().begin() == DriveEvents().end());
+    EXPECT_TRUE(drive::DriveEvents().begin() == drive::DriveEvents().end());
 }
 
 // A day of driving: 5 million steps and half as many frames.
@@ -62,14 +62,14 @@ TEST(DriveEvents, OfADayTakeFewMegabytes) {
     };
     constexpr size_t kSteps = 86400 * 60;
     const size_t before = taken();
-    DriveEvents events;
+    drive::DriveEvents events;
     for (size_t i = 0; i < kSteps; ++i) {
         events.push_back({.kind = Kind::Step, .input = {.autopilot = true}, .pose = {}, .name = {}, .value = {}});
         if (i % 2) events.push_back({.kind = Kind::Frame, .name = {}, .value = {}});
     }
     EXPECT_LT(taken() - before, 2 * events.size()) << "1 byte each, in a list that has room for twice as many";
     const size_t unknown = taken();
-    DriveEvents driven;
+    drive::DriveEvents driven;
     for (size_t i = 0; i < kSteps; ++i)
         driven.push_back({.kind = Kind::Step, .pose = glm::dvec4(double(i)), .name = {}, .value = {}});
     EXPECT_LT(taken() - unknown, 36 * kSteps) << "33 bytes each, and some room";

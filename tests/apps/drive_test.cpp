@@ -18,6 +18,9 @@
 namespace vesper::test {
 namespace {
 
+using drive::DriveEvent, drive::Session;
+using render::Frame;
+
 const std::string kWorld = std::string(VESPER_SOURCE_DIR) + "/data/rivoli/rivoli.world.json";
 constexpr VkExtent2D kSize{160, 100};
 
@@ -83,7 +86,7 @@ std::vector<DriveEvent> adventure() {
 
 TEST(Drive, AReplayHasTheSameBytes) {
     const TempFolder scratch;
-    Device device({.select = ""});
+    gpu::Device device({.select = ""});
     std::vector<Frame> driven;
     {
         Session session(device, {.scene = kWorld, .seed = 3, .settings = {{"age", "60"}}});
@@ -94,12 +97,12 @@ TEST(Drive, AReplayHasTheSameBytes) {
         for (Frame& frame : play(session, std::vector(events.begin() + 40, events.end())))
             driven.push_back(std::move(frame));
         EXPECT_FALSE(std::filesystem::exists(scratch / "drive.json"));
-        const Drive unfinished = read_drive(scratch / "drive.json.part");
+        const drive::Drive unfinished = drive::read_drive(scratch / "drive.json.part");
         EXPECT_FALSE(unfinished.complete);
         EXPECT_EQ(unfinished.events.size(), events.size());
         session.stop_recording();
     }
-    const Drive drive = read_drive(scratch / "drive.json");
+    const drive::Drive drive = drive::read_drive(scratch / "drive.json");
     EXPECT_TRUE(drive.complete);
     EXPECT_EQ(drive.start.seed, 3u);
     Session session(device, {.scene = drive.start.scene,
@@ -120,18 +123,18 @@ TEST(Drive, AReplayHasTheSameBytes) {
 TEST(Drive, ARecordingThatBreaksOffCanBeRead) {
     const TempFolder scratch;
     {
-        DriveRecorder recorder(
+        drive::DriveRecorder recorder(
             {.scene = kWorld, .run = {}, .scenario = {}, .seed = 1, .time_step = 1.0 / 60, .settings = {}});
         recorder.open(scratch / "whole.json");
         for (const DriveEvent& event : adventure()) recorder.add(event);
         recorder.close();
     }
     const std::string text = read_text(scratch / "whole.json");
-    const size_t whole = read_drive(scratch / "whole.json").events.size(), head = text.find('\n') + 1;
+    const size_t whole = drive::read_drive(scratch / "whole.json").events.size(), head = text.find('\n') + 1;
     EXPECT_EQ(whole, adventure().size());
     for (size_t length = head; length < text.size(); length += 7) {
         std::ofstream(scratch / "cut.json") << text.substr(0, length);
-        const Drive cut = read_drive(scratch / "cut.json");
+        const drive::Drive cut = drive::read_drive(scratch / "cut.json");
         const auto lines = size_t(std::count(text.begin() + long(head), text.begin() + long(length), '\n'));
         EXPECT_GE(cut.events.size() + (length + 4 > text.size()), std::min(lines, whole)) << length;
     }
@@ -140,18 +143,18 @@ TEST(Drive, ARecordingThatBreaksOffCanBeRead) {
           "{\"vesper_drive\":1,\"scene\":\"x\",\"events\":[{\"step\":{\"steering\":7},\"pose\":[0,0,0,0]}]}",
           "{\"vesper_drive\":1,\"scene\":\"x\",\"events\":[{\"jump\":1}]}"}) {
         std::ofstream(scratch / "bad.json") << bad;
-        EXPECT_THROW(read_drive(scratch / "bad.json"), Error) << bad;
+        EXPECT_THROW(drive::read_drive(scratch / "bad.json"), Error) << bad;
     }
 }
 
 TEST(Drive, SettingsAreTheOptionsOfRender) {
-    DriveSettings settings;
+    drive::DriveSettings settings;
     settings.set("operator", "reinhard");
     settings.set("display-peak", "500");
     settings.set("rods", "true");
     settings.set("sun", "-4");
     settings.set("free", "1,2,3,90,-10");
-    EXPECT_EQ(settings.render().tone_operator, Operator::Reinhard);
+    EXPECT_EQ(settings.render().tone_operator, render::Operator::Reinhard);
     EXPECT_EQ(settings.render().display.peak, 500);
     EXPECT_EQ(settings.sun(), -4.0);
     EXPECT_EQ(settings.free_camera().position, glm::dvec3(1, 2, 3));
@@ -165,7 +168,7 @@ TEST(Drive, SettingsAreTheOptionsOfRender) {
         EXPECT_THROW(settings.set(name, value), Error) << name;
     EXPECT_EQ(settings.values(), before);
     settings.set("operator", "");
-    EXPECT_EQ(settings.render().tone_operator, Operator::Irawan);
+    EXPECT_EQ(settings.render().tone_operator, render::Operator::Irawan);
 }
 
 TEST(Drive, SettingsAreRefusedWithTheirPlace) {
@@ -173,7 +176,7 @@ TEST(Drive, SettingsAreRefusedWithTheirPlace) {
     const auto refused = [&](const std::string& settings, const std::string& events) {
         scratch.write("d.json", "{\"vesper_drive\":1,\"scene\":\"x.gltf\",\"settings\":{" + settings +
                                     "},\"events\":[" + events + "]}");
-        return complaint_of([&] { read_drive(scratch / "d.json"); });
+        return complaint_of([&] { drive::read_drive(scratch / "d.json"); });
     };
     EXPECT_EQ(refused("", R"({"set":{"age":"50"}})"), "");
     for (const auto& [name, value] : std::map<std::string, std::string>{{"help", "1"},
@@ -192,27 +195,27 @@ TEST(Drive, SettingsAreRefusedWithTheirPlace) {
             EXPECT_TRUE(contains(refused(pair, ""), "d.json: /settings: ")) << pair;
         }
     }
-    DriveSettings settings;
+    drive::DriveSettings settings;
     settings.set("free", "0,0,0,720,0");
     EXPECT_NEAR(settings.free_camera().yaw, 0, 1e-12);
 }
 
 // What is given beside a recording wins over what it sets, and starting again brings back the settings of the start.
 TEST(Drive, GivenSettingsWinOverRecordedOnes) {
-    Device device({.select = ""});
-    const DriveSettings::Values given{{"operator", "grave"}};
+    gpu::Device device({.select = ""});
+    const drive::DriveSettings::Values given{{"operator", "grave"}};
     Session session(device, {.scene = kWorld, .settings = {{"operator", "grave"}, {"age", "30"}}});
-    DriveEvents events;
+    drive::DriveEvents events;
     events.push_back({.kind = DriveEvent::Kind::Set, .pose = {}, .name = "operator", .value = "ward"});
     events.push_back({.kind = DriveEvent::Kind::Set, .pose = {}, .name = "age", .value = "70"});
-    DriveEvents elsewhere = events;
+    drive::DriveEvents elsewhere = events;
     events.push_back({.kind = DriveEvent::Kind::Step, .input = {.throttle = 1}, .pose = {}, .name = {}, .value = {}});
     elsewhere.push_back({.kind = DriveEvent::Kind::Step,
                          .input = {.throttle = 1},
                          .pose = glm::dvec4(1, 2, 3, 4),
                          .name = {},
                          .value = {}});
-    Playback playback(events, given);
+    drive::Playback playback(events, given);
     while (playback.next(session)) {
     }
     EXPECT_EQ(session.settings().values().at("operator"), "grave");
@@ -220,10 +223,10 @@ TEST(Drive, GivenSettingsWinOverRecordedOnes) {
     EXPECT_FALSE(playback.strayed());
     session.set("operator", "reinhard");
     playback.rewind(session);
-    EXPECT_EQ(session.settings().values(), (DriveSettings::Values{{"operator", "grave"}, {"age", "30"}}));
+    EXPECT_EQ(session.settings().values(), (drive::DriveSettings::Values{{"operator", "grave"}, {"age", "30"}}));
     EXPECT_EQ(session.world().steps(), 0u);
     EXPECT_EQ(playback.next(session), DriveEvent::Kind::Set);
-    Playback other(elsewhere);
+    drive::Playback other(elsewhere);
     while (other.next(session)) {
     }
     EXPECT_TRUE(other.strayed());
@@ -231,7 +234,7 @@ TEST(Drive, GivenSettingsWinOverRecordedOnes) {
 }
 
 TEST(Drive, LampsThatAreNotThereAreRefused) {
-    Device device({.select = ""});
+    gpu::Device device({.select = ""});
     EXPECT_TRUE(contains(complaint_of([&] {
                              Session(device, {.scene = kWorld, .settings = {{"lamp:strete lamp", "0"}}});
                          }),
@@ -243,11 +246,11 @@ TEST(Drive, LampsThatAreNotThereAreRefused) {
 }
 
 TEST(Drive, MovingLampsLightTheStreetAndGroupsDim) {
-    Device device({.select = ""});
+    gpu::Device device({.select = ""});
     Session session(device, {.scene = kWorld, .settings = {}});
-    const Outputs outputs{.display = false, .scene = true};
+    const render::Outputs outputs{.display = false, .scene = true};
     std::vector<std::string> lamps;
-    for (const LampGroup& group : session.scenery().lamp_groups()) lamps.push_back(group.name);
+    for (const drive::LampGroup& group : session.scenery().lamp_groups()) lamps.push_back(group.name);
     for (const char* name :
          {"street lamp", "low beam", "high beam", "brake lamp", "tunnel lamp", "left front indicator"})
         EXPECT_TRUE(std::find(lamps.begin(), lamps.end(), name) != lamps.end()) << name;
@@ -272,7 +275,7 @@ TEST(Drive, MovingLampsLightTheStreetAndGroupsDim) {
 }
 
 TEST(Drive, EveryCameraSeesTheStreet) {
-    Device device({.select = ""});
+    gpu::Device device({.select = ""});
     Session session(device, {.scene = kWorld, .settings = {}});
     std::vector<std::vector<uint8_t>> seen;
     for (const char* camera : {"driver", "chase", "bird", "free"}) {
@@ -285,7 +288,7 @@ TEST(Drive, EveryCameraSeesTheStreet) {
 
 // Another device, as after one was lost: the eye goes on where it was.
 TEST(Drive, GoesOnWithAnotherDevice) {
-    Device device({.select = ""}), spare({.select = ""});
+    gpu::Device device({.select = ""}), spare({.select = ""});
     Session session(device, {.scene = kWorld, .settings = {}}), same(device, {.scene = kWorld, .settings = {}});
     const auto drive = [&](Session& s) {
         for (int i = 0; i < 10; ++i) s.step({.autopilot = true});

@@ -33,7 +33,7 @@ protected:
                                        {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
         folder.write("s.gltf", scene.text());
         EXPECT_EQ(run("render s.gltf --size 60x60 -o s.exr"), 0) << said;
-        return read_exr(folder / "s.exr").rgb;
+        return io::read_exr(folder / "s.exr").rgb;
     }
 };
 

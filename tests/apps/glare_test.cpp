@@ -19,7 +19,7 @@ class GlareProgram : public ProgramTest {
 protected:
     void write(const std::string& name, const std::string& text) { std::ofstream(folder / name) << text; }
     std::string header(const std::string& name, const std::string& key) {
-        for (const auto& [k, value] : read_exr(folder / name).header)
+        for (const auto& [k, value] : io::read_exr(folder / name).header)
             if (k == key) return value;
         return "none";
     }
@@ -57,8 +57,8 @@ TEST_F(GlareProgram, ALampElsewhereVeilsABlackPicture) {
                   "--linear-max 10 --display-peak 100 --display-black 0.001 -o out.exr"),
               0)
         << said;
-    const HdrImage shown = read_hdr_image(folder / "out.exr");
-    const EyeScatter psf([](double theta) { return cie_total_glare(theta, {60, 1}); });
+    const io::HdrImage shown = io::read_hdr_image(folder / "out.exr");
+    const vision::EyeScatter psf([](double theta) { return vision::cie_total_glare(theta, {60, 1}); });
     for (const int column : {3, 32, 60}) {
         const double x = (column + 0.5 - 32) / 20 * std::tan(4 / kDegreesPerRadian),
                      y = (20.5 - 20) / 20 * std::tan(4 / kDegreesPerRadian);
@@ -76,7 +76,7 @@ TEST_F(GlareProgram, ALampElsewhereVeilsABlackPicture) {
     EXPECT_EQ(header("out.exr", "vesper:glare:age"), "60");
     const double e = 5 * std::cos(10 / kDegreesPerRadian), below = std::cos(40 / kDegreesPerRadian);
     EXPECT_NEAR(std::stod(header("out.exr", "vesper:glare:veil")),
-                e * cie_general_glare(10, {60, 1}) + below * cie_general_glare(40, {60, 1}), 1e-6);
+                e * vision::cie_general_glare(10, {60, 1}) + below * vision::cie_general_glare(40, {60, 1}), 1e-6);
 }
 
 // Other columns or units than there are would be read as what they are not.
@@ -119,7 +119,8 @@ TEST_F(GlareProgram, LampsAreReportedInsideAndOutsideThePicture) {
         EXPECT_EQ(cell("lamps.csv", "inside", 1), aside < 1 ? "1.000" : "0.000");
         // Seen or not, the veil is that of the lamp.
         const double theta = std::atan(aside / 10) * kDegreesPerRadian,
-                     want = 20 / square * std::cos(theta / kDegreesPerRadian) * cie_general_glare(theta, {23, 0.5});
+                     want = 20 / square * std::cos(theta / kDegreesPerRadian) *
+                            vision::cie_general_glare(theta, {23, 0.5});
         // 5 %: a pixel is 0.57 degrees, and the light is taken to come from its middle.
         EXPECT_NEAR(std::stod(cell("log.csv", "veil", 1)) / want, 1, 0.05) << aside;
         EXPECT_EQ(header("a.exr", "vesper:glare:veil").substr(0, 6), cell("log.csv", "veil", 1).substr(0, 6));

@@ -9,20 +9,20 @@
 #include "places.h"
 #include "render/renderer.h"
 
-namespace vesper {
+namespace vesper::test {
 namespace {
 
 constexpr double kDistance = 25, kReflectance = 0.5;
 
 /// A wall of 40 m by 20 m, 25 m ahead of a lamp at the origin. The eye is where the lamp is.
-Scene headlamp_and_wall() {
-    Scene scene;
-    Material wall;
+scene::Scene headlamp_and_wall() {
+    scene::Scene scene;
+    scene::Material wall;
     wall.base_colour = glm::vec4(float(kReflectance), float(kReflectance), float(kReflectance), 1);
     scene.materials.push_back(wall);
-    Primitive plane;
+    scene::Primitive plane;
     for (const glm::vec2 corner : {glm::vec2(-20, -10), {20, -10}, {20, 10}, {-20, 10}}) {
-        Vertex vertex;
+        scene::Vertex vertex;
         vertex.position = {corner.x, corner.y, -kDistance}, vertex.normal = {0, 0, 1};
         plane.vertices.push_back(vertex);
         plane.bounds.add(vertex.position);
@@ -30,8 +30,8 @@ Scene headlamp_and_wall() {
     plane.indices = {0, 1, 2, 0, 2, 3};
     scene.meshes.push_back({"wall", {plane}});
     scene.distributions.push_back(
-        read_distribution(std::filesystem::path(VESPER_SOURCE_DIR) / "data/photometry/low-beam.csv"));
-    scene.lamps.push_back({.name = "low beam", .kind = Lamp::Kind::Measured, .intensity = 1, .distribution = 0});
+        photometry::read_distribution(std::filesystem::path(VESPER_SOURCE_DIR) / "data/photometry/low-beam.csv"));
+    scene.lamps.push_back({.name = "low beam", .kind = scene::Lamp::Kind::Measured, .intensity = 1, .distribution = 0});
     scene.nodes.resize(2);
     scene.nodes[0].mesh = 0, scene.nodes[1].lamp = 0;
     return scene;
@@ -49,13 +49,14 @@ constexpr Point kPoints[] = {
     {"P7", -8, 0, 65, 1e9},          {"P8", -4, 0, 125, 1e9}};
 
 TEST(HeadlampOnAWall, MeetsTheRegulationInTheRenderedImage) {
-    Device device(DeviceOptions{});
-    const Scene scene = headlamp_and_wall();
-    Renderer renderer(device, scene);
+    gpu::Device device(gpu::DeviceOptions{});
+    const scene::Scene scene = headlamp_and_wall();
+    render::Renderer renderer(device, scene);
     const VkExtent2D extent{1200, 600};
-    const SceneFrame moment{world_transforms(scene, 0)};
-    const View view = View::symmetric(extent, float(2 * std::atan(0.1)), glm::mat4(1));  // 10 % up and down, 20 % aside
-    const Frame frame = renderer.render({}, view, moment, 0, {.display = false, .scene = true});
+    const gpu_scene::SceneFrame moment{scene::world_transforms(scene, 0)};
+    const gpu_scene::View view =
+        gpu_scene::View::symmetric(extent, float(2 * std::atan(0.1)), glm::mat4(1));  // 10 % up and down, 20 % aside
+    const render::Frame frame = renderer.render({}, view, moment, 0, {.display = false, .scene = true});
     // Type A angles, deg: a vertical polar axis.
     const auto candela_at = [&](double h, double v) {
         // Where their direction meets the wall, relative to its distance:
@@ -71,7 +72,7 @@ TEST(HeadlampOnAWall, MeetsTheRegulationInTheRenderedImage) {
         const double illuminance = seen * std::numbers::pi / kReflectance, cosine = 1 / std::sqrt(1 + x * x + y * y);
         const double candela = illuminance * kDistance * kDistance / (cosine * cosine * cosine);
         // And it is the file's own intensity; pixels of 0.02 degrees blur the cut-off a little.
-        const double stated = intensity(scene.distributions[0], {x, y, -1});
+        const double stated = photometry::intensity(scene.distributions[0], {x, y, -1});
         EXPECT_NEAR(candela, stated, 0.01 * stated) << h << ", " << v;
         return candela;
     };
@@ -90,4 +91,4 @@ TEST(HeadlampOnAWall, MeetsTheRegulationInTheRenderedImage) {
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

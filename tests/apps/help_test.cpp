@@ -85,10 +85,11 @@ TEST_P(Help, NamesWhatIsUnknown) {
 }
 
 /// Calls back with the three commands that have most options.
-void for_large_commands(const std::function<void(const Command&)>& look) {
-    Program vesper("", "vesper"), drive("", "vesper-drive");
-    add_render(vesper), add_tonemap(vesper), add_drive(drive);
-    for (const Command& command : {vesper.command("render"), vesper.command("tonemap"), Command(drive)}) look(command);
+void for_large_commands(const std::function<void(const apps::Command&)>& look) {
+    apps::Program vesper("", "vesper"), drive("", "vesper-drive");
+    commands::add_render(vesper), commands::add_tonemap(vesper), drive::add_drive(drive);
+    for (const apps::Command& command : {vesper.command("render"), vesper.command("tonemap"), apps::Command(drive)})
+        look(command);
 }
 
 bool lists(const std::string& page, const std::string& option) {
@@ -99,7 +100,7 @@ bool lists(const std::string& page, const std::string& option) {
 }
 
 TEST(HelpPages, TheFirstIsShort) {
-    for_large_commands([](const Command& command) {
+    for_large_commands([](const apps::Command& command) {
         const std::string page = command.help();
         EXPECT_LE(lines_of(page).size(), 40u) << page;
         for (const std::string& line : lines_of(page)) EXPECT_LE(line.size(), 100u) << line;
@@ -109,13 +110,13 @@ TEST(HelpPages, TheFirstIsShort) {
 }
 
 TEST(HelpPages, AllOptionsAreOnTheOther) {
-    for_large_commands([](const Command& command) {
+    for_large_commands([](const apps::Command& command) {
         const std::string first = command.help(), all = command.help(true);
         const std::string unbroken = std::regex_replace(first, std::regex("\\s+"), " ");
         size_t beyond = 0;
-        for (const Option& option : command.options()) {
-            const std::string name = Command::listed_name(option);
-            const bool on_first = option.is_positional() || option.group() == kFirstPage;
+        for (const apps::Option& option : command.options()) {
+            const std::string name = apps::Command::listed_name(option);
+            const bool on_first = option.is_positional() || option.group() == apps::kFirstPage;
             EXPECT_TRUE(lists(all, name)) << command.name() << " " << name;
             EXPECT_EQ(lists(first, name), on_first) << command.name() << " " << name;
             beyond += !on_first;
@@ -131,11 +132,11 @@ TEST(HelpPages, AllOptionsAreOnTheOther) {
 
 // Where an option is declared says where it is listed, and what its page shows of it.
 TEST(HelpPages, AnOptionIsWhereItWasDeclared) {
-    Program program("Does things.", "program");
+    apps::Program program("Does things.", "program");
     int number = 0;
-    program.add_option("--plain", number, "Said at once\nand at length").check(range(1, 7));
+    program.add_option("--plain", number, "Said at once\nand at length").check(apps::range(1, 7));
     program.help_group("Rare things");
-    program.add_option("--rare", number, "Seldom needed").check(one_of({1, 2}));
+    program.add_option("--rare", number, "Seldom needed").check(apps::one_of({1, 2}));
     program.help_group();
     bool last = false;
     program.add_flag("--last", last, "A flag");

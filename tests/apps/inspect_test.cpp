@@ -34,17 +34,19 @@ protected:
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
     nlohmann::json json(const std::string& file) const { return nlohmann::json::parse(read_text(folder / file)); }
-    Image picture(const std::string& file) const { return decode_image(read_file(folder / file, 1u << 26), 8192); }
+    Image picture(const std::string& file) const {
+        return io::decode_image(io::read_file(folder / file, 1u << 26), 8192);
+    }
     bool prints(const std::string& part) const { return printed.find(part) != std::string::npos; }
 
     /// 40 x 20 px, luminance 2 on the left and 8 on the right, a dark, a negative and a missing pixel in the first row.
     void write_picture(double white) {
-        HdrImage image{.width = 40, .height = 20, .white_luminance = white};
+        io::HdrImage image{.width = 40, .height = 20, .white_luminance = white};
         for (uint32_t i = 0; i < 800; ++i) image.rgb.insert(image.rgb.end(), 3, i % 40 < 20 ? 2.0f : 8.0f);
         const float odd[] = {0, -1, std::numeric_limits<float>::quiet_NaN()};
         for (size_t i = 0; i < 3; ++i) std::fill_n(image.rgb.begin() + static_cast<ptrdiff_t>(3 * i), 3, odd[i]);
         image.rgb[3 * 45] = 4, image.rgb[3 * 45 + 1] = 1, image.rgb[3 * 45 + 2] = 0;
-        write_exr(folder / "a.exr", image);
+        io::write_exr(folder / "a.exr", image);
     }
 };
 
@@ -95,8 +97,8 @@ TEST_F(Inspect, NamesAreShownAsText) {
 }
 
 TEST_F(Inspect, ASourceThatIsAPicture) {
-    HdrImage image{.width = 2, .height = 1, .rgb = {100, 100, 100, 700, 700, 700}, .white_luminance = 1};
-    write_exr(folder / "sign.exr", image);
+    io::HdrImage image{.width = 2, .height = 1, .rgb = {100, 100, 100, 700, 700, 700}, .white_luminance = 1};
+    io::write_exr(folder / "sign.exr", image);
     GltfFile file;
     file.root["materials"] = {{{"name", "sign"}}};
     file.show({{"attributes", {{"POSITION", file.vec3(kTriangle)}, {"TEXCOORD_0", file.vec2({0, 0, 1, 0, 0, 1})}}},

@@ -12,8 +12,8 @@ namespace {
 constexpr uint32_t kTexels = 16, kZoom = 3;  // texels; pixels per texel
 
 /// 1e-3 to 1e8 cd/m^2.
-HdrImage picture() {
-    HdrImage image{.width = kTexels, .height = kTexels, .white_luminance = 1};
+io::HdrImage picture() {
+    io::HdrImage image{.width = kTexels, .height = kTexels, .white_luminance = 1};
     for (uint32_t i = 0; i < kTexels * kTexels; ++i)
         for (int c = 0; c < 3; ++c)
             image.rgb.push_back(std::pow(10.0f, -3 + 11.0f * float(i * 77 % 256) / 255 - 0.1f * float(c)));
@@ -37,22 +37,22 @@ GltfFile square() {
 }
 
 std::vector<float> rendered(const std::filesystem::path& file, VkExtent2D extent) {
-    Device device(DeviceOptions{});
-    const Scene scene = read_gltf(file).scene;
-    Renderer renderer(device, scene);
-    const View view = View::symmetric(extent, float(2 * std::atan(1.0)), glm::mat4(1));
-    return renderer.render({}, view, {world_transforms(scene, 0)}, 0, {.display = false, .scene = true}).scene;
+    gpu::Device device(gpu::DeviceOptions{});
+    const scene::Scene scene = scene::read_gltf(file).scene;
+    render::Renderer renderer(device, scene);
+    const gpu_scene::View view = gpu_scene::View::symmetric(extent, float(2 * std::atan(1.0)), glm::mat4(1));
+    return renderer.render({}, view, {scene::world_transforms(scene, 0)}, 0, {.display = false, .scene = true}).scene;
 }
 
 TEST(LuminousPicture, APixelShowsTheLuminanceOfThePicture) {
     const TempFolder folder;
-    const HdrImage image = picture();
-    write_exr(folder / "sign.exr", image);
+    const io::HdrImage image = picture();
+    io::write_exr(folder / "sign.exr", image);
     const auto input = folder.write("in.gltf", square().text());
     for (const double scale : {1.0, 0.5}) {
         const nlohmann::json photometry = {
             {"version", 1}, {"emitters", {{{"materials", "sign"}, {"image", "sign.exr"}, {"scale", scale}}}}};
-        convert(input, folder.write("p.json", photometry.dump()), folder / "out.glb");
+        scene::convert(input, folder.write("p.json", photometry.dump()), folder / "out.glb");
         const std::vector<float> scene = rendered(folder / "out.glb", {kTexels * kZoom, kTexels * kZoom});
         for (uint32_t y = 0; y < kTexels * kZoom; ++y)
             for (uint32_t x = 0; x < kTexels * kZoom; ++x)

@@ -16,7 +16,7 @@ namespace {
 class MergeProgram : public testing::Test {
 protected:
     TempFolder folder;
-    HdrImage scene = night(96, 72);
+    io::HdrImage scene = night(96, 72);
     std::string said, printed;
 
     void SetUp() override {
@@ -27,8 +27,8 @@ protected:
             const uint32_t over = 1u << 2 * std::min(i, 4u);
             const auto app1 =
                 exif_of(over, 200, i < 5 ? 4 : 2, 1, static_cast<uint16_t>(i < 6 ? 100 : 100u << 2 * (i - 5)));
-            replace_file(folder / ("p" + std::to_string(i) + ".jpg"), jpeg_with(96, 72, photo.image.rgba, app1));
-            write_png(folder / ("q" + std::to_string(i) + ".png"), 96, 72, photo.image.rgba);
+            io::replace_file(folder / ("p" + std::to_string(i) + ".jpg"), jpeg_with(96, 72, photo.image.rgba, app1));
+            io::write_png(folder / ("q" + std::to_string(i) + ".png"), 96, 72, photo.image.rgba);
         }
     }
     int merge(const std::string& arguments) {
@@ -40,7 +40,7 @@ protected:
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
     /// The median of log10 of merged over true green, and how far from it 95 % of the pixels are at most.
-    std::pair<double, double> compare(const HdrImage& merged) const {
+    std::pair<double, double> compare(const io::HdrImage& merged) const {
         std::vector<double> logs;
         for (size_t i = 1; i < merged.rgb.size(); i += 3)
             logs.push_back(std::log(static_cast<double>(merged.rgb[i] / scene.rgb[i])));
@@ -54,13 +54,13 @@ TEST_F(MergeProgram, MergesJpegsByTheirExif) {
     EXPECT_TRUE(contains(printed, "response of G") && contains(printed, "decades") &&
                 contains(printed, "never well exposed"))
         << printed;
-    const HdrImage merged = read_hdr_image(folder / "a.exr");
+    const io::HdrImage merged = io::read_hdr_image(folder / "a.exr");
     EXPECT_EQ(merged.white_luminance, 0.0);
     EXPECT_LT(compare(merged).second, 0.05);
-    EXPECT_LT(response_error(read_response(folder / "r.csv"), srgb_camera(), 1, 24, 231), 0.05);
+    EXPECT_LT(response_error(photometry::read_response(folder / "r.csv"), srgb_camera(), 1, 24, 231), 0.05);
     ASSERT_EQ(merge("p0.jpg p1.jpg p2.jpg p3.jpg p4.jpg p5.jpg p6.jpg p7.jpg --curve r.csv --scale 2 -o b.exr"), 0)
         << said;
-    const HdrImage again = read_hdr_image(folder / "b.exr");
+    const io::HdrImage again = io::read_hdr_image(folder / "b.exr");
     EXPECT_EQ(again.white_luminance, 1.0);
     EXPECT_NEAR(again.rgb[300] / merged.rgb[300], 2, 1e-4);
 }
@@ -73,7 +73,7 @@ TEST_F(MergeProgram, ScalesToAMeasuredLuminance) {
         "q0.png q1.png q2.png q3.png q4.png q5.png q6.png q7.png --exposures 1/200,1/50,0.08,.32,1.28,5.12,20.48,81.92 "
         "--curve srgb ";
     ASSERT_EQ(merge(files + "--luminance 20,30," + std::to_string(known) + " -o a.exr"), 0) << said;
-    const auto [scale, spread] = compare(read_hdr_image(folder / "a.exr"));
+    const auto [scale, spread] = compare(io::read_hdr_image(folder / "a.exr"));
     EXPECT_NEAR(scale, 1, 0.03);
     EXPECT_LT(spread, 0.05);
     EXPECT_TRUE(contains(printed, "cd/m^2"));
@@ -82,7 +82,7 @@ TEST_F(MergeProgram, ScalesToAMeasuredLuminance) {
 TEST_F(MergeProgram, RefusesInOneLine) {
     folder.write("bad.png", "\x89PNG\r\n\x1a\n");
     folder.write("r.csv", "code,\n");
-    write_png(folder / "small.png", 2, 2, std::vector<uint8_t>(16, 100));
+    io::write_png(folder / "small.png", 2, 2, std::vector<uint8_t>(16, 100));
     for (const char* arguments : {"",
                                   "q0.png -o a.exr",
                                   "q0.png q1.png -o a.exr",

@@ -16,12 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Scene night_street() {
+scene::Scene night_street() {
     const fs::path folder = fs::temp_directory_path() / ("vesper-street-" + std::to_string(getpid()));
     fs::create_directories(folder);
     const fs::path rivoli = fs::path(VESPER_SOURCE_DIR) / "data/rivoli";
-    convert(rivoli / "rivoli.gltf", rivoli / "rivoli.photometry.json", folder / "night.gltf", {});
-    Scene scene = read_gltf(folder / "night.gltf").scene;
+    scene::convert(rivoli / "rivoli.gltf", rivoli / "rivoli.photometry.json", folder / "night.gltf", {});
+    scene::Scene scene = scene::read_gltf(folder / "night.gltf").scene;
     fs::remove_all(folder);
     return scene;
 }
@@ -29,22 +29,22 @@ Scene night_street() {
 // Two frames half a second apart: operators that remember go on from the first. One pixel of ten thousand may be more
 // than a code off, where float and double fall on either side of a bin's edge.
 TEST(NightStreet, EveryOperatorEqualsTheReference) {
-    const Scene scene = night_street();
+    const scene::Scene scene = night_street();
     const VkExtent2D extent{1680, 1050};
     std::string complaints;
-    Device device(
+    gpu::Device device(
         {.select = "", .validation = true, .on_message = [&](const std::string& m) { complaints += m + "\n"; }});
-    Renderer renderer(device, scene);
-    for (const OperatorInfo& op : operators()) {
-        if (op.tone_operator == Operator::Ldr) continue;  // shows no luminance
-        RenderSettings settings;
+    render::Renderer renderer(device, scene);
+    for (const render::OperatorInfo& op : render::operators()) {
+        if (op.tone_operator == render::Operator::Ldr) continue;  // shows no luminance
+        render::RenderSettings settings;
         settings.tone_operator = op.tone_operator;
         renderer.reset_adaptation();
         shared::EyeState eye{};
         for (const float seconds : {0.0f, 0.5f}) {
-            const SceneFrame moment{world_transforms(scene, double(seconds))};
-            const Frame got = renderer.render(settings, camera_view(scene, moment, "driver", extent), moment, seconds,
-                                              {.display = true, .scene = true});
+            const gpu_scene::SceneFrame moment{scene::world_transforms(scene, double(seconds))};
+            const render::Frame got = renderer.render(settings, gpu_scene::camera_view(scene, moment, "driver", extent),
+                                                      moment, seconds, {.display = true, .scene = true});
             const auto* texels = reinterpret_cast<const glm::vec4*>(got.scene.data());
             const auto want = reference_codes({texels, got.scene.size() / 4}, extent, settings, op.form,
                                               got.foveal_level, seconds, eye);

@@ -9,6 +9,8 @@
 namespace vesper::test {
 namespace {
 
+using apps::format;
+
 constexpr const char* kHostile = "a\x1b[31mb\nc\r\xc2\x9b";
 
 TEST(Print, FormatsAsPrintfDoes) {
@@ -31,17 +33,17 @@ TEST(Print, FormatsAsPrintfDoes) {
 TEST(Print, MakesTextPlain) {
     EXPECT_EQ(format("%s\n", kHostile), "a?[31mb?c???\n");
     testing::internal::CaptureStdout();
-    print("%s\n", kHostile);
-    print_text(std::string("one\n") + "t\x1bwo\n\nlast");
+    apps::print("%s\n", kHostile);
+    apps::print_text(std::string("one\n") + "t\x1bwo\n\nlast");
     EXPECT_EQ(testing::internal::GetCapturedStdout(), "a?[31mb?c???\none\nt?wo\n\nlast");
     testing::internal::CaptureStderr();
-    print_note(kHostile), print_warning(kHostile), print_error("p", kHostile);
+    apps::print_note(kHostile), apps::print_warning(kHostile), apps::print_error("p", kHostile);
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "note: a?[31mb?c???\nwarning: a?[31mb?c???\np: a?[31mb?c???\n");
 }
 
 std::string printed(const std::vector<std::string>& notes) {
     testing::internal::CaptureStderr();
-    print_notes(notes);
+    apps::print_notes(notes);
     return testing::internal::GetCapturedStderr();
 }
 

@@ -32,7 +32,7 @@ const char* kRun =
 TEST(RoadDrive, ARunIsWhereItWasRecorded) {
     const TempFolder folder;
     const roads::RoadNetwork network = roads::read_opendrive(kRoads);
-    const RoadWorld made = road_world(kRoads, folder.write("run.csv", kRun), {});
+    const drive::RoadWorld made = drive::road_world(kRoads, folder.write("run.csv", kRun), {});
     ASSERT_EQ(made.world.world.recordings.size(), 2u);
     EXPECT_TRUE(made.world.world.cars.empty());
     traffic::World world(std::make_shared<const traffic::WorldDescription>(made.world.world), 1);
@@ -56,7 +56,7 @@ TEST(RoadDrive, ARunIsWhereItWasRecorded) {
 }
 
 TEST(RoadDrive, TheAutopilotFollowsTheRoadAmongTraffic) {
-    const RoadWorld made = road_world(kRoads, {}, {});
+    const drive::RoadWorld made = drive::road_world(kRoads, {}, {});
     EXPECT_FALSE(made.world.world.cars.empty());
     EXPECT_FALSE(made.world.world.barriers.empty());
     traffic::World world(std::make_shared<const traffic::WorldDescription>(made.world.world), 1);
@@ -69,35 +69,36 @@ TEST(RoadDrive, TheAutopilotFollowsTheRoadAmongTraffic) {
 
 TEST(RoadDrive, PlainBodiesHaveTheirLamps) {
     const TempFolder folder;
-    const Scenery scenery(kRoads, folder.write("run.csv", kRun));
+    const drive::Scenery scenery(kRoads, folder.write("run.csv", kRun));
     std::vector<std::string> names;
-    for (const LampGroup& group : scenery.lamp_groups()) names.push_back(group.name);
+    for (const drive::LampGroup& group : scenery.lamp_groups()) names.push_back(group.name);
     for (const char* name :
          {"low beam", "high beam", "tail lamp", "brake lamp", "left front indicator", "right rear indicator"})
         EXPECT_TRUE(std::find(names.begin(), names.end(), name) != names.end()) << name;
-    EXPECT_THROW(Scenery(std::string(VESPER_SOURCE_DIR) + "/data/rivoli/rivoli.world.json", folder / "run.csv"), Error);
+    EXPECT_THROW(drive::Scenery(std::string(VESPER_SOURCE_DIR) + "/data/rivoli/rivoli.world.json", folder / "run.csv"),
+                 Error);
 }
 
 // The driver's car has what the one in data/rivoli has: lamps of every kind, the beams as measured, its eye behind the
 // bonnet.
 TEST(RoadDrive, TheDriversCarHasAllItsLamps) {
-    const RoadWorld made = road_world(kRoads, {}, {});
+    const drive::RoadWorld made = drive::road_world(kRoads, {}, {});
     ASSERT_EQ(made.world.world.driver_node, "car_ego");
     EXPECT_EQ(made.world.camera, "driver");
     const auto& nodes = made.scene.nodes;
     uint32_t car = 0;
     while (nodes[car].name != "car_ego") ++car;
     std::map<std::string, int> lamps;
-    for (const Node& node : nodes) {
+    for (const scene::Node& node : nodes) {
         if (node.parent != car) continue;
-        if (node.camera != kNone) {
+        if (node.camera != scene::kNone) {
             EXPECT_NEAR(node.translation.z, -0.14, 0.01);
         }
-        if (node.lamp == kNone) continue;
-        const Lamp& light = made.scene.lamps[node.lamp];
+        if (node.lamp == scene::kNone) continue;
+        const scene::Lamp& light = made.scene.lamps[node.lamp];
         ++lamps[light.name];
         if (light.name.ends_with("beam")) {
-            EXPECT_EQ(light.kind, Lamp::Kind::Measured) << light.name;
+            EXPECT_EQ(light.kind, scene::Lamp::Kind::Measured) << light.name;
         }
         const bool rear =
             light.name.find("rear") != light.name.npos || light.name == "tail lamp" || light.name == "brake lamp";
@@ -126,7 +127,7 @@ TEST(RoadDrive, ARunOfOtherRoadsIsRefused) {
     };
     const auto notes = [&](double off, double until) {
         const std::vector<std::string> all =
-            road_world(kRoads, folder.write("run.csv", straight(off, until)), {}).notes;
+            drive::road_world(kRoads, folder.write("run.csv", straight(off, until)), {}).notes;
         return size_t(std::count_if(all.begin(), all.end(),
                                     [](const std::string& note) { return contains(note, "off the roads"); }));
     };
@@ -140,7 +141,7 @@ TEST(RoadDrive, ARunOfOtherRoadsIsRefused) {
 }
 
 TEST(RoadDrive, StatesOfTrafficLights) {
-    using Mode = SignalLens::Mode;
+    using Mode = drive::SignalLens::Mode;
     constexpr Mode O = Mode::Off, I = Mode::On, F = Mode::Flashing;
     const std::vector<std::pair<const char*, std::vector<Mode>>> known{{"off;off;on", {O, O, I}},
                                                                        {"off; flashing ;on", {O, F, I}},
@@ -159,30 +160,31 @@ TEST(RoadDrive, StatesOfTrafficLights) {
                                                                        {"green on", {O, O, I}},
                                                                        {"off", {O, O, O}},
                                                                        {"OFF", {O, O, O}}};
-    for (const auto& [state, shown] : known) EXPECT_EQ(lenses_in(state, {"red", "yellow", "green"}), shown) << state;
+    for (const auto& [state, shown] : known)
+        EXPECT_EQ(drive::lenses_in(state, {"red", "yellow", "green"}), shown) << state;
     // Words that are none, or say nothing of these lenses, among them what once looked like a colour.
     for (const char* state :
          {"", " ", ";", "on", "flashing", "on;off", "on;off;off;off", "red;off;off", "red;yellow", "red off",
           "infrared", "reddish", "evergreen", "purple", "red purple", "on;off;perhaps", "on on red"})
-        EXPECT_EQ(lenses_in(state, {"red", "yellow", "green"}), std::nullopt) << state;
-    EXPECT_EQ(lenses_in("on;off", {"red", "green"}), (std::vector{I, O}));
-    EXPECT_EQ(lenses_in("yellow", {"red", "green"}), std::nullopt) << "has none";
-    EXPECT_EQ(lenses_in("on", {"yellow"}), std::vector{I});
-    EXPECT_EQ(lenses_in("flashing", {"yellow"}), std::vector{F});
-    const SignalLens lens{.node = 0, .otherwise = true, .changes = {{2, Mode::Off}, {4, Mode::Flashing}}};
+        EXPECT_EQ(drive::lenses_in(state, {"red", "yellow", "green"}), std::nullopt) << state;
+    EXPECT_EQ(drive::lenses_in("on;off", {"red", "green"}), (std::vector{I, O}));
+    EXPECT_EQ(drive::lenses_in("yellow", {"red", "green"}), std::nullopt) << "has none";
+    EXPECT_EQ(drive::lenses_in("on", {"yellow"}), std::vector{I});
+    EXPECT_EQ(drive::lenses_in("flashing", {"yellow"}), std::vector{F});
+    const drive::SignalLens lens{.node = 0, .otherwise = true, .changes = {{2, Mode::Off}, {4, Mode::Flashing}}};
     const std::map<double, bool> wanted{{0, true}, {2, false}, {3.9, false}, {4.1, true}, {4.6, false}, {5.2, true}};
     for (const auto& [seconds, lit] : wanted) EXPECT_EQ(lens.shines(seconds), lit) << seconds;
 }
 
 // What is no state is named with its place, once; the light stays as it was.
 TEST(RoadDrive, UnknownStatesOfTrafficLightsAreNoted) {
-    Scene scene;
+    scene::Scene scene;
     roads::RoadNetwork network;
     network.roads.resize(1);
     network.roads[0].signals.resize(1);
     network.roads[0].signals[0].id = "7";
     for (const char* colour : {"red", "yellow", "green"}) {
-        Node& node = scene.nodes.emplace_back();
+        scene::Node& node = scene.nodes.emplace_back();
         node.name = std::string("signal_7/") + colour, node.lamp = 0;
     }
     roads::EsminiRun run;
@@ -191,7 +193,7 @@ TEST(RoadDrive, UnknownStatesOfTrafficLightsAreNoted) {
                    {3, "7", "purple", "s.xosc:5"},
                    {4, "8", "red", "s.xosc:6"}};
     std::vector<std::string> notes;
-    const std::vector<SignalLens> lenses = lenses_of(scene, network, run, notes);
+    const std::vector<drive::SignalLens> lenses = drive::lenses_of(scene, network, run, notes);
     EXPECT_EQ(notes, (std::vector<std::string>{"s.xosc:4: 'purple' is no state of traffic light 7: it stays as it is",
                                                "s.xosc:6: there is no traffic light 8 in the roads"}));
     ASSERT_EQ(lenses.size(), 3u);
@@ -204,15 +206,15 @@ TEST(RoadDrive, ARunSwitchesItsTrafficLights) {
     const std::filesystem::path shared = std::string(VESPER_SHARED_DATA) + "/scenario";
     if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no shared data";
     const std::filesystem::path roads = shared / "esmini/xodr/fabriksgatan_traffic_lights.xodr";
-    const Scenery scenery(roads, shared / "esmini-output/traffic_lights.csv",
-                          shared / "esmini/xosc/traffic_lights.xosc");
+    const drive::Scenery scenery(roads, shared / "esmini-output/traffic_lights.csv",
+                                 shared / "esmini/xosc/traffic_lights.xosc");
     const traffic::World world(scenery.world(), 1);
     const auto lit = [&](double seconds) {
         std::map<std::string, int> count;
-        const SceneFrame frame = scenery.frame(world.actors(), seconds, DriveSettings());
+        const gpu_scene::SceneFrame frame = scenery.frame(world.actors(), seconds, drive::DriveSettings());
         for (size_t i = 0; i < scenery.scene().nodes.size(); ++i) {
-            const Node& node = scenery.scene().nodes[i];
-            if (node.lamp != kNone && frame.dimming[i] > 0) ++count[scenery.scene().lamps[node.lamp].name];
+            const scene::Node& node = scenery.scene().nodes[i];
+            if (node.lamp != scene::kNone && frame.dimming[i] > 0) ++count[scenery.scene().lamps[node.lamp].name];
         }
         return std::vector<int>{count["red signal"], count["yellow signal"], count["green signal"]};
     };
@@ -222,7 +224,7 @@ TEST(RoadDrive, ARunSwitchesItsTrafficLights) {
     EXPECT_EQ(lit(12), (std::vector<int>{1, 0, 2}));  // people walk
     EXPECT_EQ(lit(23), (std::vector<int>{2, 0, 1}));
     // Without a scenario cars wait.
-    const RoadWorld steady = road_world(roads, {}, {});
+    const drive::RoadWorld steady = drive::road_world(roads, {}, {});
     EXPECT_TRUE(steady.lenses.empty());
 }
 

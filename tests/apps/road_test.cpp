@@ -137,7 +137,7 @@ TEST_F(Road, ThePictureOfTheRoadHasItsLuminances) {
     EXPECT_NE(out.find("Largest difference: "), std::string::npos) << out;
     EXPECT_NE(csv.find("L_lane1_cd_m2,L_lane2_cd_m2,L_lane1_rendered_cd_m2,L_lane2_rendered_cd_m2"), std::string::npos);
     // The pictures hold what the numbers came from.
-    const auto picture = vesper::read_hdr_image(folder / "a.lane2.exr");
+    const auto picture = vesper::io::read_hdr_image(folder / "a.lane2.exr");
     EXPECT_EQ(picture.white_luminance, 1);
     EXPECT_NEAR(*std::max_element(picture.rgb.begin(), picture.rgb.end()), 4, 2.5);
     EXPECT_TRUE(fs::exists(folder / "a.png") && fs::exists(folder / "a.lane1.exr"));

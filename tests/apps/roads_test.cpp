@@ -18,10 +18,10 @@ TEST_F(Roads, BecomeALitSceneThatRenders) {
     ASSERT_EQ(run("convert " + kStreet), 0) << said;
     EXPECT_NE(printed.find("wrote rivoli.gltf"), std::string::npos) << printed;
     EXPECT_NE(printed.find("street lamps: "), std::string::npos) << printed;
-    const Scene scene = read_gltf(folder / "rivoli.gltf").scene;
+    const scene::Scene scene = scene::read_gltf(folder / "rivoli.gltf").scene;
     EXPECT_EQ(scene.cameras.size(), 3u);
     ASSERT_EQ(run("render rivoli.gltf --camera driver --size 97x61 --stats-json stats.json -o out.png"), 0) << said;
-    const Image picture = decode_image(read_file(folder / "out.png", 1 << 20), 1000);
+    const Image picture = io::decode_image(io::read_file(folder / "out.png", 1 << 20), 1000);
     const auto luminance_at = [&](uint32_t x, uint32_t y) { return picture.rgba[4 * (size_t(y) * picture.width + x)]; };
     EXPECT_GT(luminance_at(48, 50), luminance_at(48, 5)) << "the road is brighter than the sky";
 }
@@ -30,9 +30,10 @@ TEST_F(Roads, LampsAreChosen) {
     ASSERT_EQ(run("convert " + kStreet + " --lamp-spacing 0 -o none.glb"), 0) << said;
     ASSERT_EQ(run("convert " + kStreet + " --lamp-spacing 20 --lamp-side both --lamp-height 7 -o many.glb"), 0) << said;
     const auto lamps = [&](const char* file) {
-        const Scene scene = read_gltf(folder / file).scene;
+        const scene::Scene scene = scene::read_gltf(folder / file).scene;
         size_t count = 0;
-        for (const Node& node : scene.nodes) count += node.lamp != kNone && node.name.starts_with("street_lamp_");
+        for (const scene::Node& node : scene.nodes)
+            count += node.lamp != scene::kNone && node.name.starts_with("street_lamp_");
         return count;
     };
     EXPECT_EQ(lamps("none.glb"), 0u);

@@ -51,7 +51,7 @@ GltfFile plain_with_headlamps() {
     return file;
 }
 
-uint32_t node_of(const Scene& scene, const std::string& name) {
+uint32_t node_of(const scene::Scene& scene, const std::string& name) {
     for (uint32_t i = 0; i < scene.nodes.size(); ++i)
         if (scene.nodes[i].name == name) return i;
     ADD_FAILURE() << "no node " << name;
@@ -67,10 +67,10 @@ double largest_difference(const glm::dmat4& a, const glm::dmat4& b) {
 
 TEST(Scenery, LampsBelowTheCameraOfASceneGoWithTheCar) {
     const TempFolder folder;
-    const Scenery scenery(folder.write("s.gltf", plain_with_headlamps().text()));
-    const std::vector<glm::dmat4> rest = world_transforms(scenery.scene(), 0);
+    const drive::Scenery scenery(folder.write("s.gltf", plain_with_headlamps().text()));
+    const std::vector<glm::dmat4> rest = scene::world_transforms(scenery.scene(), 0);
     traffic::World world(scenery.world(), 1);
-    const DriveSettings settings;
+    const drive::DriveSettings settings;
     const auto eye = [&] {
         return glm::dmat4(
             scenery.view(scenery.frame(world.actors(), 0, settings), world.actors(), settings, kScenerySize)
@@ -82,7 +82,7 @@ TEST(Scenery, LampsBelowTheCameraOfASceneGoWithTheCar) {
     const glm::dmat4 level =
         glm::inverse(glm::rotate(glm::translate(glm::dmat4(1), place), glm::radians(90.0), {0, 1, 0}));
     const auto expect_along = [&] {
-        const SceneFrame frame = scenery.frame(world.actors(), 0, settings);
+        const gpu_scene::SceneFrame frame = scenery.frame(world.actors(), 0, settings);
         for (const char* name : {"eye", "left", "right", "mount", "roof lamp"}) {
             const uint32_t node = node_of(scenery.scene(), name);
             EXPECT_LT(largest_difference(eye() * frame.world[node], level * rest[node]), 1e-4) << name;
@@ -92,7 +92,7 @@ TEST(Scenery, LampsBelowTheCameraOfASceneGoWithTheCar) {
     expect_along();
     for (int i = 0; i < 240; ++i) world.step({.steering = 0.2, .throttle = 0.6}, 1.0 / 60);
     ASSERT_GT(std::abs(world.driver().yaw - glm::radians(90.0)), 0.1) << "it has turned";
-    const SceneFrame after = expect_along();
+    const gpu_scene::SceneFrame after = expect_along();
     EXPECT_GT(glm::distance(glm::dvec3(after.world[node_of(scenery.scene(), "left")][3]), place), 5);
     for (const char* name : {"street lamp", "plain"})
         EXPECT_EQ(after.world[node_of(scenery.scene(), name)], rest[node_of(scenery.scene(), name)]) << name;
@@ -101,11 +101,11 @@ TEST(Scenery, LampsBelowTheCameraOfASceneGoWithTheCar) {
 // The road before the car is lit after a minute as it was at the start: by nothing else, on this plain.
 TEST(Scenery, HeadlampsOfASceneLightTheRoadAhead) {
     const TempFolder folder;
-    Device device({.select = ""});
-    Session session(device, {.scene = folder.write("s.gltf", plain_with_headlamps().text()),
-                             .settings = {{"lamp:street lamp", "0"}}});
+    gpu::Device device({.select = ""});
+    drive::Session session(device, {.scene = folder.write("s.gltf", plain_with_headlamps().text()),
+                                    .settings = {{"lamp:street lamp", "0"}}});
     const auto mean = [&] {
-        const Frame frame = session.render(kScenerySize, {.display = false, .scene = true});
+        const render::Frame frame = session.render(kScenerySize, {.display = false, .scene = true});
         double sum = 0;
         for (size_t i = 0; i < frame.scene.size(); i += 4)
             sum += luminance(glm::dvec3(frame.scene[i], frame.scene[i + 1], frame.scene[i + 2]));
@@ -139,9 +139,9 @@ TEST(Scenery, TheFrontOfANodeLeads) {
                                                   {R"(, "front": "+x")", {1, 0, 0}},
                                                   {R"(, "front": "-x")", {-1, 0, 0}}};
     for (const auto& [front, side] : sides) {
-        const Scenery scenery(world(front));
+        const drive::Scenery scenery(world(front));
         const std::vector<traffic::Actor> actors = traffic::World(scenery.world(), 1).actors();
-        const SceneFrame frame = scenery.frame(actors, 0, DriveSettings());
+        const gpu_scene::SceneFrame frame = scenery.frame(actors, 0, drive::DriveSettings());
         const auto leads = [&, side = side](const char* name) {
             return glm::normalize(glm::dvec3(frame.world[node_of(scenery.scene(), name)] * glm::dvec4(side, 0)));
         };
@@ -157,10 +157,10 @@ TEST(Scenery, TheFrontOfANodeLeads) {
             << front;
     }
     for (const char* wrong : {"\"+y\"", "\"z\"", "\"\"", "180", "null"})
-        EXPECT_TRUE(contains(complaint_of([&] { Scenery(world(R"(, "front": )" + std::string(wrong))); }),
+        EXPECT_TRUE(contains(complaint_of([&] { drive::Scenery(world(R"(, "front": )" + std::string(wrong))); }),
                              "w.json: /cars/0/front: "))
             << wrong;
-    EXPECT_TRUE(contains(complaint_of([&] { Scenery(world(R"(, "front": "+y")")); }),
+    EXPECT_TRUE(contains(complaint_of([&] { drive::Scenery(world(R"(, "front": "+y")")); }),
                          "w.json: /cars/0/front: is none of -z, +z, -x and +x"));
 }
 
@@ -169,7 +169,7 @@ TEST(Scenery, AFrontIsThatOfANode) {
     const auto file = folder.write("w.json",
                                    R"({"version": 1, "scene": "s.gltf", "driver": {"lane": "a", "front": "+z"},
             "lanes": [{"name": "a", "points": [[0, 0, 0], [0, 0, 9]]}]})");
-    EXPECT_TRUE(contains(complaint_of([&] { Scenery scenery(file); }), "w.json: /driver/front: of which node?"));
+    EXPECT_TRUE(contains(complaint_of([&] { drive::Scenery scenery(file); }), "w.json: /driver/front: of which node?"));
 }
 
 }  // namespace

@@ -14,8 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A street from 0.003 to 300 cd/m^2, with lamps.
-HdrImage street() {
-    HdrImage image{160, 100, {}, 0, {}};
+io::HdrImage street() {
+    io::HdrImage image{160, 100, {}, 0, {}};
     for (uint32_t y = 0; y < image.height; ++y)
         for (uint32_t x = 0; x < image.width; ++x) {
             float l = std::pow(10.0f, -2.5f + 4 * float(x + y) / 260) * (1 + 0.3f * std::sin(0.3f * float(x)));
@@ -63,7 +63,7 @@ protected:
             for (size_t blank = 0; (blank = name.find("%20")) != std::string::npos;) name.replace(blank, 3, " ");
             const fs::path file = (folder / page).parent_path() / name;
             ASSERT_TRUE(fs::exists(file)) << file;
-            EXPECT_GT(decode_image(read_file(file, 1u << 28), 32768).width, 0u);
+            EXPECT_GT(io::decode_image(io::read_file(file, 1u << 28), 32768).width, 0u);
         }
         EXPECT_GT(pictures, 2u);
         for (const auto& entry : fs::directory_iterator((folder / page).parent_path()))
@@ -163,7 +163,7 @@ TEST_F(StudyProgram, OperatorsShowContrastAndVisibility) {
     auto rows = csv("out/operators.csv",
                     "picture,operator,range_scene,range_shown,contrast_scene,contrast_shown,vl_scene,vl_shown,visible_"
                     "scene,visible_shown,lost,gained");
-    ASSERT_EQ(rows.size(), operators().size() - 1) << "all but ldr";
+    ASSERT_EQ(rows.size(), render::operators().size() - 1) << "all but ldr";
     for (Row row : rows) {
         EXPECT_EQ(row["contrast_scene"], "0.5");
         EXPECT_EQ(row["vl_scene"], rows[0]["vl_scene"]);
@@ -187,7 +187,7 @@ TEST_F(StudyProgram, RefusesInOneLine) {
     write_layout(folder / "a.exr", street(), {.white_luminance = 1});
     fs::create_directory(folder / "b");
     fs::copy(folder / "a.exr", folder / "b/a.exr");
-    HdrImage black = street();
+    io::HdrImage black = street();
     for (float& value : black.rgb) value = 0;
     write_layout(folder / "black.exr", black, {.white_luminance = 1});
     folder.write("text.hdr", "no picture");

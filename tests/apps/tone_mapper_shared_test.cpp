@@ -20,13 +20,13 @@ TEST(ToneMapperShared, EveryPictureEqualsTheReference) {
     for (const auto& entry : fs::recursive_directory_iterator(root))
         if (entry.path().extension() == ".exr" || entry.path().extension() == ".hdr") files.push_back(entry.path());
     std::sort(files.begin(), files.end());
-    Device device;
-    ToneMapper mapper(device);
+    gpu::Device device;
+    render::ToneMapper mapper(device);
     size_t shown = 0;
     for (const fs::path& file : files) {
-        HdrImage image;
+        io::HdrImage image;
         try {
-            image = read_hdr_image(file);
+            image = io::read_hdr_image(file);
         } catch (const Error& error) {
             EXPECT_EQ(file.filename(), "Trunks.exr") << error.what();
             continue;
@@ -38,14 +38,15 @@ TEST(ToneMapperShared, EveryPictureEqualsTheReference) {
         for (size_t i = 0; i < image.rgb.size(); i += 3)
             pixels.emplace_back(scale * image.rgb[i], scale * image.rgb[i + 1], scale * image.rgb[i + 2], 1);
         const VkExtent2D extent{image.width, image.height};
-        for (const auto& [wanted, tone] : {std::pair{Operator::Irawan, shared::kToneCurve},
-                                           {Operator::Ward, shared::kToneCurve},
-                                           {Operator::Pattanaik, shared::kToneColour},
-                                           {Operator::Reinhard, shared::kToneReinhard}}) {
-            ToneChainSettings settings;
+        for (const auto& [wanted, tone] : {std::pair{render::Operator::Irawan, shared::kToneCurve},
+                                           {render::Operator::Ward, shared::kToneCurve},
+                                           {render::Operator::Pattanaik, shared::kToneColour},
+                                           {render::Operator::Reinhard, shared::kToneReinhard}}) {
+            render::ToneChainSettings settings;
             settings.tone_operator = wanted;
             mapper.reset_adaptation();
-            const ToneMapped got = mapper.map(settings, {.extent = extent, .values = image.rgb, .scale = scale}, 0);
+            const render::ToneMapped got =
+                mapper.map(settings, {.extent = extent, .values = image.rgb, .scale = scale}, 0);
             const auto want = reference_codes(pixels, extent, settings, tone, got.foveal_level, 0);
             EXPECT_LE(pixels_off(got.display, want), pixels.size() / 10000) << file.filename() << " tone " << tone;
         }

@@ -12,12 +12,13 @@ namespace {
 class ToneMapperTest : public testing::Test {
 protected:
     std::string complaints;
-    Device device{
+    gpu::Device device{
         {.select = "", .validation = true, .on_message = [this](const std::string& m) { complaints += m + "\n"; }}};
-    ToneMapper mapper{device};
+    render::ToneMapper mapper{device};
 
-    ToneMapped map(const std::vector<glm::vec4>& pixels, VkExtent2D extent, const ToneChainSettings& settings = {},
-                   float seconds = 0, Outputs outputs = {}) {
+    render::ToneMapped map(const std::vector<glm::vec4>& pixels, VkExtent2D extent,
+                           const render::ToneChainSettings& settings = {}, float seconds = 0,
+                           render::Outputs outputs = {}) {
         const std::span<const float> rgba(&pixels.front().x, pixels.size() * 4);
         return mapper.map(settings, {.extent = extent, .values = rgba, .channels = 4}, seconds, outputs);
     }
@@ -27,14 +28,14 @@ protected:
 TEST_F(ToneMapperTest, EqualsTheReferencesOfItsPasses) {
     for (VkExtent2D extent : {VkExtent2D{1, 1}, {64, 1}, {201, 133}}) {
         const auto pixels = night_pixels(extent, extent.width, -3, 4);
-        for (const OperatorInfo& op : operators()) {
-            ToneChainSettings settings;
+        for (const render::OperatorInfo& op : render::operators()) {
+            render::ToneChainSettings settings;
             settings.tone_operator = op.tone_operator;
             settings.tone.operators.linear.high = 100;
             settings.tone.colour_loss = settings.tone.purkinje = extent.height == 1;
             const uint32_t tone = op.form | (extent.height == 1 ? shared::kToneColourLoss | shared::kTonePurkinje : 0);
             mapper.reset_adaptation();
-            const ToneMapped got = map(pixels, extent, settings);
+            const render::ToneMapped got = map(pixels, extent, settings);
             const auto want = reference_codes(pixels, extent, settings, tone, got.foveal_level, 0);
             // One pixel in 10,000; a texel on the edge of a bin may vote for either side.
             EXPECT_LE(pixels_off(got.display, want), pixels.size() / 10000) << extent.width << " tone " << tone;
@@ -54,20 +55,20 @@ TEST_F(ToneMapperTest, TheEyeRemembersThroughAChangeOfSizeUntilItIsReset) {
 
 TEST_F(ToneMapperTest, GivesWhatIsAskedFor) {
     const auto pixels = night_pixels({7, 5}, 3);
-    const ToneMapped both = map(pixels, {7, 5}, {}, 0, {.display = true, .scene = true});
+    const render::ToneMapped both = map(pixels, {7, 5}, {}, 0, {.display = true, .scene = true});
     ASSERT_EQ(both.scene.size(), pixels.size() * 4);
     EXPECT_EQ(std::memcmp(both.scene.data(), pixels.data(), pixels.size() * 16), 0);
-    const ToneMapped neither = map(pixels, {7, 5}, {}, 0, {.display = false, .scene = false});
+    const render::ToneMapped neither = map(pixels, {7, 5}, {}, 0, {.display = false, .scene = false});
     EXPECT_TRUE(neither.scene.empty() && neither.display.empty());
     EXPECT_TRUE(neither.display_light.empty());
     EXPECT_EQ(std::memcmp(&neither.curve, &both.curve, sizeof both.curve), 0);
     EXPECT_NE(mapper.plan().find("adapt"), std::string::npos);
-    for (const Timing& timing : neither.timings) EXPECT_NE(timing.pass, "composite") << "nobody looks";
+    for (const graph::Timing& timing : neither.timings) EXPECT_NE(timing.pass, "composite") << "nobody looks";
 }
 
 TEST_F(ToneMapperTest, ScalesToCandela) {
     const std::vector<float> rgb{1, 2, 3, 0.5f, 0.5f, 0.5f};
-    const ToneMapped got =
+    const render::ToneMapped got =
         mapper.map({}, {.extent = {2, 1}, .values = rgb, .scale = 100}, 0, {.display = false, .scene = true});
     EXPECT_EQ(got.scene, (std::vector<float>{100, 200, 300, 1, 50, 50, 50, 1}));
 }
@@ -75,10 +76,10 @@ TEST_F(ToneMapperTest, ScalesToCandela) {
 // Reinhard shows the largest luminance as white; colours go beyond it where nothing limits them, and on the display
 // they do not.
 TEST_F(ToneMapperTest, LightOfTheDisplayGoesBeyondWhite) {
-    ToneChainSettings settings;
-    settings.tone_operator = Operator::Reinhard;
+    render::ToneChainSettings settings;
+    settings.tone_operator = render::Operator::Reinhard;
     const std::vector<float> rgb{0, 0, 100, 1, 1, 1};
-    const ToneMapped got = mapper.map(settings, {.extent = {2, 1}, .values = rgb}, 0, {.display_light = true});
+    const render::ToneMapped got = mapper.map(settings, {.extent = {2, 1}, .values = rgb}, 0, {.display_light = true});
     const double low = double(settings.display.low()), high = double(settings.display.high());
     ASSERT_EQ(got.display_light.size(), 8u);
     EXPECT_NEAR(double(got.display_light[2]), low + (high - low) / 0.072192, 0.05);

@@ -9,17 +9,19 @@
 namespace vesper::test {
 namespace {
 
+using render::Operator, render::ToneMapped;
+
 constexpr VkExtent2D kExtent{96, 60};
 
 class ToneTime : public testing::Test {
 protected:
     std::string complaints;
-    Device device{
+    gpu::Device device{
         {.select = "", .validation = true, .on_message = [this](const std::string& m) { complaints += m + "\n"; }}};
 
-    static ToneMapped map(ToneMapper& mapper, const std::vector<glm::vec4>& pixels, float seconds,
+    static ToneMapped map(render::ToneMapper& mapper, const std::vector<glm::vec4>& pixels, float seconds,
                           Operator op = Operator::Irawan, VkExtent2D extent = kExtent) {
-        ToneChainSettings settings;
+        render::ToneChainSettings settings;
         settings.tone_operator = op;
         settings.foveal_level = 3;
         return mapper.map(
@@ -57,7 +59,7 @@ int largest_step(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b, b
 
 TEST_F(ToneTime, ALampThatFlickersMovesNothingElse) {
     for (Operator op : {Operator::Irawan, Operator::Ward}) {
-        ToneMapper mapper(device);
+        render::ToneMapper mapper(device);
         std::vector<uint8_t> before;
         for (int frame = 0; frame < 60; ++frame) {
             const double t = frame / 60.0;
@@ -73,7 +75,7 @@ TEST_F(ToneTime, ALampThatFlickersMovesNothingElse) {
 
 // The whole road grows brighter by 0.2 % a frame, over eight edges of bins: what is shown follows, one code at a time.
 TEST_F(ToneTime, NothingJumpsAsPixelsCrossTheEdgesOfBins) {
-    ToneMapper mapper(device);
+    render::ToneMapper mapper(device);
     std::vector<uint8_t> before;
     for (int frame = 0; frame < 120; ++frame) {
         const auto got = map(mapper, road(3000, 4 * std::pow(1.002f, float(frame))), frame ? 1.0f / 60 : 0);
@@ -89,7 +91,7 @@ TEST_F(ToneTime, NothingJumpsAsPixelsCrossTheEdgesOfBins) {
 TEST_F(ToneTime, AnEdgeThatMovesByAPixelMovesNothingElse) {
     constexpr VkExtent2D extent{224, 96};
     for (Operator op : {Operator::Irawan, Operator::Ward}) {
-        ToneMapper mapper(device);
+        render::ToneMapper mapper(device);
         std::vector<double> before;
         for (uint32_t edge = 130; edge < 164; ++edge) {
             std::vector<glm::vec4> pixels;
@@ -99,7 +101,7 @@ TEST_F(ToneTime, AnEdgeThatMovesByAPixelMovesNothingElse) {
                     pixels.emplace_back(glm::vec3(x < edge ? road : 6000.0f), 1.0f);
                 }
             mapper.reset_adaptation();
-            ToneChainSettings settings;
+            render::ToneChainSettings settings;
             settings.tone_operator = op;
             settings.foveal_level = 5;
             settings.tone.gaze = {0.2f, 0.5f};
@@ -115,7 +117,7 @@ TEST_F(ToneTime, AnEdgeThatMovesByAPixelMovesNothingElse) {
                     got.curve.node[size_t((std::log(luminance) - got.curve.ln_low) * got.curve.bins_per_ln)].x));
             for (size_t i = 0; i < before.size(); ++i)
                 EXPECT_NEAR(shown[i] / before[i], 1, 0.05)
-                    << operator_info(op).name << ", edge at " << edge << ", " << i;
+                    << render::operator_info(op).name << ", edge at " << edge << ", " << i;
             before = shown;
         }
     }
@@ -123,7 +125,7 @@ TEST_F(ToneTime, AnEdgeThatMovesByAPixelMovesNothingElse) {
 
 TEST_F(ToneTime, FrameRatesDoNotMatter) {
     const auto run = [&](int steps) {
-        ToneMapper mapper(device);
+        render::ToneMapper mapper(device);
         map(mapper, road(3000, 2000), 0);
         ToneMapped got;
         for (int i = 0; i < steps; ++i) got = map(mapper, road(3000, 3), 1.0f / float(steps));
@@ -135,7 +137,7 @@ TEST_F(ToneTime, FrameRatesDoNotMatter) {
 }
 
 TEST_F(ToneTime, ACutForgetsAndAPauseFreezes) {
-    ToneMapper mapper(device), fresh(device);
+    render::ToneMapper mapper(device), fresh(device);
     map(mapper, road(3000, 2000), 0);
     const ToneMapped before = map(mapper, road(3000, 3), 0.1f), paused = map(mapper, road(3000, 3), 0);
     EXPECT_EQ(paused.display, before.display);
@@ -147,7 +149,7 @@ TEST_F(ToneTime, ACutForgetsAndAPauseFreezes) {
 }
 
 TEST_F(ToneTime, TheStateSurvivesANewSizeAndCanBeCarriedOver) {
-    ToneMapper mapper(device), other(device);
+    render::ToneMapper mapper(device), other(device);
     const ToneMapped day = map(mapper, road(3000, 2000), 0);
     const std::vector<glm::vec4> small(40 * 20, glm::vec4(0.5f));
     const ToneMapped night = map(mapper, small, 0.05f, Operator::Irawan, {40, 20});

@@ -12,6 +12,8 @@
 namespace vesper::test {
 namespace {
 
+using apps::format;
+using io::HdrImage;
 namespace fs = std::filesystem;
 
 HdrImage street(uint32_t width, uint32_t height) {
@@ -34,9 +36,9 @@ protected:
     int tonemap(const std::string& arguments, const std::string& environment = "") {
         return run("tonemap " + arguments, environment);
     }
-    Image png(const std::string& name) { return decode_image(read_file(folder / name, 1u << 28), 32768); }
+    Image png(const std::string& name) { return io::decode_image(io::read_file(folder / name, 1u << 28), 32768); }
     std::string header(const std::string& name, const std::string& key) {
-        for (const auto& [k, value] : read_exr(folder / name).header)
+        for (const auto& [k, value] : io::read_exr(folder / name).header)
             if (k == key) return value;
         return "none";
     }
@@ -144,7 +146,7 @@ TEST_F(TonemapProgram, TheUnitIsTheFilesOrTheOneGiven) {
 // The number that is printed is the one that is used and kept, and gives the same picture again.
 TEST_F(TonemapProgram, PicturesWithoutAUnitAreScaled) {
     const HdrImage image = street(60, 40);
-    const double scale = plausible_scale(relative_luminance(image.rgb));
+    const double scale = vision::plausible_scale(vision::relative_luminance(image.rgb));
     const std::string number = format("%.6g", scale);
     write_layout(folder / "a.exr", image, {});
     ASSERT_EQ(tonemap("a.exr -o a.png -o on-display.exr"), 0) << said;
@@ -178,7 +180,7 @@ TEST_F(TonemapProgram, PicturesWithoutAUnitAreScaled) {
 TEST_F(TonemapProgram, ExposureMultipliesEveryScale) {
     write_layout(folder / "a.exr", street(60, 40), {});
     write_layout(folder / "b.exr", street(60, 40), {.white_luminance = 40});
-    const double scale = plausible_scale(relative_luminance(street(60, 40).rgb));
+    const double scale = vision::plausible_scale(vision::relative_luminance(street(60, 40).rgb));
     const std::pair<std::string, double> all[]{{"a.exr --exposure -1.5", scale * std::exp2(-1.5)},
                                                {"a.exr --scale 100 --exposure 2", 400},
                                                {"b.exr --exposure 1", 80},
@@ -244,7 +246,7 @@ TEST_F(TonemapProgram, TheScaleOfASequenceStays) {
     ASSERT_EQ(tonemap("f%d.exr --fps 30 -o o%d.exr"), 0) << said;
     const std::string first = scale_of("o1.exr");
     EXPECT_EQ(scale_of("o0.exr"), "1") << "black whatever its scale";
-    EXPECT_EQ(first, format("%.6g", plausible_scale(relative_luminance(street(30, 20).rgb))));
+    EXPECT_EQ(first, format("%.6g", vision::plausible_scale(vision::relative_luminance(street(30, 20).rgb))));
     EXPECT_EQ(scale_of("o2.exr"), first);
     EXPECT_EQ(scale_of("o3.exr"), "10");
     EXPECT_EQ(scale_of("o4.exr"), first);
@@ -296,7 +298,7 @@ TEST_F(TonemapProgram, PngsSayWhatTheirCodesMean) {
     write_layout(folder / "a.exr", uniform(4, 4, 2), {.white_luminance = 1});
     const auto chunks = [&](const std::string& display) {
         EXPECT_EQ(tonemap("a.exr --display " + display + " -o a.png"), 0) << said;
-        const auto bytes = read_file(folder / "a.png", 1u << 20);
+        const auto bytes = io::read_file(folder / "a.png", 1u << 20);
         return std::string(bytes.begin(), bytes.end());
     };
     const auto profile = [&](const std::string& rest) {
@@ -379,7 +381,8 @@ TEST_F(TonemapProgram, HostilePicturesGiveAPicture) {
             if (kind == "lamp") {
                 EXPECT_GT(shown.rgba[4 * 777], 250) << tone;
             }
-            for (const float value : read_exr(folder / "b.exr").rgb) ASSERT_TRUE(std::isfinite(value)) << name << tone;
+            for (const float value : io::read_exr(folder / "b.exr").rgb)
+                ASSERT_TRUE(std::isfinite(value)) << name << tone;
         }
         EXPECT_EQ(said.find("not finite") != std::string::npos,
                   std::string(name) == "nan" || std::string(name) == "inf" || std::string(name) == "minus")
@@ -483,7 +486,7 @@ TEST_F(TonemapProgram, IsDeterministic) {
     for (const char* name : {"x", "y"})
         ASSERT_EQ(tonemap(std::string("a.exr -o ") + name + ".png -o " + name + ".exr --glare ldr"), 0) << said;
     EXPECT_EQ(read_text(folder / "x.png"), read_text(folder / "y.png"));
-    EXPECT_EQ(read_exr(folder / "x.exr").rgb, read_exr(folder / "y.exr").rgb);
+    EXPECT_EQ(io::read_exr(folder / "x.exr").rgb, io::read_exr(folder / "y.exr").rgb);
 }
 
 }  // namespace

@@ -20,6 +20,8 @@
 namespace vesper::test {
 namespace {
 
+using render::Operator;
+
 constexpr std::array kMarkers{0.01f, 0.03f, 0.1f, 0.3f, 1.0f, 3.0f, 10.0f, 30.0f, 100.0f, 1000.0f};  // cd/m^2
 constexpr double kRate = 60;        // steps of the world in a second
 constexpr uint32_t kEveryLamp = 6;  // of the road's street lamps so many-th is lit: one in 180 m on each side
@@ -42,7 +44,7 @@ constexpr Limits kLimits[]{
 struct Picture {
     VkExtent2D extent;
     std::vector<float> pixels;  // RGBA, cd/m^2
-    std::vector<OffscreenLamp> outside;
+    std::vector<gpu_scene::OffscreenLamp> outside;
     double vertical_fov;  // rad
 };
 
@@ -54,12 +56,12 @@ glm::uvec2 marker_at(VkExtent2D extent, size_t i) {
 
 class Pictures {
 public:
-    Pictures(Device& device, const Scene& scene) : renderer_(device, scene) {}
+    Pictures(gpu::Device& device, const scene::Scene& scene) : renderer_(device, scene) {}
 
-    Picture operator()(const View& view, const SceneFrame& moment) {
-        RenderSettings settings;
+    Picture operator()(const gpu_scene::View& view, const gpu_scene::SceneFrame& moment) {
+        render::RenderSettings settings;
         settings.tone_operator = Operator::Linear;
-        Frame frame = renderer_.render(settings, view, moment, 0, {.scene = true});
+        render::Frame frame = renderer_.render(settings, view, moment, 0, {.scene = true});
         Picture picture{view.extent, std::move(frame.scene), std::move(frame.outside),
                         std::atan(view.tangent_high.y) - std::atan(view.tangent_low.y)};
         const uint32_t side = marker_side(view.extent);
@@ -73,24 +75,24 @@ public:
     }
 
 private:
-    Renderer renderer_;
+    render::Renderer renderer_;
 };
 
 /// The world of a file, driven by its autopilot. Of lamps named "street lamp" every `every`-th shines.
-std::vector<Picture> drive(Device& device, const std::filesystem::path& file, VkExtent2D extent, double fps,
+std::vector<Picture> drive(gpu::Device& device, const std::filesystem::path& file, VkExtent2D extent, double fps,
                            double seconds, uint32_t every) {
-    const Scenery scenery(file);
+    const drive::Scenery scenery(file);
     traffic::World world(scenery.world(), 1);
     Pictures pictures(device, scenery.scene());
-    const DriveSettings settings;
+    const drive::DriveSettings settings;
     std::vector<Picture> made;
     for (uint64_t steps = 0; double(steps) <= seconds * kRate; ++steps) {
         if (double(steps) * fps >= double(made.size()) * kRate) {
-            SceneFrame moment = scenery.frame(world.actors(), world.seconds(), settings);
+            gpu_scene::SceneFrame moment = scenery.frame(world.actors(), world.seconds(), settings);
             uint32_t lamp = 0;
             for (size_t node = 0; node < scenery.scene().nodes.size() && every > 1; ++node) {
                 const uint32_t light = scenery.scene().nodes[node].lamp;
-                if (light == kNone || scenery.scene().lamps[light].name != "street lamp") continue;
+                if (light == scene::kNone || scenery.scene().lamps[light].name != "street lamp") continue;
                 if (moment.dimming.empty()) moment.dimming.assign(scenery.scene().nodes.size(), 1);
                 if (lamp++ % every != 0) moment.dimming[node] = 0;
             }
@@ -102,9 +104,9 @@ std::vector<Picture> drive(Device& device, const std::filesystem::path& file, Vk
 }
 
 /// A street with nobody in it: walls, and lamps that begin 60 m ahead; the camera moves on by kStride.
-std::vector<Picture> empty_street(Device& device, VkExtent2D extent) {
-    Scene scene;
-    Material asphalt, wall;
+std::vector<Picture> empty_street(gpu::Device& device, VkExtent2D extent) {
+    scene::Scene scene;
+    scene::Material asphalt, wall;
     asphalt.base_colour = {0.08f, 0.08f, 0.08f, 1}, wall.base_colour = {0.35f, 0.3f, 0.25f, 1};
     scene.materials = {asphalt, wall};
     scene.sky_luminance = 0.02f, scene.ambient_illuminance = 0.1f;
@@ -115,9 +117,9 @@ std::vector<Picture> empty_street(Device& device, VkExtent2D extent) {
         add_mesh(scene, rectangle({11, 0, z}, {0, 0, 20}, {0, 12.0f - float(i % 4) * 2, 0}), kRectangle, 1);
     }
     for (int i = 0; i < 10; ++i) {
-        Lamp light{.name = "lamp", .kind = Lamp::Kind::CosinePower, .intensity = 3000, .exponent = 0.5f};
+        scene::Lamp light{.name = "lamp", .kind = scene::Lamp::Kind::CosinePower, .intensity = 3000, .exponent = 0.5f};
         light.opening = {.length = 0.6, .width = 0.3, .height = 0, .round = false};
-        Node node;
+        scene::Node node;
         node.lamp = uint32_t(scene.lamps.size());
         node.translation = {i % 2 ? 6.0 : -6.0, 8.0, -60.0 - 28 * i};
         node.rotation = glm::angleAxis(-glm::half_pi<float>(), glm::vec3(1, 0, 0));  // -Z down
@@ -127,9 +129,10 @@ std::vector<Picture> empty_street(Device& device, VkExtent2D extent) {
     Pictures pictures(device, scene);
     std::vector<Picture> made;
     for (size_t i = 0; i < kStrides; ++i)
-        made.push_back(pictures(
-            View::symmetric(extent, 0.7f, glm::translate(glm::dmat4(1), -glm::dvec3(1.5, 1.3, -kStride * double(i)))),
-            {world_transforms(scene, 0)}));
+        made.push_back(
+            pictures(gpu_scene::View::symmetric(
+                         extent, 0.7f, glm::translate(glm::dmat4(1), -glm::dvec3(1.5, 1.3, -kStride * double(i)))),
+                     {scene::world_transforms(scene, 0)}));
     return made;
 }
 
@@ -141,7 +144,7 @@ struct Change {
 using Codes = std::array<double, kMarkers.size()>;
 
 /// Codes of the markers as a viewer has them on the screen.
-Codes codes_of_pixels(const ToneMapped& shown, VkExtent2D extent) {
+Codes codes_of_pixels(const render::ToneMapped& shown, VkExtent2D extent) {
     Codes codes;
     for (size_t k = 0; k < codes.size(); ++k) {
         const glm::uvec2 at = marker_at(extent, k) + marker_side(extent) / 2;
@@ -152,7 +155,7 @@ Codes codes_of_pixels(const ToneMapped& shown, VkExtent2D extent) {
 }
 
 /// And those of greys by the curve: where glare adds to the markers, and where what passes close by counts (bands).
-Codes codes_of_curve(const shared::ToneCurve& curve, const Display& display) {
+Codes codes_of_curve(const shared::ToneCurve& curve, const vision::Display& display) {
     Codes codes;
     for (size_t k = 0; k < codes.size(); ++k) {
         const float at = std::clamp((std::log(kMarkers[k]) - curve.ln_low) * curve.bins_per_ln, 0.0f, curve.bins),
@@ -165,22 +168,22 @@ Codes codes_of_curve(const shared::ToneCurve& curve, const Display& display) {
 }
 
 /// The largest change of a marker. `seconds` from picture to picture; 0: stills, of an eye that is adapted to each.
-Change largest_change(Device& device, const std::vector<Picture>& pictures, const ToneChainSettings& settings,
-                      double seconds) {
-    ToneMapper mapper(device);
+Change largest_change(gpu::Device& device, const std::vector<Picture>& pictures,
+                      const render::ToneChainSettings& settings, double seconds) {
+    render::ToneMapper mapper(device);
     Change most;
     Codes before{};
     for (size_t i = 0; i < pictures.size(); ++i) {
         const Picture& p = pictures[i];
         if (seconds == 0) mapper.reset_adaptation();
-        const ToneMapped shown = mapper.map(settings,
-                                            {.extent = p.extent,
-                                             .values = p.pixels,
-                                             .channels = 4,
-                                             .vertical_fov = p.vertical_fov,
-                                             .outside = p.outside},
-                                            i == 0 ? 0 : float(seconds), {});
-        const Codes now = settings.glare == Glare::None && !operator_info(settings.tone_operator).bands
+        const render::ToneMapped shown = mapper.map(settings,
+                                                    {.extent = p.extent,
+                                                     .values = p.pixels,
+                                                     .channels = 4,
+                                                     .vertical_fov = p.vertical_fov,
+                                                     .outside = p.outside},
+                                                    i == 0 ? 0 : float(seconds), {});
+        const Codes now = settings.glare == render::Glare::None && !render::operator_info(settings.tone_operator).bands
                               ? codes_of_pixels(shown, p.extent)
                               : codes_of_curve(shown.curve, settings.display);
         for (size_t k = 0; k < now.size(); ++k)
@@ -191,13 +194,13 @@ Change largest_change(Device& device, const std::vector<Picture>& pictures, cons
 }
 
 int run(VkExtent2D extent, double fps, double seconds, const std::string& glare, const std::string& only) {
-    Device device({.select = ""});
+    gpu::Device device({.select = ""});
     const std::string data = std::string(VESPER_SOURCE_DIR) + "/data/rivoli/";
     const std::vector<Picture> street = drive(device, data + "rivoli.world.json", extent, fps, seconds, 1),
                                road = drive(device, data + "rivoli.xodr", extent, fps, seconds, kEveryLamp),
                                empty = empty_street(device, extent);
-    ToneChainSettings settings;
-    if (glare == "cie") settings.glare = Glare::Scatter;
+    render::ToneChainSettings settings;
+    if (glare == "cie") settings.glare = render::Glare::Scatter;
     std::printf("%u x %u, %g frames a second, glare %s: largest change of a grey, codes\n\n", extent.width,
                 extent.height, fps, glare.c_str());
     std::printf(
@@ -205,11 +208,11 @@ int run(VkExtent2D extent, double fps, double seconds, const std::string& glare,
         "---: | ---: | ---: |\n");
     bool steady = true;
     for (const Limits& limits : kLimits) {
-        const OperatorInfo& op = operator_info(limits.op);
+        const render::OperatorInfo& op = render::operator_info(limits.op);
         const std::string name(op.name);
         if (!only.empty() && only != name) continue;
         const bool has_curve = op.histogram;
-        if (settings.glare != Glare::None && !has_curve) continue;
+        if (settings.glare != render::Glare::None && !has_curve) continue;
         settings.tone_operator = limits.op;
         for (const float smoothing : {0.15f, 0.0f}) {
             if (smoothing == 0 && !has_curve) continue;

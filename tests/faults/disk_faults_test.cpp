@@ -105,10 +105,10 @@ TEST_F(DiskFaults, ARecordingCanBeReadWheneverItsProgramWasKilled) {
         if (child == 0) {
             if (::chdir(folder.path().c_str()) != 0) ::_exit(1);
             vesper_fault_arm(FaultKind::Kill, at, 0);
-            DriveRecorder recorder({.scene = "street.json", .run = {}, .scenario = {}, .settings = {}});
+            drive::DriveRecorder recorder({.scene = "street.json", .run = {}, .scenario = {}, .settings = {}});
             recorder.open("drive.json");
             for (size_t i = 0; i < kEvents; ++i)
-                recorder.add({.kind = DriveEvent::Kind::Step,
+                recorder.add({.kind = drive::DriveEvent::Kind::Step,
                               .input = {.steering = double(i) / kEvents},
                               .name = {},
                               .value = {}});
@@ -123,7 +123,7 @@ TEST_F(DiskFaults, ARecordingCanBeReadWheneverItsProgramWasKilled) {
     for (uint64_t at = 1; at < 1000; ++at) {
         folder.write("drive.json", kOld);
         if (record(at)) {
-            EXPECT_EQ(read_drive(file).events.size(), kEvents);
+            EXPECT_EQ(drive::read_drive(file).events.size(), kEvents);
             EXPECT_GT(at, 2 * kEvents);
             return;
         }
@@ -131,7 +131,7 @@ TEST_F(DiskFaults, ARecordingCanBeReadWheneverItsProgramWasKilled) {
             EXPECT_EQ(most, 0u) << "change " << at;
             continue;
         }
-        const Drive drive = read_drive(file);
+        const drive::Drive drive = drive::read_drive(file);
         EXPECT_GE(drive.events.size(), most) << "change " << at;
         most = drive.events.size();
     }

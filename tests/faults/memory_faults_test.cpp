@@ -71,7 +71,7 @@ void expect_survives(const std::string& name, const std::function<void()>& read,
 }
 
 TEST(MemoryFaults, ReadingAScene) {
-    const auto read = [] { read_gltf(kDataFolder / "glare/headlamps.gltf"); };
+    const auto read = [] { scene::read_gltf(kDataFolder / "glare/headlamps.gltf"); };
     int64_t left = 0;
     read_once(read, 0, left);  // what is made once stays
     ASSERT_EQ(read_once(read, 0, left), Outcome::Read);
@@ -95,35 +95,37 @@ TEST(MemoryFaults, ReadingAScene) {
 
 TEST(MemoryFaults, EveryReaderAndWriterReportsThem) {
     expect_survives(
-        "photometry", [] { read_photometry(kDataFolder / "rivoli/rivoli.measured.photometry.json"); },
+        "photometry", [] { scene::read_photometry(kDataFolder / "rivoli/rivoli.measured.photometry.json"); },
         16);  // has an EXR front
-    expect_survives("IES", [] { read_distribution(kDataFolder / "photometry/street-lamp.ies"); });
-    expect_survives("EULUMDAT", [] { read_distribution(kDataFolder / "road/luminaire.ldt"); });
-    expect_survives("grid", [] { read_distribution(kDataFolder / "photometry/high-beam.csv"); });
-    expect_survives("reflection table", [] { read_reflection_table(kDataFolder / "road/R3.csv"); });
+    expect_survives("IES", [] { photometry::read_distribution(kDataFolder / "photometry/street-lamp.ies"); });
+    expect_survives("EULUMDAT", [] { photometry::read_distribution(kDataFolder / "road/luminaire.ldt"); });
+    expect_survives("grid", [] { photometry::read_distribution(kDataFolder / "photometry/high-beam.csv"); });
+    expect_survives("reflection table", [] { photometry::read_reflection_table(kDataFolder / "road/R3.csv"); });
     expect_survives("road", [] { roads::read_layout(kDataFolder / "road/worked-example.json"); });
     expect_survives("OpenDRIVE", [] { roads::read_opendrive(kDataFolder / "rivoli/rivoli.xodr"); });
     expect_survives("world", [] { traffic::read_world(kDataFolder / "rivoli/rivoli.world.json"); });
     expect_survives(
-        "OpenEXR", [] { read_hdr_image(kDataFolder / "rivoli/signs.exr"); }, 40);
+        "OpenEXR", [] { io::read_hdr_image(kDataFolder / "rivoli/signs.exr"); }, 40);
     const TempFolder folder;
-    write_png(folder / "x.png", 7, 5, std::vector<uint8_t>(7 * 5 * 4, 99));
-    expect_survives("PNG", [bytes = read_file(folder / "x.png", 1 << 20)] { decode_image(bytes, 100); });
-    expect_survives("PNG written", [&] { write_png(folder / "y.png", 64, 64, std::vector<uint8_t>(64 * 64 * 4, 7)); });
+    io::write_png(folder / "x.png", 7, 5, std::vector<uint8_t>(7 * 5 * 4, 99));
+    expect_survives("PNG", [bytes = io::read_file(folder / "x.png", 1 << 20)] { io::decode_image(bytes, 100); });
+    expect_survives("PNG written",
+                    [&] { io::write_png(folder / "y.png", 64, 64, std::vector<uint8_t>(64 * 64 * 4, 7)); });
     expect_survives(
         "OpenEXR written",
         [&] {
-            write_exr(folder / "y.exr", 64, 64, std::vector<float>(64 * 64 * 4, 7), {{"name", "text"}});
+            io::write_exr(folder / "y.exr", 64, 64, std::vector<float>(64 * 64 * 4, 7), {{"name", "text"}});
         },
         40);
     folder.write("x.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n" + std::string(16, '\x80'));
-    expect_survives("Radiance", [&] { read_hdr_image(folder / "x.hdr"); });
-    folder.write("x.json", display_json({}, "a display"));
-    expect_survives("display", [&] { read_display(folder / "x.json"); });
+    expect_survives("Radiance", [&] { io::read_hdr_image(folder / "x.hdr"); });
+    folder.write("x.json", scene::display_json({}, "a display"));
+    expect_survives("display", [&] { scene::read_display(folder / "x.json"); });
     const fs::path photograph = shared_data("malformed/image/jpeg/YCbCrK.jpg");
     if (is_here(photograph))
-        expect_survives("JPEG",
-                        [bytes = read_file(photograph, 1 << 20)] { decode_image(bytes, 4096), read_exif(bytes); });
+        expect_survives("JPEG", [bytes = io::read_file(photograph, 1 << 20)] {
+            io::decode_image(bytes, 4096), io::read_exif(bytes);
+        });
 }
 
 }  // namespace

@@ -36,13 +36,14 @@ size_t every_fault(uint64_t calls, std::span<const VkResult> faults, const Try& 
     return tried;
 }
 
-std::vector<uint8_t> render(Renderer& renderer, const Scene& scene, VkExtent2D extent = {16, 8}, float seconds = 0) {
-    RenderSettings settings;
-    settings.glare = Glare::Scatter;
+std::vector<uint8_t> render(render::Renderer& renderer, const scene::Scene& scene, VkExtent2D extent = {16, 8},
+                            float seconds = 0) {
+    render::RenderSettings settings;
+    settings.glare = render::Glare::Scatter;
     if (seconds == 0) renderer.reset_adaptation();
     return renderer
-        .render(settings, View::symmetric(extent, 0.4f, glm::mat4(1)), {world_transforms(scene, 0)}, seconds,
-                {.display = true})
+        .render(settings, gpu_scene::View::symmetric(extent, 0.4f, glm::mat4(1)), {scene::world_transforms(scene, 0)},
+                seconds, {.display = true})
         .display;
 }
 
@@ -59,13 +60,13 @@ void expect_line(const Error& error) {
 }
 
 TEST(VulkanFaults, EveryCallThatFailsEndsInALine) {
-    const Scene scene = wall_with_a_lamp();
+    const scene::Scene scene = wall_with_a_lamp();
     std::string complaints;
     std::vector<uint8_t> good;
     const auto from_start = [&] {
-        Device device(
+        gpu::Device device(
             {.select = "", .validation = true, .on_message = [&](const std::string& m) { complaints += m + "\n"; }});
-        Renderer renderer(device, scene);
+        render::Renderer renderer(device, scene);
         return render(renderer, scene);
     };
     uint64_t calls = 0;
@@ -93,11 +94,11 @@ TEST(VulkanFaults, EveryCallThatFailsEndsInALine) {
 }
 
 TEST(VulkanFaults, AFrameThatFailedIsFollowedByAGoodOne) {
-    const Scene scene = wall_with_a_lamp();
+    const scene::Scene scene = wall_with_a_lamp();
     std::string complaints;
-    Device device(
+    gpu::Device device(
         {.select = "", .validation = true, .on_message = [&](const std::string& m) { complaints += m + "\n"; }});
-    Renderer renderer(device, scene);
+    render::Renderer renderer(device, scene);
     // The eye goes on from the frame before the one that fails.
     const auto eye_after = [&] {
         render(renderer, scene);

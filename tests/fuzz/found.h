@@ -18,7 +18,7 @@ inline void expect_answers(const std::map<std::string, FuzzTarget>& targets) {
         if (!std::filesystem::is_directory(found / name)) continue;
         for (const auto& entry : std::filesystem::directory_iterator(found / name)) {
             SCOPED_TRACE(entry.path().string());
-            EXPECT_NO_THROW(target(read_file(entry.path(), 1 << 24)));
+            EXPECT_NO_THROW(target(io::read_file(entry.path(), 1 << 24)));
         }
     }
 }

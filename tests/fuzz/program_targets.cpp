@@ -92,12 +92,12 @@ void call_c_interface(Bytes bytes) {
 
 std::map<std::string, FuzzTarget> make_targets() {
     return {
-        {"drive", of_file("x.json", [](const fs::path& file) { read_drive(file); })},
-        {"controllers", of_file("x.json", [](const fs::path& file) { read_controllers(file); })},
-        {"channels", of_file("x.json", [](const fs::path& file) { read_channels(file); })},
-        {"bench_result", of_file("x.json", [](const fs::path& file) { read_result(file); })},
-        {"tone_log", of_file("x.csv", [](const fs::path& file) { read_log(file); })},
-        {"lamp_list", of_file("x.csv", [](const fs::path& file) { read_lamps(file); })},
+        {"drive", of_file("x.json", [](const fs::path& file) { drive::read_drive(file); })},
+        {"controllers", of_file("x.json", [](const fs::path& file) { drive::read_controllers(file); })},
+        {"channels", of_file("x.json", [](const fs::path& file) { drive::read_channels(file); })},
+        {"bench_result", of_file("x.json", [](const fs::path& file) { bench::read_result(file); })},
+        {"tone_log", of_file("x.csv", [](const fs::path& file) { apps::read_log(file); })},
+        {"lamp_list", of_file("x.csv", [](const fs::path& file) { apps::read_lamps(file); })},
         {"c_interface", call_c_interface},
     };
 }

@@ -28,14 +28,14 @@ using Bytes = std::span<const uint8_t>;
 
 // Small limits: a fuzzer looks for mistakes, not for memory.
 constexpr uint64_t kSmall = 1 << 16;
-const SceneLimits kFew{.file_bytes = 1 << 22,
-                       .vertices = kSmall,
-                       .indices = kSmall,
-                       .texels = kSmall,
-                       .image_side = 512,
-                       .nodes = 1000,
-                       .lamps = 100,
-                       .candela = kSmall};
+const scene::SceneLimits kFew{.file_bytes = 1 << 22,
+                              .vertices = kSmall,
+                              .indices = kSmall,
+                              .texels = kSmall,
+                              .image_side = 512,
+                              .nodes = 1000,
+                              .lamps = 100,
+                              .candela = kSmall};
 
 // A run of one car along 100 m, for scenarios to play on.
 constexpr const char* kRun =
@@ -54,31 +54,33 @@ void read_scenario(const fs::path& scenario) {
 
 std::map<std::string, FuzzTarget> make_targets() {
     return {
-        {"gltf", of_file("x.gltf", [](const fs::path& file) { read_gltf(file, kFew); })},
-        {"glb", of_file("x.glb", [](const fs::path& file) { read_gltf(file, kFew); })},
-        {"photometry", of_file("x.photometry.json", [](const fs::path& file) { read_photometry(file); })},
-        {"ies", [](Bytes bytes) { parse_ies(bytes, "x.ies"); }},
-        {"ldt", [](Bytes bytes) { parse_eulumdat(bytes, "x.ldt"); }},
-        {"grid_csv", [](Bytes bytes) { parse_grid_csv(bytes, "x.csv"); }},
-        {"grid_exr", [](Bytes bytes) { parse_grid_exr(bytes, "x.exr"); }},
-        {"reflection_table", [](Bytes bytes) { parse_reflection_table(bytes, "x.csv"); }},
+        {"gltf", of_file("x.gltf", [](const fs::path& file) { scene::read_gltf(file, kFew); })},
+        {"glb", of_file("x.glb", [](const fs::path& file) { scene::read_gltf(file, kFew); })},
+        {"photometry", of_file("x.photometry.json", [](const fs::path& file) { scene::read_photometry(file); })},
+        {"ies", [](Bytes bytes) { photometry::parse_ies(bytes, "x.ies"); }},
+        {"ldt", [](Bytes bytes) { photometry::parse_eulumdat(bytes, "x.ldt"); }},
+        {"grid_csv", [](Bytes bytes) { photometry::parse_grid_csv(bytes, "x.csv"); }},
+        {"grid_exr", [](Bytes bytes) { photometry::parse_grid_exr(bytes, "x.exr"); }},
+        {"reflection_table", [](Bytes bytes) { photometry::parse_reflection_table(bytes, "x.csv"); }},
         {"exr",
-         of_file("x.exr", [](const fs::path& file) { read_exr(file, {.max_side = 512, .max_pixels = kSmall}); })},
+         of_file("x.exr", [](const fs::path& file) { io::read_exr(file, {.max_side = 512, .max_pixels = kSmall}); })},
         {"radiance",
-         of_file("x.hdr", [](const fs::path& file) { read_radiance(file, {.max_side = 512, .max_pixels = kSmall}); })},
-        {"display", of_file("x.json", [](const fs::path& file) { read_display(file); })},
-        {"display_measurements", of_file("x.csv", [](const fs::path& file) { read_display_measurements(file, 8); })},
+         of_file("x.hdr",
+                 [](const fs::path& file) { io::read_radiance(file, {.max_side = 512, .max_pixels = kSmall}); })},
+        {"display", of_file("x.json", [](const fs::path& file) { scene::read_display(file); })},
+        {"display_measurements",
+         of_file("x.csv", [](const fs::path& file) { vision::read_display_measurements(file, 8); })},
         {"opendrive",
          [](Bytes bytes) {
              roads::parse_opendrive({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "x.xodr");
          }},
         {"esmini_run", of_file("x.csv", [](const fs::path& file) { roads::read_esmini_run(file); })},
         {"world", of_file("x.world.json", [](const fs::path& file) { traffic::read_world(file); })},
-        {"response", of_file("x.csv", [](const fs::path& file) { read_response(file); })},
+        {"response", of_file("x.csv", [](const fs::path& file) { photometry::read_response(file); })},
         {"road", of_file("x.json", [](const fs::path& file) { roads::read_layout(file); })},
         {"scenario", of_file("x.xosc", read_scenario)},
-        {"image", [](Bytes bytes) { decode_image(bytes, 512, kSmall); }},
-        {"exif", [](Bytes bytes) { read_exif(bytes); }},
+        {"image", [](Bytes bytes) { io::decode_image(bytes, 512, kSmall); }},
+        {"exif", [](Bytes bytes) { io::read_exif(bytes); }},
     };
 }
 

@@ -14,7 +14,7 @@ namespace vesper::test {
 namespace {
 
 /// As shared/encode.h says it.
-uint32_t code_in_cells(const Encoding& encoding, float light) {
+uint32_t code_in_cells(const gpu_scene::Encoding& encoding, float light) {
     const auto& [shift, first, last, bits] = encoding.push;
     const glm::vec4& cell = encoding.cells.at(std::clamp(std::bit_cast<uint32_t>(light) >> shift, first, last) - first);
     return uint32_t(light >= cell.r ? cell.b : cell.g);
@@ -22,8 +22,8 @@ uint32_t code_in_cells(const Encoding& encoding, float light) {
 
 /// Displayed light, relative, from which on each code but 0 is the nearest: that of a code half a step below it. Codes
 /// whose half a step is at the display's peak or beyond (PQ) are not needed.
-std::vector<double> edges_of(const Display& display) {
-    const DisplayCurve curve(display);
+std::vector<double> edges_of(const vision::Display& display) {
+    const vision::DisplayCurve curve(display);
     const double black = double(display.black), peak = double(display.peak);
     std::vector<double> edges;
     for (uint32_t code = 1; code <= display.largest_code(); ++code) {
@@ -45,16 +45,16 @@ std::vector<float> lights_about(const std::vector<double>& edges) {
 }
 
 TEST(Encoding, EveryLightHasItsNearestCode) {
-    std::vector<Display> displays = every_kind_of_display();
+    std::vector<vision::Display> displays = every_kind_of_display();
     displays.push_back({.gamma = 1, .bits = 10});
     displays.push_back({.gamma = 3.4f, .bits = 10});
-    displays.push_back({.peak = 48, .black = 0.001f, .eotf = Eotf::Srgb, .bits = 10});
-    displays.push_back({.peak = 100, .black = 0, .eotf = Eotf::Pq});
-    displays.push_back({.peak = 10000, .black = 0, .eotf = Eotf::Pq, .bits = 10});
-    for (const Display& display : displays) {
+    displays.push_back({.peak = 48, .black = 0.001f, .eotf = vision::Eotf::Srgb, .bits = 10});
+    displays.push_back({.peak = 100, .black = 0, .eotf = vision::Eotf::Pq});
+    displays.push_back({.peak = 10000, .black = 0, .eotf = vision::Eotf::Pq, .bits = 10});
+    for (const vision::Display& display : displays) {
         SCOPED_TRACE("transfer function " + std::to_string(int(display.eotf)) + ", " + std::to_string(display.bits) +
                      " bits, peak " + std::to_string(display.peak));
-        const Encoding encoding = make_encoding(display);
+        const gpu_scene::Encoding encoding = gpu_scene::make_encoding(display);
         EXPECT_EQ(encoding.push.bits, display.bits);
         const std::vector<double> edges = edges_of(display);
         size_t wrong = 0;

@@ -28,9 +28,9 @@ size_t first_of(uint32_t level) {
 // Texels are light times the square of the angle, so equal rows have equal solid angles: a mean of each level is all of
 // its light.
 TEST(EyeCorona, EveryLevelHasTheSameLight) {
-    CoronaCache cache;
-    for (const auto model : {ScatterSettings::Model::Temporal, ScatterSettings::Model::Spencer}) {
-        const auto texels = cache.at({.model = model, .state = SpencerState::Scotopic}, 1, 0).texels;
+    gpu_scene::CoronaCache cache;
+    for (const auto model : {gpu_scene::ScatterSettings::Model::Temporal, gpu_scene::ScatterSettings::Model::Spencer}) {
+        const auto texels = cache.at({.model = model, .state = vision::SpencerState::Scotopic}, 1, 0).texels;
         ASSERT_EQ(texels.size(), shared::kPatternRows * kStride);
         dvec3 light[shared::kPatternLevels]{};
         double strongest = 0;
@@ -49,13 +49,13 @@ TEST(EyeCorona, EveryLevelHasTheSameLight) {
 
 // A lamp that is wide has no rings of its own: what is fine along the radius is blurred as what is fine around.
 TEST(EyeCorona, MeansAreSmoothAlongTheRadius) {
-    CoronaCache cache;
-    const auto texels = cache.at({.model = ScatterSettings::Model::Temporal}, 1, 0).texels;
+    gpu_scene::CoronaCache cache;
+    const auto texels = cache.at({.model = gpu_scene::ScatterSettings::Model::Temporal}, 1, 0).texels;
     constexpr uint32_t kLevel = 4, kWide = 1 << kLevel;
     const auto at = [&](int row, size_t texel) { return luminance(dvec3(texels[size_t(row) * kStride + texel])); };
     double changes = 0,
            around = 0;  // squares of what changes from row to row: of the level, and of means of columns alone
-    for (int row = int(GlarePattern::row_of(0.2)); row < int(GlarePattern::row_of(1)); ++row)
+    for (int row = int(vision::GlarePattern::row_of(0.2)); row < int(vision::GlarePattern::row_of(1)); ++row)
         for (size_t i = 0; i < kColumns / kWide; ++i) {
             double here = 0, next = 0;
             for (size_t k = 0; k < kWide; ++k)
@@ -68,17 +68,17 @@ TEST(EyeCorona, MeansAreSmoothAlongTheRadius) {
 }
 
 TEST(EyeCorona, TheEyeOfAFrameDependsOnItsMomentAlone) {
-    const ScatterSettings settings{.model = ScatterSettings::Model::Temporal};
-    CoronaCache one, other;
+    const gpu_scene::ScatterSettings settings{.model = gpu_scene::ScatterSettings::Model::Temporal};
+    gpu_scene::CoronaCache one, other;
     const auto texels = one.at(settings, 4.1, 3.5).texels;
     EXPECT_GT(one.at(settings, 4.1, 3.6).milliseconds, 0);
     EXPECT_EQ(one.at(settings, 4.1, 3.6).milliseconds, 0) << "time stands still, and so does the eye";
     EXPECT_EQ(other.at(settings, 4.1, 3.5).texels, texels);
     EXPECT_EQ(one.at(settings, 4.1, 3.5).texels, texels);
     // The pupil closes within half a second to what it adapts to, and is never at rest.
-    EXPECT_NEAR(one.at(settings, 0, 0).pupil, pupil_moon_spencer(1), 0.6);
+    EXPECT_NEAR(one.at(settings, 0, 0).pupil, vision::pupil_moon_spencer(1), 0.6);
     EXPECT_NEAR(one.at(settings, 2.3, 5).pupil, 2.3, 0.6);
-    const double next = std::lerp(pupil_moon_spencer(1e3), double(shared::kFirstPupil),
+    const double next = std::lerp(vision::pupil_moon_spencer(1e3), double(shared::kFirstPupil),
                                   std::exp(-0.01 / double(shared::kPupilSeconds)));  // as glsl/adapt.comp leaves it
     EXPECT_LT(std::abs(one.at(settings, next, 0.01).pupil - one.at(settings, 0, 0).pupil), 0.1)
         << "no step after the first frame";

@@ -12,13 +12,16 @@
 #include "places.h"
 #include "shared/tables.h"
 
-namespace vesper {
+namespace vesper::test {
 namespace {
+
+using gpu_scene::IntensityTables, gpu_scene::intensity_tables;
+using photometry::Goniometry;
 
 const std::filesystem::path kData = std::filesystem::path(VESPER_SOURCE_DIR) / "data/photometry";
 
-Scene with(Distribution d) {
-    Scene scene;
+scene::Scene with(photometry::Distribution d) {
+    scene::Scene scene;
     scene.distributions.push_back(std::move(d));
     return scene;
 }
@@ -29,7 +32,7 @@ glm::vec4 cell(const IntensityTables& tables, const IntensityTables::Intensities
 
 /// Every tabulated value is a corner of a cell, within what floats round: 2^-22, or 2^-24 of the largest.
 void expect_every_value(const std::string& file) {
-    const Distribution d = read_distribution(kData / file);
+    const photometry::Distribution d = photometry::read_distribution(kData / file);
     const IntensityTables tables = intensity_tables(with(d));
     const auto& table = tables.intensities.at(0);
     EXPECT_TRUE(table.exact);
@@ -56,7 +59,7 @@ TEST(IntensityTables, KeepEveryValueOfTheLowBeam) { expect_every_value("low-beam
 TEST(IntensityTables, KeepEveryValueOfTheHighBeam) { expect_every_value("high-beam.csv"); }
 
 TEST(IntensityTables, GoOnAroundStayAtThePolesAndEndWhereTheTableEnds) {
-    Distribution d;
+    photometry::Distribution d;
     d.horizontal = {0, 90, 180, 270, 360}, d.vertical = {0, 45, 90};
     for (double plane : {1.0, 2.0, 3.0, 4.0, 1.0}) d.candela.insert(d.candela.end(), {10, 10 * plane, 10});
     const IntensityTables tables = intensity_tables(with(d));
@@ -106,7 +109,7 @@ TEST(IntensityTables, NoWindowIsBelowAnyValueInItOrMuchAbove) {
     const std::vector<Window> rings = windows_of(shared::kRings), sectors = windows_of(shared::kSectors);
     ASSERT_EQ(rings.size() * sectors.size(), 4 * shared::kWindowTexels);
     for (const char* file : {"street-lamp.ies", "low-beam.csv", "high-beam.csv"}) {
-        const Distribution d = read_distribution(kData / file);
+        const photometry::Distribution d = photometry::read_distribution(kData / file);
         const IntensityTables tables = intensity_tables(with(d));
         const glm::dmat3 frame = frame_of(d.goniometry);
         double seen[shared::kRings][shared::kSectors]{};  // the largest in a bin
@@ -117,8 +120,9 @@ TEST(IntensityTables, NoWindowIsBelowAnyValueInItOrMuchAbove) {
                              azimuth = (s + 0.5) / (kFine * shared::kSectors) * 2 * std::numbers::pi - std::numbers::pi;
                 double& largest = seen[r / kFine][s / kFine];
                 largest = std::max(
-                    largest, intensity(d, frame * glm::dvec3(std::sin(polar) * std::cos(azimuth),
-                                                             std::sin(polar) * std::sin(azimuth), std::cos(polar))));
+                    largest,
+                    photometry::intensity(d, frame * glm::dvec3(std::sin(polar) * std::cos(azimuth),
+                                                                std::sin(polar) * std::sin(azimuth), std::cos(polar))));
             }
         for (size_t i = 0; i < rings.size(); ++i)
             for (size_t j = 0; j < sectors.size(); ++j) {
@@ -129,7 +133,7 @@ TEST(IntensityTables, NoWindowIsBelowAnyValueInItOrMuchAbove) {
                 const double bound = bound_of(tables, i, j);
                 ASSERT_LE(largest, bound) << file << ", windows " << i << " and " << j;
                 if (rings[i].first + rings[i].length > shared::kRings) continue;  // never asked for
-                EXPECT_GE(1.5 * largest + 0.03 * largest_intensity(d), bound)
+                EXPECT_GE(1.5 * largest + 0.03 * photometry::largest_intensity(d), bound)
                     << file << ", windows " << i << " and " << j << ": no use";
             }
     }
@@ -161,7 +165,7 @@ TEST(IntensityTables, WindowsHoldCellsOfEverySize) {
         return made;
     };
     for (int turn = 0; turn < 300; ++turn) {
-        Distribution d;
+        photometry::Distribution d;
         d.goniometry = Goniometry(turn % 3);
         const bool c = d.goniometry == Goniometry::CGamma, b = d.goniometry == Goniometry::TypeB;
         d.horizontal = c ? std::vector<double>{0, 90, 180, 270, 360} : b ? angles(-90, 90) : angles(-180, 180);
@@ -182,13 +186,13 @@ TEST(IntensityTables, WindowsHoldCellsOfEverySize) {
                 std::min(uint32_t(std::sqrt(std::max((1 - at.z) / 2, 0.0)) * shared::kRings), shared::kRings - 1);
             const auto sector = std::min(
                 uint32_t((std::atan2(at.y, at.x) / std::numbers::pi + 1) / 2 * shared::kSectors), shared::kSectors - 1);
-            ASSERT_LE(intensity(d, to), bound_of(tables, ring, sector)) << turn << ": " << h << ", " << v;
+            ASSERT_LE(photometry::intensity(d, to), bound_of(tables, ring, sector)) << turn << ": " << h << ", " << v;
         }
     }
 }
 
 TEST(IntensityTables, OddAnglesGetNodesATenthOfADegreeApart) {
-    Distribution d;
+    photometry::Distribution d;
     d.horizontal = {0}, d.vertical = {0, 10.0037, 90}, d.candela = {100, 80, 20};
     const IntensityTables tables = intensity_tables(with(d));
     EXPECT_FALSE(tables.intensities[0].exact);
@@ -197,7 +201,7 @@ TEST(IntensityTables, OddAnglesGetNodesATenthOfADegreeApart) {
 
 TEST(IntensityTables, ADarkLampAndNoLampAreNothing) {
     EXPECT_FALSE(intensity_tables({}).texels.empty());
-    Distribution d;
+    photometry::Distribution d;
     d.horizontal = {0}, d.vertical = {0, 90}, d.candela = {0, 0};
     EXPECT_EQ(intensity_tables(with(d)).intensities.at(0).largest, 0.0f);
 }
@@ -213,7 +217,7 @@ RoadCells road_cells(const IntensityTables& tables, size_t table) {
 }
 
 /// Every tabulated value is a corner of a cell.
-void expect_every_value(const IntensityTables& tables, size_t number, const ReflectionTable& table) {
+void expect_every_value(const IntensityTables& tables, size_t number, const photometry::ReflectionTable& table) {
     const RoadCells road = road_cells(tables, number);
     for (size_t t = 1; t < table.tan_gamma.size(); ++t)
         for (size_t b = 1; b < table.beta.size(); ++b) {
@@ -222,7 +226,7 @@ void expect_every_value(const IntensityTables& tables, size_t number, const Refl
             ASSERT_NEAR(along, std::round(along), 1e-4);  // of a cell: floats round the head
             ASSERT_NEAR(across, std::round(across), 1e-9);
             const size_t cell = (size_t(std::round(along)) - 1) * size_t(road.columns) + size_t(std::round(across)) - 1;
-            const double value = reflectance_in_diffuse(extended(table)) / std::numbers::pi *
+            const double value = gpu_scene::reflectance_in_diffuse(photometry::extended(table)) / std::numbers::pi *
                                  double(tables.texels.at(road.first + cell).w);
             ASSERT_NEAR(value, table.at(t, b), table.at(t, b) * std::exp2(-22))
                 << table.name << " " << table.tan_gamma[t] << " " << table.beta[b];
@@ -230,20 +234,20 @@ void expect_every_value(const IntensityTables& tables, size_t number, const Refl
 }
 
 TEST(IntensityTables, RoadsKeepEveryTabulatedValue) {
-    Scene scene;
-    for (const std::string& name : standard_reflection_tables())
-        scene.reflection_tables.push_back(find_reflection_table(name));
+    scene::Scene scene;
+    for (const std::string& name : photometry::standard_reflection_tables())
+        scene.reflection_tables.push_back(photometry::find_reflection_table(name));
     const IntensityTables tables = intensity_tables(scene);
     for (size_t i = 0; i < scene.reflection_tables.size(); ++i)
         expect_every_value(tables, i, scene.reflection_tables[i]);
 }
 
 TEST(IntensityTables, RoadsHaveTheNodesOfAnyTable) {
-    ReflectionTable far = find_reflection_table("R3"), odd = far;
+    photometry::ReflectionTable far = photometry::find_reflection_table("R3"), odd = far;
     for (double& t : far.tan_gamma) t *= 2.5;
     odd.tan_gamma[1] = 0.1, odd.tan_gamma[2] = 0.45, odd.beta[1] = 1.5;
-    Scene scene;
-    scene.reflection_tables = {far, odd, find_reflection_table("W4")};
+    scene::Scene scene;
+    scene.reflection_tables = {far, odd, photometry::find_reflection_table("W4")};
     const IntensityTables tables = intensity_tables(scene);
     for (size_t i = 0; i < 3; ++i) expect_every_value(tables, i, scene.reflection_tables[i]);
     EXPECT_EQ(road_cells(tables, 0).columns, 180);
@@ -254,11 +258,11 @@ TEST(IntensityTables, RoadsHaveTheNodesOfAnyTable) {
 // Darker and brighter than half floats can be.
 TEST(IntensityTables, RoadsOfAnyBrightnessAreFinite) {
     for (const double r : {1e-10, 1e4}) {
-        Scene scene;
+        scene::Scene scene;
         scene.reflection_tables = {{.name = "even", .tan_gamma = {0, 5}, .beta = {0, 180}, .r = {r, r, r, r}}};
-        check_reflection_table(scene.reflection_tables[0], "even");
+        photometry::check_reflection_table(scene.reflection_tables[0], "even");
         const IntensityTables tables = intensity_tables(scene);
-        const float reflectance = reflectance_in_diffuse(rendered_table(scene, 0));
+        const float reflectance = gpu_scene::reflectance_in_diffuse(gpu_scene::rendered_table(scene, 0));
         const double stands_for =
             double(tables.texels.at(road_cells(tables, 0).first).x) * double(reflectance) / std::numbers::pi;
         EXPECT_NEAR(stands_for / r, 1, 1e-5);
@@ -266,9 +270,9 @@ TEST(IntensityTables, RoadsOfAnyBrightnessAreFinite) {
 }
 
 TEST(IntensityTables, NodesOfRoadsThatDivideNothingAreHalfACellOff) {
-    Scene scene;
-    scene.reflection_tables = {find_reflection_table("R3")};
-    ReflectionTable& table = scene.reflection_tables[0];
+    scene::Scene scene;
+    scene.reflection_tables = {photometry::find_reflection_table("R3")};
+    photometry::ReflectionTable& table = scene.reflection_tables[0];
     table.tan_gamma[1] = 0.2501, table.beta[1] = 1.0007;
     const IntensityTables tables = intensity_tables(scene);
     const RoadCells road = road_cells(tables, 0);
@@ -277,4 +281,4 @@ TEST(IntensityTables, NodesOfRoadsThatDivideNothingAreHalfACellOff) {
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

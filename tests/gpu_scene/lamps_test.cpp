@@ -6,15 +6,17 @@
 
 #include <gtest/gtest.h>
 
-namespace vesper {
+namespace vesper::test {
 namespace {
+
+using scene::Lamp;
 
 constexpr float kDegree = 3.14159265f / 180;
 
 shared::Lamp shine(const Lamp& lamp) {
-    const SceneFrame frame{{glm::mat4(1)}};
-    const View view;
-    return lamp_list({{lamp, 0}}, {}, frame, view).lamps.at(0);
+    const gpu_scene::SceneFrame frame{{glm::mat4(1)}};
+    const gpu_scene::View view;
+    return gpu_scene::lamp_list({{lamp, 0}}, {}, frame, view).lamps.at(0);
 }
 
 // KHR_lights_punctual: full intensity within the inner cone, none beyond the outer, the square of a ramp in the cosine
@@ -53,19 +55,19 @@ TEST(Lights, ASpotWhoseConesCoincideIsFullInside) {
 }
 
 TEST(Lights, KindsFollowOneAnotherAndDarkLampsAreLeftOut) {
-    const SceneFrame frame{{glm::mat4(1)}};
+    const gpu_scene::SceneFrame frame{{glm::mat4(1)}};
     const Lamp point{.name = {}, .kind = Lamp::Kind::Point, .intensity = 1},
         power{.name = {}, .kind = Lamp::Kind::CosinePower, .intensity = 2},
         moon{.name = {}, .kind = Lamp::Kind::Directional, .intensity = 3},
         dark{.name = {}, .kind = Lamp::Kind::Point, .intensity = 0};
-    Scene scene;
+    scene::Scene scene;
     scene.lamps = {moon, power, dark, point};
     for (uint32_t i = 0; i < 4; ++i) {
         scene.nodes.emplace_back();
         scene.nodes.back().lamp = i;
     }
-    const SceneFrame four{std::vector<glm::dmat4>(4, glm::dmat4(1))};
-    const LampList list = lamp_list(placed_lamps(scene), {}, four, View());
+    const gpu_scene::SceneFrame four{std::vector<glm::dmat4>(4, glm::dmat4(1))};
+    const gpu_scene::LampList list = gpu_scene::lamp_list(gpu_scene::placed_lamps(scene), {}, four, gpu_scene::View());
     ASSERT_EQ(list.lamps.size(), 3u);
     EXPECT_EQ(list.counts.cones, 1u);
     EXPECT_EQ(list.counts.powers, 1u);
@@ -77,21 +79,24 @@ TEST(Lights, KindsFollowOneAnotherAndDarkLampsAreLeftOut) {
 
 // A culling takes cones of directions for cones of a table's angles: also on a node that is sheared, mirrored or flat.
 TEST(Lights, TheFrameOfAMapIsOrthonormal) {
-    for (const Goniometry goniometry : {Goniometry::CGamma, Goniometry::TypeB, Goniometry::TypeA}) {
-        const Distribution d{.name = {},
-                             .goniometry = goniometry,
-                             .horizontal = {0, 90},
-                             .vertical = {0, 90},
-                             .candela = {1, 1, 1, 1},
-                             .opening = {},
-                             .metadata = {}};
-        Scene scene;
+    for (const photometry::Goniometry goniometry :
+         {photometry::Goniometry::CGamma, photometry::Goniometry::TypeB, photometry::Goniometry::TypeA}) {
+        const photometry::Distribution d{.name = {},
+                                         .goniometry = goniometry,
+                                         .horizontal = {0, 90},
+                                         .vertical = {0, 90},
+                                         .candela = {1, 1, 1, 1},
+                                         .opening = {},
+                                         .metadata = {}};
+        scene::Scene scene;
         scene.distributions = {d};
         const Lamp lamp{.name = {}, .kind = Lamp::Kind::Measured, .intensity = 1, .distribution = 0};
         for (const glm::mat4& pose : {glm::mat4(1), glm::mat4(1, 0, 0, 0, 0.3f, 1, 0, 0, 0.4f, 0.5f, 1, 0, 0, 0, 0, 1),
                                       glm::mat4(-1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1),
                                       glm::mat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)}) {
-            const shared::Lamp packed = lamp_list({{lamp, 0}}, intensity_tables(scene), {{pose}}, View()).lamps.at(0);
+            const shared::Lamp packed =
+                gpu_scene::lamp_list({{lamp, 0}}, gpu_scene::intensity_tables(scene), {{pose}}, gpu_scene::View())
+                    .lamps.at(0);
             EXPECT_NEAR(glm::dot(packed.start, packed.pole), 0, 1e-6) << int(goniometry);
             EXPECT_NEAR(glm::length(packed.start), 1, 1e-6) << int(goniometry);
             EXPECT_NEAR(glm::length(packed.pole), 1, 1e-6) << int(goniometry);
@@ -105,8 +110,9 @@ TEST(Lights, TheFrameOfAMapIsOrthonormal) {
 
 TEST(Lights, AreDimmedNodeByNode) {
     const Lamp point{.name = {}, .kind = Lamp::Kind::Point, .intensity = 10};
-    const SceneFrame frame{.world = std::vector<glm::dmat4>(3, glm::dmat4(1)), .dimming = {0.5f, 0, 1}};
-    const LampList list = lamp_list({{point, 0}, {point, 1}, {point, 2}}, {}, frame, View());
+    const gpu_scene::SceneFrame frame{.world = std::vector<glm::dmat4>(3, glm::dmat4(1)), .dimming = {0.5f, 0, 1}};
+    const gpu_scene::LampList list =
+        gpu_scene::lamp_list({{point, 0}, {point, 1}, {point, 2}}, {}, frame, gpu_scene::View());
     ASSERT_EQ(list.lamps.size(), 2u);
     EXPECT_EQ(list.counts.cones, 2u);
     EXPECT_EQ(list.lamps[0].intensity, 5);
@@ -114,4 +120,4 @@ TEST(Lights, AreDimmedNodeByNode) {
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

@@ -16,8 +16,10 @@ namespace vesper::test {
 namespace {
 
 using glm::dvec2, glm::dvec3;
+using gpu_scene::LuminaireList;
+using scene::Lamp;
 
-const View kView = View::symmetric({1680, 1050}, 0.6f, glm::mat4(1));
+const gpu_scene::View kView = gpu_scene::View::symmetric({1680, 1050}, 0.6f, glm::mat4(1));
 
 std::vector<dvec2> silhouette_of(const LuminaireList& list, size_t source = 0) {
     const shared::Luminaire& s = list.luminaires.at(source);
@@ -28,7 +30,7 @@ std::vector<dvec2> silhouette_of(const LuminaireList& list, size_t source = 0) {
 }
 
 /// Illuminance at the eye of one lamp: luminance times solid angle, lx.
-double at_eye(const Lamp& lamp, const glm::mat4& world, std::vector<Distribution> distributions = {}) {
+double at_eye(const Lamp& lamp, const glm::mat4& world, std::vector<photometry::Distribution> distributions = {}) {
     Lamps lamps;
     lamps.set.distributions = std::move(distributions);
     lamps.add(lamp, world);
@@ -52,10 +54,11 @@ TEST(Luminaires, LuminanceIsIntensityOverArea) {
 
 // A dimmed lamp is as much darker, and dazzles as much less; one that is off is not seen.
 TEST(Luminaires, IsDimmedWithItsNode) {
-    LuminaireSet set;
+    gpu_scene::LuminaireSet set;
     for (uint32_t node = 0; node < 3; ++node) set.lamps.push_back({lamp_with_opening(900, 0.3, 0.2), node});
-    SceneFrame frame{.world = std::vector<glm::dmat4>(3, aimed({0, 0, -5}, {0, 0, 1})), .dimming = {1, 0.25f, 0}};
-    const LuminaireList list = luminaire_list(set, frame, kView);
+    gpu_scene::SceneFrame frame{.world = std::vector<glm::dmat4>(3, aimed({0, 0, -5}, {0, 0, 1})),
+                                .dimming = {1, 0.25f, 0}};
+    const LuminaireList list = gpu_scene::luminaire_list(set, frame, kView);
     ASSERT_EQ(list.luminaires.size(), 2u);
     ASSERT_EQ(list.glare_sources.size(), 2u);
     EXPECT_NEAR(list.luminaires[1].luminance.g / list.luminaires[0].luminance.g, 0.25, 1e-6);
@@ -64,8 +67,8 @@ TEST(Luminaires, IsDimmedWithItsNode) {
 
 // I(direction) / d^2 for every kind of lamp, turned any way, near and far; the lamp is small against its distance.
 TEST(Luminaires, HoldsTheIlluminanceOfEveryKind) {
-    Distribution beam;
-    beam.goniometry = Goniometry::TypeA;
+    photometry::Distribution beam;
+    beam.goniometry = photometry::Goniometry::TypeA;
     beam.horizontal = {-90, 0, 90}, beam.vertical = {-90, 0, 90};
     beam.candela = {0, 10, 5, 100, 2000, 50, 0, 30, 0};
     std::mt19937 random(3);
@@ -84,8 +87,9 @@ TEST(Luminaires, HoldsTheIlluminanceOfEveryKind) {
         const dvec3 eye = -dvec3(position);
         const glm::dmat3 axes(glm::normalize(dvec3(world[0])), glm::normalize(dvec3(world[1])),
                               glm::normalize(dvec3(world[2])));
-        const std::vector<Distribution> distributions{beam};
-        const double wanted = luminous_intensity(lamp, distributions, glm::transpose(axes) * eye) / glm::dot(eye, eye);
+        const std::vector<photometry::Distribution> distributions{beam};
+        const double wanted =
+            scene::luminous_intensity(lamp, distributions, glm::transpose(axes) * eye) / glm::dot(eye, eye);
         const double got = at_eye(lamp, world, distributions);
         drawn += got > 0;
         // Of second order in size over distance; a widened silhouette lies a little off the centre's solid angle.
@@ -105,7 +109,7 @@ TEST(Luminaires, GrazingViewsStayFinite) {
         const LuminaireList list = lamps.seen(kView);
         if (angle < 165) {
             EXPECT_NEAR(at_eye(lamp, world), 0.5, 2e-3) << angle;
-            const double seen = std::max(double(std::cos(a)), kGrazing);
+            const double seen = std::max(double(std::cos(a)), gpu_scene::kGrazing);
             EXPECT_NEAR(list.luminaires.at(0).luminance.g / (50 / (0.02 * seen)), 1, 1e-3) << angle;
         } else {
             EXPECT_TRUE(list.luminaires.empty()) << "nothing shines there";
@@ -152,10 +156,10 @@ TEST(Luminaires, WhatCannotBeSeenIsLeftOut) {
     EXPECT_EQ(sources(lamp, glm::mat4(0)), 0u) << "it has no place";
     EXPECT_EQ(sources(lamp, glm::scale(aimed({0, 0, -10}, {0, 0, 1}), {1, 0, 1})), 0u) << "its node is flat";
 
-    Scene scene;
+    scene::Scene scene;
     scene.lamps = {lamp, lamp_with_opening(80, 0, 0), lamp_with_opening(80, 1, 1, false, Lamp::Kind::Directional)};
     for (uint32_t i = 0; i < 3; ++i) scene.nodes.emplace_back().lamp = i;
-    EXPECT_EQ(placed_luminaires(scene).lamps.size(), 2u) << "a sun has no place";
+    EXPECT_EQ(gpu_scene::placed_luminaires(scene).lamps.size(), 2u) << "a sun has no place";
 }
 
 // It comes in without a step: half of it at the edge, a quarter in a corner.
@@ -183,7 +187,7 @@ TEST(Luminaires, LampsWithoutOpeningDazzleAsPoints) {
         EXPECT_EQ(list.luminaires.size(), 1u);
         ASSERT_EQ(list.glare_sources.size(), 4u);
         for (size_t i = 0; i < 2; ++i) {
-            const GlareSource &point = list.glare_sources[i], &opening = list.glare_sources[i + 2];
+            const gpu_scene::GlareSource &point = list.glare_sources[i], &opening = list.glare_sources[i + 2];
             EXPECT_EQ(point.node, i);
             EXPECT_EQ(point.inside, i == 0 ? 1 : 0);
             EXPECT_EQ(opening.inside, point.inside);
@@ -226,7 +230,7 @@ TEST(Luminaires, TilesListWhatTouchesThem) {
                   aimed({0.6f * depth * (unit(random) - 0.5f), 0.4f * depth * (unit(random) - 0.5f), -depth},
                         {normal(random), normal(random), 1 + normal(random)}));
     }
-    const View view = View::symmetric({203, 121}, 0.4f, glm::mat4(1));
+    const gpu_scene::View view = gpu_scene::View::symmetric({203, 121}, 0.4f, glm::mat4(1));
     const LuminaireList list = lamps.seen(view);
     ASSERT_GT(list.luminaires.size(), 20u);
     std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> lists;

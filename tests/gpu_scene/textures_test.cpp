@@ -9,6 +9,8 @@
 namespace vesper::test {
 namespace {
 
+using gpu_scene::Level;
+
 /// Discs of one colour on black that is not there.
 Level leaves(uint32_t side, float radius, uint32_t apart) {
     Level level{side, side, {}};
@@ -45,7 +47,7 @@ TEST(MaskedLevels, KeepColourAndArea) {
         for (const float cutoff : {0.3f, 0.5f}) {
             const Level base = leaves(side, radius, apart);
             const double part = covered(base, cutoff);
-            const std::vector<Level> levels = masked_levels(base, cutoff);
+            const std::vector<Level> levels = gpu_scene::masked_levels(base, cutoff);
             EXPECT_GE(levels.back().width, 8u);
             EXPECT_LT(levels.back().width, 33u);
             for (const Level& level : levels) {
@@ -67,7 +69,7 @@ TEST(MaskedLevels, WhatIsAllThereOrNotAtAllStaysSo) {
         Level base{32, 16, {}};
         for (int i = 0; i < 32 * 16; ++i)
             for (const float value : {0.5f, 0.5f, 0.5f, opacity}) base.rgba.push_back(value);
-        for (const Level& level : masked_levels(base, 0.5f))
+        for (const Level& level : gpu_scene::masked_levels(base, 0.5f))
             for (size_t i = 3; i < level.rgba.size(); i += 4) EXPECT_EQ(level.rgba[i], opacity);
     }
 }

@@ -7,13 +7,10 @@
 #include "base/error.h"
 #include "graph/declared_frame.h"
 
-namespace vesper {
+namespace vesper::test {
 namespace {
 
-using test::color;
-using test::DeclaredFrame;
-using test::depth;
-using test::kExtent;
+using graph::Groups, graph::Resource, graph::load, graph::sample, graph::store, graph::update;
 
 /// Expects `mistake` to be refused in one line that has `words` in it.
 void expect_error(const std::function<void()>& mistake, const std::string& words) {
@@ -38,15 +35,15 @@ TEST(FrameGraphErrors, ReadingWhatNothingHasWritten) {
     expect_error([&] { f.compute("a", {load(glare), store(out)}); }, "reads 'glare' before");
     expect_error([&] { f.compute("a", {update(bytes)}); }, "reads 'bytes' before");
     expect_error([&] { f.graph.copy("a", bytes, to); }, "pass 'a' reads 'bytes' before");
-    expect_error([&] { f.draw("a", {color(out), test::vertices(bytes)}); }, "reads 'bytes' before");
-    const History eye = f.graph.history("eye", buffer_shape(8));
+    expect_error([&] { f.draw("a", {color(out), vertices(bytes)}); }, "reads 'bytes' before");
+    const graph::History eye = f.graph.history("eye", graph::buffer_shape(8));
     expect_error([&] { f.compute("a", {load(eye.current)}); }, "reads 'eye' before");
     EXPECT_NO_THROW(f.compute("a", {load(eye.previous)}));
 }
 
 TEST(FrameGraphErrors, WritingWhatIsNotOurs) {
     DeclaredFrame f;
-    const History eye = f.graph.history("eye", buffer_shape(8));
+    const graph::History eye = f.graph.history("eye", graph::buffer_shape(8));
     const Resource lamps = f.graph.upload("lamps", std::vector<uint32_t>{1, 2});
     expect_error([&] { f.compute("adapt", {store(eye.previous)}); }, "pass 'adapt' writes 'eye (previous)'");
     expect_error([&] { f.graph.clear("zero", eye.previous); }, "writes 'eye (previous)'");
@@ -56,7 +53,7 @@ TEST(FrameGraphErrors, WritingWhatIsNotOurs) {
 
 TEST(FrameGraphErrors, LeavingWhatIsAskedForUnwritten) {
     DeclaredFrame f;
-    f.graph.history("eye", buffer_shape(8));
+    f.graph.history("eye", graph::buffer_shape(8));
     expect_error([&] { f.plan(); }, "history 'eye' is written by no pass");
     DeclaredFrame g;
     g.graph.readback("pixels", 16);
@@ -66,22 +63,34 @@ TEST(FrameGraphErrors, LeavingWhatIsAskedForUnwritten) {
 TEST(FrameGraphErrors, NamesAndSizes) {
     DeclaredFrame f;
     f.image("scene");
-    f.graph.history("eye", buffer_shape(8));
+    f.graph.history("eye", graph::buffer_shape(8));
     expect_error([&] { f.buffer("scene"); }, "resource 'scene' is declared twice");
-    expect_error([&] { f.graph.history("eye", buffer_shape(8)); }, "'eye' is declared twice");
+    expect_error([&] { f.graph.history("eye", graph::buffer_shape(8)); }, "'eye' is declared twice");
     expect_error([&] { f.buffer(""); }, "has no name");
     expect_error([&] { f.buffer("none", 0); }, "resource 'none' has no size");
     expect_error([&] { f.graph.upload("none", std::vector<uint32_t>{}); }, "resource 'none' has no size");
     expect_error([&] { f.graph.readback("none", 0); }, "resource 'none' has no size");
-    expect_error([&] { f.graph.transient("flat", image_shape(VK_FORMAT_R32_SFLOAT, {4, 0})); }, "'flat' has no size");
-    expect_error([&] { f.graph.transient("thin", image_shape(VK_FORMAT_R32_SFLOAT, {0, 4})); }, "'thin' has no size");
-    expect_error([&] { f.graph.transient("raw", image_shape(VK_FORMAT_UNDEFINED, {4, 4})); }, "'raw' has no format");
+    expect_error(
+        [&] {
+            f.graph.transient("flat", graph::image_shape(VK_FORMAT_R32_SFLOAT, {4, 0}));
+        },
+        "'flat' has no size");
+    expect_error(
+        [&] {
+            f.graph.transient("thin", graph::image_shape(VK_FORMAT_R32_SFLOAT, {0, 4}));
+        },
+        "'thin' has no size");
+    expect_error(
+        [&] {
+            f.graph.transient("raw", graph::image_shape(VK_FORMAT_UNDEFINED, {4, 4}));
+        },
+        "'raw' has no format");
 }
 
 TEST(FrameGraphErrors, InvalidHandles) {
     DeclaredFrame f;
     const Resource a = f.buffer("a");
-    const KernelInterface kernel{"k.comp", {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, 0, {1, 1, 1}};
+    const gpu::KernelInterface kernel{"k.comp", {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, 0, {1, 1, 1}};
     expect_error([&] { f.graph.dispatch("d", kernel, {store(Resource{})}, Groups{}); },
                  "pass 'd' has no valid resource");
     expect_error([&] { f.graph.dispatch("d", kernel, {store(Resource{7})}, Groups{}); },
@@ -105,10 +114,10 @@ TEST(FrameGraphErrors, OneResourceTwiceInAPass) {
 TEST(FrameGraphErrors, UsesThatDoNotFitTheKernel) {
     DeclaredFrame f;
     const Resource image = f.image("image"), bytes = f.buffer("bytes");
-    const Resource texels = f.graph.transient("texels", buffer_shape(64, VK_FORMAT_R32_UINT));
+    const Resource texels = f.graph.transient("texels", graph::buffer_shape(64, VK_FORMAT_R32_UINT));
     f.compute("write", {store(image), store(bytes), store(texels)});
-    const auto give = [&](VkDescriptorType type, Use use) {
-        const KernelInterface kernel{"k.comp", {type}, 0, {1, 1, 1}};
+    const auto give = [&](VkDescriptorType type, graph::Use use) {
+        const gpu::KernelInterface kernel{"k.comp", {type}, 0, {1, 1, 1}};
         f.graph.dispatch("p", kernel, {use}, Groups{});
     };
     const std::string to = "to binding 0 of k.comp: it is ";
@@ -123,9 +132,9 @@ TEST(FrameGraphErrors, UsesThatDoNotFitTheKernel) {
     expect_error([&] { give(VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, sample(bytes)); }, "which needs a texel format");
     expect_error([&] { give(VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, load(bytes)); }, "which needs a texel format");
     expect_error([&] { give(VK_DESCRIPTOR_TYPE_SAMPLER, sample(image)); }, "of a kind the engine does not use");
-    const auto fits = [&](VkDescriptorType type, Use use) {
-        const KernelInterface kernel{"k.comp", {type}, 0, {1, 1, 1}};
-        FrameGraph copy = f.graph;
+    const auto fits = [&](VkDescriptorType type, graph::Use use) {
+        const gpu::KernelInterface kernel{"k.comp", {type}, 0, {1, 1, 1}};
+        graph::FrameGraph copy = f.graph;
         EXPECT_NO_THROW(copy.dispatch("p", kernel, {use}, Groups{})) << type;
     };
     fits(VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, sample(image));
@@ -140,7 +149,7 @@ TEST(FrameGraphErrors, UsesThatDoNotFitTheKernel) {
 TEST(FrameGraphErrors, ADispatchThatDoesNotFitTheKernel) {
     DeclaredFrame f;
     const Resource a = f.buffer("a"), b = f.buffer("b");
-    const KernelInterface kernel{"k.comp", {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, 4, {1, 1, 1}};
+    const gpu::KernelInterface kernel{"k.comp", {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, 4, {1, 1, 1}};
     expect_error(
         [&] {
             f.graph.dispatch("d", kernel, {store(a), store(b)}, 1u, Groups{});
@@ -160,8 +169,8 @@ TEST(FrameGraphErrors, ADispatchThatDoesNotFitTheKernel) {
 TEST(FrameGraphErrors, ArgumentsThatAreNone) {
     DeclaredFrame f;
     const Resource a = f.buffer("a"), image = f.image("image"), arguments = f.buffer("arguments", 32);
-    const KernelInterface kernel{"k.comp", {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, 4, {1, 1, 1}};
-    const auto dispatch = [&](Arguments from) { f.graph.dispatch("d", kernel, {store(a)}, 1u, from); };
+    const gpu::KernelInterface kernel{"k.comp", {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, 4, {1, 1, 1}};
+    const auto dispatch = [&](graph::Arguments from) { f.graph.dispatch("d", kernel, {store(a)}, 1u, from); };
     expect_error([&] { dispatch({arguments, 0}); }, "pass 'd' reads 'arguments' before any pass has written it");
     f.compute("write", {store(arguments)});
     expect_error([&] { dispatch({image, 0}); }, "pass 'd' reads arguments from the image 'image'");
@@ -180,17 +189,17 @@ TEST(FrameGraphErrors, UsesThatThePassCannotHave) {
     const Resource image = f.image("image"), z = f.image("z", VK_FORMAT_D32_SFLOAT), bytes = f.buffer("bytes");
     expect_error([&] { f.compute("d", {color(image)}); }, "pass 'd' cannot use 'image' as compute color-target");
     expect_error([&] { f.compute("d", {depth(z)}); }, "cannot use 'z' as compute depth-target");
-    expect_error([&] { f.compute("d", {{bytes, Access::HostRead}}); }, "cannot use 'bytes'");
-    expect_error([&] { f.draw("r", {color(image), {bytes, Access::CopyTarget}}); }, "cannot use 'bytes'");
+    expect_error([&] { f.compute("d", {{bytes, graph::Access::HostRead}}); }, "cannot use 'bytes'");
+    expect_error([&] { f.draw("r", {color(image), {bytes, graph::Access::CopyTarget}}); }, "cannot use 'bytes'");
     expect_error([&] { f.draw("r", {color(bytes)}); }, "pass 'r' has the buffer 'bytes' as a target");
-    expect_error([&] { f.draw("r", {color(image), test::vertices(z)}); }, "reads vertices from the image 'z'");
+    expect_error([&] { f.draw("r", {color(image), vertices(z)}); }, "reads vertices from the image 'z'");
 }
 
 TEST(FrameGraphErrors, Targets) {
     DeclaredFrame f;
     const Resource a = f.image("a"), z = f.image("z", VK_FORMAT_D32_SFLOAT), y = f.image("y", VK_FORMAT_D32_SFLOAT);
-    const Resource small = f.graph.transient("small", image_shape(VK_FORMAT_R8G8B8A8_UNORM, {8, 8}));
-    const History past = f.graph.history("past", image_shape(VK_FORMAT_R8G8B8A8_UNORM, kExtent));
+    const Resource small = f.graph.transient("small", graph::image_shape(VK_FORMAT_R8G8B8A8_UNORM, {8, 8}));
+    const graph::History past = f.graph.history("past", graph::image_shape(VK_FORMAT_R8G8B8A8_UNORM, kExtent));
     expect_error(
         [&] {
             f.draw("r", {color(a), color(small)});
@@ -207,7 +216,7 @@ TEST(FrameGraphErrors, Targets) {
 TEST(FrameGraphErrors, CopiesAndClears) {
     DeclaredFrame f;
     const Resource image = f.image("image"), other = f.image("other"),
-                   small = f.graph.transient("small", image_shape(VK_FORMAT_R8G8B8A8_UNORM, {8, 4})),
+                   small = f.graph.transient("small", graph::image_shape(VK_FORMAT_R8G8B8A8_UNORM, {8, 4})),
                    odd = f.buffer("odd", 10);
     const Resource exact = f.graph.readback("exact", 64 * 32 * 4), short_ = f.graph.readback("short", 100);
     f.compute("write", {store(image), store(odd)});
@@ -228,9 +237,9 @@ TEST(FrameGraphErrors, MemoryThatDoesNotExist) {
     const Resource a = f.buffer("a");
     f.graph.keep(a);
     f.compute("write", {store(a)});
-    f.measure = [](const Shape&, uint32_t) -> Footprint { return {256, 16, 0}; };
+    f.measure = [](const graph::Shape&, uint32_t) -> graph::Footprint { return {256, 16, 0}; };
     expect_error([&] { f.plan(); }, "resource 'a' fits no memory of the device");
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

@@ -11,13 +11,13 @@
 
 #include "graph/declared_frame.h"
 
-namespace vesper {
+namespace vesper::test {
 namespace {
 
-using test::color;
-using test::DeclaredFrame;
-using PassKind = FrameGraph::PassKind;
-using Origin = FrameGraph::Origin;
+using graph::Access, graph::Plan, graph::Resource, graph::Stage, graph::Use, graph::load, graph::sample, graph::store,
+    graph::update;
+using PassKind = graph::FrameGraph::PassKind;
+using Origin = graph::FrameGraph::Origin;
 
 constexpr int kGraphs = 400, kFrames = 3;
 
@@ -29,13 +29,13 @@ public:
         for (uint32_t i = 0; i < 3; ++i) images_.push_back(image("image " + std::to_string(i), formats[below(3)]));
         for (uint32_t i = 0; i < 4; ++i)
             buffers_.push_back(buffer("buffer " + std::to_string(i), 4096 * (1 + below(5))));
-        histories_.push_back(graph.history("past buffer", buffer_shape(64)));
-        histories_.push_back(graph.history("past image", image_shape(VK_FORMAT_R8G8B8A8_UNORM, test::kExtent)));
+        histories_.push_back(graph.history("past buffer", graph::buffer_shape(64)));
+        histories_.push_back(graph.history("past image", graph::image_shape(VK_FORMAT_R8G8B8A8_UNORM, kExtent)));
         upload_ = graph.upload("upload", std::vector<uint32_t>{1, 2, 3, 4});
         readback_ = graph.readback("readback", 64);
         written_.resize(graph.resources().size());
         if (below(2) == 0)
-            measure = [](const Shape& s, uint32_t) -> Footprint {
+            measure = [](const graph::Shape& s, uint32_t) -> graph::Footprint {
                 return {s.is_image() ? 8192u : s.bytes, s.is_image() ? 512u : 16u, s.is_image() ? 1u : 3u};
             };
         const uint32_t passes = 6 + below(20), first = below(passes), second = below(passes);
@@ -117,12 +117,12 @@ private:
                 compute(name, uses);
         }
         for (const Use& use : uses)
-            if (writes(use.access)) written_[use.resource.index] = true;
+            if (graph::writes(use.access)) written_[use.resource.index] = true;
     }
 
     std::mt19937 random_;
     std::vector<Resource> images_, buffers_;
-    std::vector<History> histories_;
+    std::vector<graph::History> histories_;
     Resource upload_, readback_;
     std::vector<bool> written_;
 };
@@ -140,14 +140,14 @@ struct Event {
     bool is_barrier = false;
     Stage stage{};
     Access access{};
-    AccessSet from, to;
+    graph::AccessSet from, to;
     bool rewrites = false;
     std::string what;
 };
 
-bool meet(const AccessSet& a, const AccessSet& b) {
+bool meet(const graph::AccessSet& a, const graph::AccessSet& b) {
     for (uint32_t s = 0; s < 4; ++s)
-        for (uint32_t x = 0; x < kAccessCount; ++x)
+        for (uint32_t x = 0; x < graph::kAccessCount; ++x)
             if (a.has(Stage(s), Access(x)) && b.has(Stage(s), Access(x))) return true;
     return false;
 }
@@ -157,7 +157,7 @@ Stage stage_of(PassKind kind) {
 }
 
 /// Where a resource lies in a given frame. The halves of a history change places; each frame has its own readbacks.
-Place place_of(const FrameGraph& graph, const Plan& plan, uint32_t resource, uint32_t frame) {
+Place place_of(const graph::FrameGraph& graph, const Plan& plan, uint32_t resource, uint32_t frame) {
     for (const Plan::Placement& p : plan.placements)
         if (p.resource == resource) return {p.heap, p.offset, p.offset + p.bytes};
     const auto& r = graph.resources()[resource];
@@ -167,7 +167,7 @@ Place place_of(const FrameGraph& graph, const Plan& plan, uint32_t resource, uin
 }
 
 /// Plays the plan, checking that images are in the layout they are used in.
-std::vector<Event> play(const FrameGraph& graph, const Plan& plan) {
+std::vector<Event> play(const graph::FrameGraph& graph, const Plan& plan) {
     std::vector<Event> events;
     for (uint32_t frame = 0; frame < kFrames; ++frame) {
         std::map<uint32_t, VkImageLayout> layouts;
@@ -191,7 +191,7 @@ std::vector<Event> play(const FrameGraph& graph, const Plan& plan) {
                 const auto& r = graph.resources()[use.resource.index];
                 const std::string what = pass.name + " on " + r.name + " in frame " + std::to_string(frame);
                 if (r.shape.is_image() && (r.origin == Origin::Transient || layouts.contains(use.resource.index))) {
-                    EXPECT_EQ(layouts[use.resource.index], layout_of(use.access)) << what;
+                    EXPECT_EQ(layouts[use.resource.index], graph::layout_of(use.access)) << what;
                 }
                 const Place place = place_of(graph, plan, use.resource.index, frame);
                 events.push_back({place, false, stage_of(pass.kind), use.access, {}, {}, false, what});
@@ -210,7 +210,7 @@ std::vector<Event> play(const FrameGraph& graph, const Plan& plan) {
 /// True if a chain of barriers on the bytes of both leads from event `first` to event `second`.
 bool in_order(const std::vector<Event>& events, size_t first, size_t second) {
     const Event &a = events[first], &b = events[second];
-    AccessSet after = a.to;  // those that come after `a`: empty for an access
+    graph::AccessSet after = a.to;  // those that come after `a`: empty for an access
     const auto continues = [&](const Event& barrier) {
         return (!a.is_barrier && barrier.from.has(a.stage, a.access)) || meet(barrier.from, after);
     };
@@ -221,7 +221,7 @@ bool in_order(const std::vector<Event>& events, size_t first, size_t second) {
     return b.is_barrier ? continues(b) : after.has(b.stage, b.access);
 }
 
-bool changes(const Event& event) { return event.is_barrier ? event.rewrites : writes(event.access); }
+bool changes(const Event& event) { return event.is_barrier ? event.rewrites : graph::writes(event.access); }
 
 TEST(PlanHazards, EveryTwoAccessesThatMustBeInOrderAre) {
     for (uint32_t seed = 0; seed < kGraphs; ++seed) {
@@ -254,7 +254,7 @@ TEST(PlanHazards, TransientsOfOverlappingLifetimesShareNoBytes) {
         };
         uint64_t bytes = 0;
         for (const Plan::Placement& p : plan.placements) {
-            const Footprint footprint = f.measure(f.graph.resources()[p.resource].shape, plan.usage[p.resource]);
+            const graph::Footprint footprint = f.measure(f.graph.resources()[p.resource].shape, plan.usage[p.resource]);
             bytes += p.bytes;
             ASSERT_EQ(p.offset % footprint.alignment, 0u) << "seed " << seed;
             ASSERT_EQ(plan.heaps[p.heap].memory_types, footprint.memory_types) << "seed " << seed;
@@ -273,7 +273,7 @@ TEST(PlanHazards, TransientsOfOverlappingLifetimesShareNoBytes) {
 /// Which pass wrote what each live pass finds, all passes run or only the live ones.
 TEST(PlanHazards, DroppingPassesChangesNothingThatIsRead) {
     const auto partial = [](PassKind kind, Access access) {
-        return writes(access) && access != Access::CopyTarget &&
+        return graph::writes(access) && access != Access::CopyTarget &&
                !(access == Access::Store && kind == PassKind::Dispatch);
     };
     for (uint32_t seed = 0; seed < kGraphs; ++seed) {
@@ -289,9 +289,10 @@ TEST(PlanHazards, DroppingPassesChangesNothingThatIsRead) {
         for (size_t p = 0; p < live.size(); ++p) {
             const auto& pass = f.graph.passes()[p];
             for (const Use& use : pass.uses)
-                if (live[p] && (!writes(use.access) || partial(pass.kind, use.access))) expect_live(use.resource.index);
+                if (live[p] && (!graph::writes(use.access) || partial(pass.kind, use.access)))
+                    expect_live(use.resource.index);
             for (const Use& use : pass.uses) {
-                if (!writes(use.access)) continue;
+                if (!graph::writes(use.access)) continue;
                 if (!partial(pass.kind, use.access)) writers[use.resource.index].clear();
                 writers[use.resource.index].push_back(p);
             }
@@ -303,4 +304,4 @@ TEST(PlanHazards, DroppingPassesChangesNothingThatIsRead) {
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

@@ -5,12 +5,10 @@
 
 #include "graph/declared_frame.h"
 
-namespace vesper {
+namespace vesper::test {
 namespace {
 
-using test::color;
-using test::DeclaredFrame;
-using test::depth;
+using graph::Plan, graph::Resource, graph::load, graph::sample, graph::store, graph::update;
 
 TEST(Plan, OfASmallFrame) {
     DeclaredFrame f;
@@ -18,7 +16,7 @@ TEST(Plan, OfASmallFrame) {
     const Resource surface = f.image("surface"), z = f.image("depth", VK_FORMAT_D32_SFLOAT);
     const Resource scene = f.image("scene", VK_FORMAT_R16G16B16A16_SFLOAT), display = f.image("display");
     const Resource counts = f.buffer("counts", 1024), unread = f.image("unread");
-    const History eye = f.graph.history("eye", buffer_shape(8));
+    const graph::History eye = f.graph.history("eye", graph::buffer_shape(8));
     const Resource pixels = f.graph.readback("pixels", 8192);
     f.draw("gbuffer", {color(surface), depth(z)});
     f.compute("shade", {sample(surface), sample(z), load(lamps), store(scene)});
@@ -81,7 +79,7 @@ TEST(Plan, AReadInAnotherStageWaitsForTheWriteAlone) {
     f.graph.keep(b), f.graph.keep(target);
     f.compute("write", {store(a)});
     f.compute("read", {load(a), store(b)});
-    f.draw("draw", {color(target), test::vertices(a)});
+    f.draw("draw", {color(target), vertices(a)});
     const Plan plan = f.plan();
     ASSERT_EQ(plan.steps[2].barriers.size(), 2u);
     EXPECT_EQ(plan.steps[2].barriers[1].from.text(), "compute store");
@@ -94,7 +92,7 @@ TEST(Plan, AWriteWaitsForEveryReaderAndTheWriteBefore) {
     f.graph.keep(a), f.graph.keep(b), f.graph.keep(target);
     f.compute("write", {store(a)});
     f.compute("read", {load(a), store(b)});
-    f.draw("draw", {color(target), test::vertices(a)});
+    f.draw("draw", {color(target), vertices(a)});
     f.compute("add", {update(a)});
     const Plan plan = f.plan();
     ASSERT_EQ(plan.steps[3].barriers.size(), 1u);
@@ -204,7 +202,7 @@ TEST(Plan, UploadsNeedNoBarrier) {
 
 TEST(Plan, HistoryWaitsForTheLastFrameAndKeepsItsContents) {
     DeclaredFrame f;
-    const History eye = f.graph.history("eye", image_shape(VK_FORMAT_R32_SFLOAT, {4, 4}));
+    const graph::History eye = f.graph.history("eye", graph::image_shape(VK_FORMAT_R32_SFLOAT, {4, 4}));
     const Resource out = f.graph.readback("out", 64);
     f.compute("adapt", {load(eye.previous), store(eye.current)});
     f.graph.copy("read back", eye.current, out);
@@ -228,7 +226,7 @@ heap 0 of 0 bytes
 
 TEST(Plan, AHistoryWhosePreviousIsNotReadWaitsForItselfTwoFramesAgo) {
     DeclaredFrame f;
-    const History eye = f.graph.history("eye", buffer_shape(8));
+    const graph::History eye = f.graph.history("eye", graph::buffer_shape(8));
     f.compute("adapt", {store(eye.current)});
     EXPECT_EQ(f.text(), "adapt\n    eye: compute store -> compute store\nheap 0 of 0 bytes\n");
 }
@@ -323,8 +321,8 @@ TEST(Plan, HasAHeapForEachKindOfMemory) {
     f.graph.keep(buffer);
     f.compute("1", {store(image)});
     f.compute("2", {load(image), store(buffer)});
-    f.measure = [](const Shape& shape, uint32_t) -> Footprint {
-        return shape.is_image() ? Footprint{8192, 4096, 2} : Footprint{256, 16, 6};
+    f.measure = [](const graph::Shape& shape, uint32_t) -> graph::Footprint {
+        return shape.is_image() ? graph::Footprint{8192, 4096, 2} : graph::Footprint{256, 16, 6};
     };
     const Plan plan = f.plan();
     ASSERT_EQ(plan.heaps.size(), 2u);
@@ -338,7 +336,7 @@ TEST(Plan, HasAHeapForEachKindOfMemory) {
 
 TEST(Plan, UsageFollowsTheBindings) {
     DeclaredFrame f;
-    const Resource texels = f.graph.transient("texels", buffer_shape(64, VK_FORMAT_R32_UINT));
+    const Resource texels = f.graph.transient("texels", graph::buffer_shape(64, VK_FORMAT_R32_UINT));
     const Resource image = f.image("image"), out = f.graph.readback("out", 8192);
     f.compute("1", {store(texels)});
     f.compute("2", {sample(texels), store(image)});
@@ -352,9 +350,9 @@ TEST(Plan, UsageFollowsTheBindings) {
 TEST(Plan, ArgumentsWaitForTheirWriter) {
     DeclaredFrame f;
     const Resource counts = f.buffer("counts", 64), out = f.buffer("out");
-    const KernelInterface kernel{"k.comp", {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, 4, {1, 1, 1}};
+    const gpu::KernelInterface kernel{"k.comp", {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, 4, {1, 1, 1}};
     f.compute("count", {store(counts)});
-    f.graph.dispatch("work", kernel, {store(out)}, 1u, Arguments{counts, 16});
+    f.graph.dispatch("work", kernel, {store(out)}, 1u, graph::Arguments{counts, 16});
     f.graph.keep(out);
     const std::string text = f.text();
     EXPECT_NE(text.find("    counts: compute store -> compute arguments\n"), text.npos) << text;
@@ -368,20 +366,20 @@ TEST(Plan, ArgumentsWaitForTheirWriter) {
 }
 
 TEST(AccessSet, TurnsIntoVulkan) {
-    AccessSet set;
+    graph::AccessSet set;
     EXPECT_TRUE(set.empty());
     EXPECT_EQ(set.text(), "nothing");
-    set.add(Stage::Compute, Access::Load);
+    set.add(graph::Stage::Compute, graph::Access::Load);
     EXPECT_FALSE(set.writes());
     EXPECT_EQ(set.stages(), VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT);
     EXPECT_EQ(set.accesses(), VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
-    set.add(Stage::Graphics, Access::DepthTarget);
+    set.add(graph::Stage::Graphics, graph::Access::DepthTarget);
     EXPECT_TRUE(set.writes());
     EXPECT_EQ(set.text(), "compute load|graphics depth-target");
     EXPECT_NE(set.stages() & VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT, 0u);
-    EXPECT_EQ(layout_of(Access::DepthTarget), VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
-    EXPECT_EQ(layout_of(Access::Sample), VK_IMAGE_LAYOUT_GENERAL);
+    EXPECT_EQ(graph::layout_of(graph::Access::DepthTarget), VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
+    EXPECT_EQ(graph::layout_of(graph::Access::Sample), VK_IMAGE_LAYOUT_GENERAL);
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "gpu/kernel_interface.h"
 
-namespace vesper {
+namespace vesper::test {
 namespace {
 
 using Words = std::vector<uint32_t>;
@@ -99,7 +99,7 @@ Words whole_module() {
 
 std::string error_of(const Words& words) {
     try {
-        read_interface("k.comp", words);
+        gpu::read_interface("k.comp", words);
         return "accepted";
     } catch (const Error& error) {
         return error.what();
@@ -107,7 +107,7 @@ std::string error_of(const Words& words) {
 }
 
 TEST(Spirv, ReadsBindingsPushConstantsAndWorkgroup) {
-    const KernelInterface kernel = read_interface("k.comp", whole_module());
+    const gpu::KernelInterface kernel = gpu::read_interface("k.comp", whole_module());
     EXPECT_EQ(kernel.name, "k.comp");
     EXPECT_EQ(kernel.bindings, (std::vector<VkDescriptorType>{
                                    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
@@ -119,7 +119,7 @@ TEST(Spirv, ReadsBindingsPushConstantsAndWorkgroup) {
 }
 
 TEST(Spirv, ListsMembersOfBlocks) {
-    const std::vector<BlockMember> members = block_members(whole_module());
+    const std::vector<gpu::BlockMember> members = gpu::block_members(whole_module());
     ASSERT_EQ(members.size(), 3u) << "those with a name only";
     EXPECT_EQ(members[0].block + "." + members[0].member, "Push.world_to_view");
     EXPECT_EQ(members[1].block + "." + members[1].member, "Push.position");
@@ -135,7 +135,7 @@ TEST(Spirv, ReadsAnOldStorageBuffer) {
     add_types(a);
     a.op(30, {41, kUint});
     a.variable(50, kUniform, 41);
-    EXPECT_EQ(read_interface("k.comp", a.words).bindings, std::vector{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+    EXPECT_EQ(gpu::read_interface("k.comp", a.words).bindings, std::vector{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
 }
 
 TEST(Spirv, ReadsWorkgroupsGivenByConstants) {
@@ -144,11 +144,11 @@ TEST(Spirv, ReadsWorkgroupsGivenByConstants) {
     a.op(331, {1, 38, kEight, 20, kEight});
     add_types(a);
     a.op(50, {kUint, 20, 16});  // a specialization constant and its default
-    EXPECT_EQ(read_interface("k.comp", a.words).group, (std::array<uint32_t, 3>{8, 16, 8}));
+    EXPECT_EQ(gpu::read_interface("k.comp", a.words).group, (std::array<uint32_t, 3>{8, 16, 8}));
 
     a.op(51, {kVec3, 21, 20, 20, kEight});
     a.decorate(21, 11, 25);  // the built-in WorkgroupSize wins
-    EXPECT_EQ(read_interface("k.comp", a.words).group, (std::array<uint32_t, 3>{16, 16, 8}));
+    EXPECT_EQ(gpu::read_interface("k.comp", a.words).group, (std::array<uint32_t, 3>{16, 16, 8}));
 }
 
 TEST(Spirv, RowMajorMatricesCountRows) {
@@ -159,7 +159,7 @@ TEST(Spirv, RowMajorMatricesCountRows) {
     a.op(30, {40, 20});
     a.decorate_member(40, 0, 35, 0), a.decorate_member(40, 0, 7, 8), a.decorate_member(40, 0, 4, 0);
     a.variable(64, kPushConstant, 40);
-    EXPECT_EQ(read_interface("k.comp", a.words).push_bytes, 3u * 8u);
+    EXPECT_EQ(gpu::read_interface("k.comp", a.words).push_bytes, 3u * 8u);
 }
 
 TEST(Spirv, RefusesBindingsTheEngineDoesNotUse) {
@@ -235,8 +235,8 @@ TEST(Spirv, SurvivesDamage) {
     const Words whole = whole_module();
     const auto try_to_read = [](const Words& words) {
         try {
-            read_interface("k.comp", words);
-            block_members(words);
+            gpu::read_interface("k.comp", words);
+            gpu::block_members(words);
         } catch (const Error&) {
         }
     };
@@ -252,4 +252,4 @@ TEST(Spirv, SurvivesDamage) {
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

@@ -9,6 +9,7 @@
 namespace vesper::test {
 namespace {
 
+using io::FileGate, io::announce_write;
 namespace fs = std::filesystem;
 
 constexpr const char* kRead = "would replace what is read";
@@ -41,14 +42,14 @@ struct Names {
 TEST(FileGate, RefusesToReplaceWhatWasRead) {
     const Names names;
     const FileGate gate;
-    read_file(names.folder / "a", 10);
+    io::read_file(names.folder / "a", 10);
     for (const fs::path& name : names.all) {
-        EXPECT_TRUE(contains(error_of([&] { replace_file(name, {}); }), kRead)) << name;
-        EXPECT_TRUE(contains(error_of([&] { GrowingFile grows(name); }), kRead)) << name;
+        EXPECT_TRUE(contains(error_of([&] { io::replace_file(name, {}); }), kRead)) << name;
+        EXPECT_TRUE(contains(error_of([&] { io::GrowingFile grows(name); }), kRead)) << name;
         EXPECT_TRUE(contains(error_of([&] { announce_write("-o", name); }), kRead)) << name;
     }
     EXPECT_EQ(read_text(names.folder / "a"), "precious");
-    replace_file(names.folder / "b", {});
+    io::replace_file(names.folder / "b", {});
 }
 
 TEST(FileGate, RefusesToReadWhatWillBeWritten) {
@@ -56,17 +57,17 @@ TEST(FileGate, RefusesToReadWhatWillBeWritten) {
     for (const fs::path& name : names.all) {
         const FileGate gate;
         announce_write("--log", name);
-        const std::string error = error_of([&] { read_file(names.folder / "a", 10); });
+        const std::string error = error_of([&] { io::read_file(names.folder / "a", 10); });
         EXPECT_EQ(error, "--log " + name.string() + ": " + kRead);
-        EXPECT_TRUE(contains(error_of([&] { announce_read(names.folder / "a"); }), kRead)) << name;
+        EXPECT_TRUE(contains(error_of([&] { io::announce_read(names.folder / "a"); }), kRead)) << name;
     }
 }
 
 TEST(FileGate, KnowsWhatIsReadOnlyLater) {
     const Names names;
     const FileGate gate;
-    NewFile file(names.folder / "link");
-    read_file(names.folder / "a", 10);
+    io::NewFile file(names.folder / "link");
+    io::read_file(names.folder / "a", 10);
     EXPECT_TRUE(contains(error_of([&] { file.commit(); }), kRead));
     EXPECT_EQ(read_text(names.folder / "a"), "precious");
 }
@@ -89,11 +90,11 @@ TEST(FileGate, RefusesToWriteTwice) {
 TEST(FileGate, LetsFilesBeReadThatAreComplete) {
     const TempFolder folder;
     const FileGate gate;
-    GrowingFile file(folder / "log");
+    io::GrowingFile file(folder / "log");
     file.append("x");
-    EXPECT_TRUE(contains(error_of([&] { read_file(folder / "log.part", 10); }), kRead));
+    EXPECT_TRUE(contains(error_of([&] { io::read_file(folder / "log.part", 10); }), kRead));
     file.complete();
-    EXPECT_EQ(read_file(folder / "log", 10).size(), 1u);
+    EXPECT_EQ(io::read_file(folder / "log", 10).size(), 1u);
 }
 
 TEST(FileGate, EndsWithItsTask) {
@@ -101,9 +102,9 @@ TEST(FileGate, EndsWithItsTask) {
     {
         const FileGate gate;
         const FileGate inner;  // without effect
-        read_file(names.folder / "a", 10);
+        io::read_file(names.folder / "a", 10);
     }
-    replace_file(names.folder / "a", {});
+    io::replace_file(names.folder / "a", {});
     EXPECT_EQ(read_text(names.folder / "a"), "");
 }
 

@@ -6,6 +6,7 @@
 namespace vesper::test {
 namespace {
 
+using io::GrowingFile;
 namespace fs = std::filesystem;
 
 TEST(GrowingFile, TakesItsNameWhenItIsComplete) {

@@ -29,6 +29,7 @@
 namespace vesper::test {
 namespace {
 
+using io::read_exr;
 namespace fs = std::filesystem;
 
 /// A picture with some structure over four decades; whole numbers, which every pixel type holds.
@@ -109,7 +110,7 @@ TEST(HdrExr, KeepsWhatFloatsCanHold) {
     const TempFolder folder;
     const float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
     write(folder / "x.exr", Imf::Header(2, 1), {1e-30f, 1e8f, -3, inf, nan, 0});
-    const Values rgb = read_hdr_image(folder / "x.exr").rgb;
+    const Values rgb = io::read_hdr_image(folder / "x.exr").rgb;
     EXPECT_EQ(rgb[0], 1e-30f);
     EXPECT_EQ(rgb[1], 1e8f);
     EXPECT_EQ(rgb[2], -3);
@@ -144,7 +145,7 @@ TEST(HdrExr, ReadsLayersByName) {
     const TempFolder folder;
     write(folder / "one.exr", Imf::Header(1, 1), {5, 9, 7, 8}, {"key.Z", "key.light.R", "key.light.G", "key.light.B"});
     expect_values(read_exr(folder / "one.exr"), {9, 7, 8});
-    expect_values(read_hdr_image(folder / "one.exr", {}, "key.light"), {9, 7, 8});
+    expect_values(io::read_hdr_image(folder / "one.exr", {}, "key.light"), {9, 7, 8});
     EXPECT_TRUE(contains(refusal(folder / "one.exr", {}, "key"), "no layer key; it has key.light"));
 
     write(folder / "two.exr", Imf::Header(1, 1), {5, 9}, {"left.Y", "right.Y"});
@@ -157,7 +158,7 @@ TEST(HdrExr, ReadsLayersByName) {
     folder.write("x.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\nabcd");
     EXPECT_TRUE(contains(refusal(folder / "x.hdr", {}, "left"), "no layers"));
 
-    const HdrImage image{1, 1, {4, 5, 6}};
+    const io::HdrImage image{1, 1, {4, 5, 6}};
     write_layout(folder / "parts.exr", image, {.multi_part = true});
     expect_values(read_exr(folder / "parts.exr"), {4, 5, 6});
     expect_values(read_exr(folder / "parts.exr", {}, "second"), {7, 7, 7});
@@ -195,7 +196,7 @@ TEST(HdrExr, ChromaKeepsTheWholeLuminance) {
         Imf::Header header(Imath::Box2i{{0, 0}, {width - 1, height - 1}},
                            Imath::Box2i{{-2, 4}, {width - 3, height + 3}});
         write_yc(folder / "yc.exr", header, y, ry, by, step);
-        const HdrImage image = read_exr(folder / "yc.exr");
+        const io::HdrImage image = read_exr(folder / "yc.exr");
         for (int v = 0; v < height; ++v)
             for (int u = 0; u < width; ++u) {
                 const float* rgb = image.rgb.data() + 3 * (v * width + u);
@@ -225,7 +226,7 @@ TEST(HdrExr, ChromaIsFilteredAsByOpenExr) {
             by.push_back(float(0.2 * std::cos(v * 0.4 - u * 0.05)));
         }
     write_yc(folder / "yc.exr", Imf::Header(width, height), y, ry, by, 2);
-    const HdrImage image = read_exr(folder / "yc.exr");
+    const io::HdrImage image = read_exr(folder / "yc.exr");
     std::vector<Imf::Rgba> wanted(size_t(width * height));
     Imf::RgbaInputFile own((folder / "yc.exr").c_str());
     own.setFrameBuffer(wanted.data(), 1, width);
@@ -242,7 +243,7 @@ TEST(HdrExr, CoversTheDisplayWindow) {
     const auto read = [&](Imath::Box2i display, Imath::Box2i data, const Values& values) {
         Imf::Header header(display, data);
         write(folder / "x.exr", header, values, {"Y"});
-        const HdrImage image = read_exr(folder / "x.exr");
+        const io::HdrImage image = read_exr(folder / "x.exr");
         Values grey;
         for (size_t i = 0; i < image.rgb.size(); i += 3) grey.push_back(image.rgb[i]);
         return grey;
@@ -289,22 +290,22 @@ TEST(HdrExr, TellsTristimulusValuesFromVectors) {
 TEST(HdrExr, ReadsOurOwnWithHeaderAndUnit) {
     const TempFolder folder;
     const Values rgba = {1e-4f, 1, 1e8f, 1, 65504, 70000, 0, 1};
-    write_exr(folder / "x.exr", 2, 1, rgba, {{"vesper:camera", "driver"}});
-    const HdrImage image = read_hdr_image(folder / "x.exr");
+    io::write_exr(folder / "x.exr", 2, 1, rgba, {{"vesper:camera", "driver"}});
+    const io::HdrImage image = io::read_hdr_image(folder / "x.exr");
     expect_values(image, {1e-4f, 1, 1e8f, 65504, 70000, 0});
     EXPECT_EQ(image.white_luminance, 1.0);
     EXPECT_NE(std::find(image.header.begin(), image.header.end(),
                         std::pair<std::string, std::string>("vesper:camera", "driver")),
               image.header.end());
     write(folder / "y.exr", Imf::Header(1, 1), {1, 1, 1});
-    EXPECT_EQ(read_hdr_image(folder / "y.exr").white_luminance, 0.0);
+    EXPECT_EQ(io::read_hdr_image(folder / "y.exr").white_luminance, 0.0);
     for (const float white :
          {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN(), -5.0f, 1e20f, 0.0f, 80.0f}) {
         Imf::Header header(1, 1);
         Imf::addWhiteLuminance(header, white);
         write(folder / "z.exr", header, {1, 1, 1});
         if (white >= 0 && white < 100)
-            EXPECT_EQ(read_hdr_image(folder / "z.exr").white_luminance, double(white));
+            EXPECT_EQ(io::read_hdr_image(folder / "z.exr").white_luminance, double(white));
         else
             EXPECT_TRUE(contains(refusal(folder / "z.exr"), "z.exr: OpenEXR: whiteLuminance")) << white;
     }
@@ -335,21 +336,21 @@ TEST(HdrExr, RefusesDeepPicturesOtherFilesAndLargeOnes) {
     EXPECT_EQ(refusal(folder / "x.exr", {20, 200}), "");
     EXPECT_TRUE(contains(refusal(folder / "x.exr", {19, 200}), "limit for one side"));
     EXPECT_TRUE(contains(refusal(folder / "x.exr", {20, 199}), "more pixels"));
-    EXPECT_THROW(read_radiance(folder / "x.exr"), Error);
+    EXPECT_THROW(io::read_radiance(folder / "x.exr"), Error);
 }
 
 // OpenEXR 3.1 would take what a new picture has: 64 x 64 pixels.
 TEST(HdrExr, WhatAHeaderMustHaveIsThere) {
     const TempFolder folder;
     write(folder / "x.exr", Imf::Header(9, 5), ramp(9, 5));
-    const std::vector<uint8_t> whole = read_file(folder / "x.exr", 1 << 20);
+    const std::vector<uint8_t> whole = io::read_file(folder / "x.exr", 1 << 20);
     for (const std::string name : {"channels", "compression", "dataWindow", "displayWindow"}) {
         std::vector<uint8_t> other = whole;
         const std::string mark = name + '\0';
         const auto found = std::search(other.begin(), other.end(), mark.begin(), mark.end());
         ASSERT_NE(found, other.end()) << name;
         *found = 'x';
-        replace_file(folder / "other.exr", other);
+        io::replace_file(folder / "other.exr", other);
         EXPECT_TRUE(contains(refusal(folder / "other.exr"), "its header has no '" + name + "'")) << name;
     }
 }
@@ -376,7 +377,7 @@ TEST(HdrExr, ValuesInHeadersAreAsLongAsTheirTypes) {
     header.setPreviewImage(Imf::PreviewImage(3, 2, pixels));
     write(folder / "x.exr", header, ramp(9, 5));
     EXPECT_EQ(refusal(folder / "x.exr"), "");
-    const std::vector<uint8_t> whole = read_file(folder / "x.exr", 1 << 20);
+    const std::vector<uint8_t> whole = io::read_file(folder / "x.exr", 1 << 20);
     for (const std::string type : {"int", "m44f", "stringvector", "floatvector", "preview", "chlist", "compression",
                                    "box2i", "v2f", "float", "lineOrder"}) {
         const std::string mark = '\0' + type + '\0';
@@ -386,7 +387,7 @@ TEST(HdrExr, ValuesInHeadersAreAsLongAsTheirTypes) {
         const size_t at = size_t(found - whole.begin()) + mark.size(), size = longer[at] + 256 * longer[at + 1];
         ++longer[at];
         longer.insert(longer.begin() + std::ptrdiff_t(at + 4 + size), 0);
-        replace_file(folder / "longer.exr", longer);
+        io::replace_file(folder / "longer.exr", longer);
         EXPECT_TRUE(contains(refusal(folder / "longer.exr"), "has not the size of a " + type)) << type;
     }
 }

@@ -14,10 +14,10 @@ float rgbe(int mantissa, int exponent) {
     return static_cast<float>((mantissa + 0.5) * std::ldexp(1.0, exponent - 136));
 }
 
-HdrImage radiance(const std::string& header, const std::string& pixels) {
+io::HdrImage radiance(const std::string& header, const std::string& pixels) {
     const TempFolder folder;
     folder.write("x.hdr", header + pixels);
-    return read_hdr_image(folder / "x.hdr");
+    return io::read_hdr_image(folder / "x.hdr");
 }
 
 TEST(HdrRadiance, ReadsPlainPixelsAndBothKindsOfRuns) {
@@ -52,7 +52,7 @@ TEST(HdrRadiance, ReadsEveryOrderOfPixels) {
     for (const auto& [line, order] : orders) {
         std::string pixels;
         for (const int value : order) pixels += std::string(3, char(10 * value)) + char(130);
-        const HdrImage image = radiance(kRgbe, std::string("\n") + line + "\n" + pixels);
+        const io::HdrImage image = radiance(kRgbe, std::string("\n") + line + "\n" + pixels);
         EXPECT_EQ(image.width, 3u) << line;
         Values wanted;
         for (int value = 1; value <= 6; ++value) wanted.insert(wanted.end(), 3, rgbe(10 * value, 130));
@@ -62,7 +62,7 @@ TEST(HdrRadiance, ReadsEveryOrderOfPixels) {
 
 TEST(HdrRadiance, UndoesExposureAndPrimaries) {
     const std::string one("\n-Y 1 +X 1\n\x80\x40\x20\x81", 15);
-    const HdrImage exposed = radiance(kRgbe + "EXPOSURE=4\nGAMMA=1\nEXPOSURE= 0.5 \n", one);
+    const io::HdrImage exposed = radiance(kRgbe + "EXPOSURE=4\nGAMMA=1\nEXPOSURE= 0.5 \n", one);
     expect_values(exposed, {rgbe(128, 128), rgbe(64, 128), rgbe(32, 128)});
     EXPECT_EQ(exposed.header.size(), 4u);
     expect_values(radiance(kRgbe + "COLORCORR= 2 1 0.5\nCOLORCORR=1 1 0.5\n", one),
@@ -90,7 +90,7 @@ TEST(HdrRadiance, UndoesExposureAndPrimaries) {
 TEST(HdrRadiance, PrimariesAreRadiancesOwnWhereItsProgramsMadeThePicture) {
     const auto luminances = [](const std::string& header) {
         const std::string three("\x80\0\0\x88\0\x80\0\x88\0\0\x80\x88", 12);
-        const HdrImage image = radiance(header, "\n-Y 1 +X 3\n" + three);
+        const io::HdrImage image = radiance(header, "\n-Y 1 +X 3\n" + three);
         Values found;
         for (size_t i = 0; i < 9; i += 3)
             found.push_back(float(0.212639 * double(image.rgb[i]) + 0.715169 * double(image.rgb[i + 1]) +

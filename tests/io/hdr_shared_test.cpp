@@ -12,6 +12,7 @@
 namespace vesper::test {
 namespace {
 
+using io::HdrImage, io::read_hdr_image;
 namespace fs = std::filesystem;
 const fs::path kHdr = shared_data("hdr");
 

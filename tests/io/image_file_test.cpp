@@ -15,6 +15,8 @@
 namespace vesper::test {
 namespace {
 
+using io::decode_image;
+
 /// Encodes rows of 8 or 16 bit samples as PNG.
 std::vector<uint8_t> png_of(uint32_t width, uint32_t height, int depth, int type, const std::vector<uint8_t>& rows,
                             bool interlaced = false, double gamma = 0) {
@@ -53,25 +55,25 @@ TEST(ImageFile, WritesPngThatReadsBack) {
     for (int i = 0; i < 7 * 5; ++i)
         rgba.insert(rgba.end(),
                     {static_cast<uint8_t>(i * 7), static_cast<uint8_t>(255 - i), static_cast<uint8_t>(i), 255});
-    write_png(folder / "x.png", 7, 5, rgba);
-    const Image image = decode_image(read_file(folder / "x.png", 1 << 20), 100);
+    io::write_png(folder / "x.png", 7, 5, rgba);
+    const Image image = decode_image(io::read_file(folder / "x.png", 1 << 20), 100);
     EXPECT_EQ(image.width, 7u);
     EXPECT_EQ(image.height, 5u);
     EXPECT_EQ(image.rgba, rgba);
-    EXPECT_THROW(write_png(folder / "x.png", 7, 6, rgba), Error);
-    EXPECT_THROW(write_png(folder / "no/x.png", 7, 5, rgba), Error);
+    EXPECT_THROW(io::write_png(folder / "x.png", 7, 6, rgba), Error);
+    EXPECT_THROW(io::write_png(folder / "no/x.png", 7, 5, rgba), Error);
 }
 
 // Chunks of 8 bits: sRGB unless said otherwise.
 TEST(ImageFile, SaysWhatTheCodesMean) {
     const TempFolder folder;
-    const auto chunks = [&](PngColour colour) {
-        write_png(folder / "x.png", 1, 1, std::vector<uint8_t>(4, 200), colour);
-        const std::vector<uint8_t> file = read_file(folder / "x.png", 1u << 20);
+    const auto chunks = [&](io::PngColour colour) {
+        io::write_png(folder / "x.png", 1, 1, std::vector<uint8_t>(4, 200), colour);
+        const std::vector<uint8_t> file = io::read_file(folder / "x.png", 1u << 20);
         return std::string(file.begin(), file.end());
     };
-    EXPECT_TRUE(contains(chunks(kPngSrgb), "sRGB"));
-    EXPECT_FALSE(contains(chunks(kPngSrgb), "cICP"));
+    EXPECT_TRUE(contains(chunks(io::kPngSrgb), "sRGB"));
+    EXPECT_FALSE(contains(chunks(io::kPngSrgb), "cICP"));
     EXPECT_TRUE(contains(chunks({9, 16}), std::string("cICP\x09\x10\x00\x01", 8)));
     EXPECT_TRUE(contains(chunks({12, 13}), std::string("cICP\x0c\x0d\x00\x01", 8)));
     EXPECT_FALSE(contains(chunks({12, 13}), "sRGB"));
@@ -81,13 +83,13 @@ TEST(ImageFile, SaysWhatTheCodesMean) {
 
 TEST(ImageFile, KeepsTextsInPngs) {
     const TempFolder folder;
-    const Header texts{{"vesper:sourceScale", "251.3"}, {"vesper:exposure", "0"}};
-    const auto file_of = [&](const Header& given, bool wide) {
+    const io::Header texts{{"vesper:sourceScale", "251.3"}, {"vesper:exposure", "0"}};
+    const auto file_of = [&](const io::Header& given, bool wide) {
         if (wide)
-            write_png_10bit(folder / "x.png", 1, 1, std::vector<uint32_t>(1, 7), {9, 16}, given);
+            io::write_png_10bit(folder / "x.png", 1, 1, std::vector<uint32_t>(1, 7), {9, 16}, given);
         else
-            write_png(folder / "x.png", 1, 1, std::vector<uint8_t>(4, 200), kPngSrgb, given);
-        const std::vector<uint8_t> file = read_file(folder / "x.png", 1u << 20);
+            io::write_png(folder / "x.png", 1, 1, std::vector<uint8_t>(4, 200), io::kPngSrgb, given);
+        const std::vector<uint8_t> file = io::read_file(folder / "x.png", 1u << 20);
         EXPECT_EQ(decode_image(file, 100).width, 1u);
         return std::string(file.begin(), file.end());
     };
@@ -102,8 +104,8 @@ TEST(ImageFile, KeepsTextsInPngs) {
 TEST(ImageFile, WritesPngOfTenBits) {
     const TempFolder folder;
     const std::vector<uint32_t> words{0u, 1023u | 512u << 10 | 1u << 20 | 3u << 30};
-    write_png_10bit(folder / "x.png", 2, 1, words, {9, 16});
-    const std::vector<uint8_t> file = read_file(folder / "x.png", 1u << 20);
+    io::write_png_10bit(folder / "x.png", 2, 1, words, {9, 16});
+    const std::vector<uint8_t> file = io::read_file(folder / "x.png", 1u << 20);
     const std::string text(file.begin(), file.end());
     EXPECT_NE(text.find("sBIT\x0a\x0a\x0a"), std::string::npos);
     EXPECT_NE(text.find(std::string("cICP\x09\x10\x00\x01", 8)), std::string::npos);
@@ -121,11 +123,11 @@ TEST(ImageFile, WritesPngOfTenBits) {
     EXPECT_EQ(value(5), 64);
     std::fclose(stream);
     png_destroy_read_struct(&png, &header, nullptr);
-    write_png_10bit(folder / "y.png", 2, 1, words, PngColour());
-    const std::vector<uint8_t> other = read_file(folder / "y.png", 1u << 20);
+    io::write_png_10bit(folder / "y.png", 2, 1, words, io::PngColour());
+    const std::vector<uint8_t> other = io::read_file(folder / "y.png", 1u << 20);
     for (const char* chunk : {"cICP", "sRGB"})
         EXPECT_EQ(std::string(other.begin(), other.end()).find(chunk), std::string::npos) << chunk;
-    EXPECT_THROW(write_png_10bit(folder / "x.png", 3, 1, words, PngColour()), Error);
+    EXPECT_THROW(io::write_png_10bit(folder / "x.png", 3, 1, words, io::PngColour()), Error);
 }
 
 TEST(ImageFile, ReadsEveryKindOfPng) {
@@ -210,7 +212,7 @@ TEST(ImageFile, SurvivesCutAndChangedFiles) {
 
 TEST(ImageFile, NamesFormats) {
     const auto type = [](const std::string& text) {
-        return media_type({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+        return io::media_type({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
     };
     EXPECT_EQ(type("\xff\xd8\xff\xe0"), "image/jpeg");
     EXPECT_EQ(type("RIFF1234WEBPVP8 "), "image/webp");
@@ -222,7 +224,7 @@ TEST(ImageFile, NamesFormats) {
 TEST(ImageFile, WritesExrInCandelas) {
     const TempFolder folder;
     const float values[] = {1e-4f, 1, 1e8f, 1, 65504, 70000, 0, 1};
-    write_exr(folder / "x.exr", 2, 1, values, {{"vesper.camera", "driver"}});
+    io::write_exr(folder / "x.exr", 2, 1, values, {{"vesper.camera", "driver"}});
     Imf::InputFile in((folder / "x.exr").c_str());
     EXPECT_EQ(Imf::whiteLuminance(in.header()), 1.0f);
     EXPECT_EQ(in.header().typedAttribute<Imf::StringAttribute>("vesper.camera").value(), "driver");
@@ -241,9 +243,9 @@ TEST(ImageFile, WritesExrInCandelas) {
         EXPECT_EQ(read[c], values[c]);
         EXPECT_EQ(read[3 + c], values[4 + c]);
     }
-    EXPECT_THROW(write_exr(folder / "x.exr", 2, 2, values, {}), Error);
-    EXPECT_THROW(write_exr("/dev/full", 2, 1, values, {}), Error);
-    EXPECT_THROW(write_exr(folder / "y.exr", 2, 1, values, {{"channels", "no such thing"}}), Error);
+    EXPECT_THROW(io::write_exr(folder / "x.exr", 2, 2, values, {}), Error);
+    EXPECT_THROW(io::write_exr("/dev/full", 2, 1, values, {}), Error);
+    EXPECT_THROW(io::write_exr(folder / "y.exr", 2, 1, values, {{"channels", "no such thing"}}), Error);
 }
 
 }  // namespace

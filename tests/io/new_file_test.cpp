@@ -18,6 +18,7 @@
 namespace vesper::test {
 namespace {
 
+using io::replace_file;
 namespace fs = std::filesystem;
 
 std::vector<uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
@@ -89,13 +90,13 @@ TEST(NewFile, LeavesTheOldFileWhenTheNewDoesNotFit) {
 TEST(NewFile, HasNoNameUntilItIsComplete) {
     const TempFolder folder;
     folder.write("a", "old");
-    NewFile file(folder / "a");
+    io::NewFile file(folder / "a");
     file.write(bytes_of("new"));
     EXPECT_EQ(entries(folder.path()), 1u);
     EXPECT_EQ(read_text(folder / "a"), "old");
     file.commit();
     EXPECT_EQ(read_text(folder / "a"), "new");
-    { NewFile(folder / "b").write(bytes_of("half")); }
+    { io::NewFile(folder / "b").write(bytes_of("half")); }
     EXPECT_EQ(entries(folder.path()), 1u);
 }
 
@@ -103,28 +104,28 @@ TEST(NewFile, HasNoNameUntilItIsComplete) {
 TEST(Temporary, GoesWithItsObjectOrWithASignal) {
     const TempFolder folder;
     {
-        Temporary made(folder.path());
+        io::Temporary made(folder.path());
         ASSERT_EQ(made.error(), 0);
-        Temporary other(folder.path());
+        io::Temporary other(folder.path());
         EXPECT_EQ(entries(folder.path()), 2u);
         EXPECT_EQ(made.take().write(bytes_of("x")), 0);
         EXPECT_EQ(made.rename_to(folder / "kept"), 0);
     }
     EXPECT_EQ(entries(folder.path()), 1u);
     EXPECT_EQ(read_text(folder / "kept"), "x");
-    const Temporary left(folder.path());
+    const io::Temporary left(folder.path());
     EXPECT_EQ(entries(folder.path()), 2u);
-    remove_temporaries();
+    io::remove_temporaries();
     EXPECT_EQ(entries(folder.path()), 1u);
-    EXPECT_EQ(Temporary(folder / "missing").error(), ENOENT);
+    EXPECT_EQ(io::Temporary(folder / "missing").error(), ENOENT);
 }
 
 TEST(NewFile, DoesNotWaitForAReaderOfAPipe) {
     const TempFolder folder;
     ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
     EXPECT_THROW(replace_file(folder / "pipe", bytes_of("x")), Error);
-    EXPECT_THROW(GrowingFile(folder / "pipe"), Error);
-    const Descriptor reader(::open((folder / "pipe").c_str(), O_RDONLY | O_NONBLOCK));
+    EXPECT_THROW(io::GrowingFile(folder / "pipe"), Error);
+    const io::Descriptor reader(::open((folder / "pipe").c_str(), O_RDONLY | O_NONBLOCK));
     replace_file(folder / "pipe", bytes_of("x"));
     char got = 0;
     EXPECT_EQ(::read(reader.number(), &got, 1), 1);
@@ -134,12 +135,12 @@ TEST(NewFile, DoesNotWaitForAReaderOfAPipe) {
 TEST(ReadFile, ReadsRegularFilesUpToALimit) {
     const TempFolder folder;
     folder.write("a", "12345");
-    EXPECT_EQ(read_file(folder / "a", 5).size(), 5u);
-    EXPECT_THROW(read_file(folder / "a", 4), Error);
-    EXPECT_THROW(read_file(folder.path(), 100), Error);
-    EXPECT_THROW(read_file("/dev/zero", 100), Error);
+    EXPECT_EQ(io::read_file(folder / "a", 5).size(), 5u);
+    EXPECT_THROW(io::read_file(folder / "a", 4), Error);
+    EXPECT_THROW(io::read_file(folder.path(), 100), Error);
+    EXPECT_THROW(io::read_file("/dev/zero", 100), Error);
     ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
-    EXPECT_THROW(read_file(folder / "pipe", 100), Error);
+    EXPECT_THROW(io::read_file(folder / "pipe", 100), Error);
 }
 
 TEST(OneLine, MakesMessagesOneLine) {

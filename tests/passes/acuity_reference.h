@@ -30,7 +30,7 @@ inline dvec3 seen(dvec3 rgb, uint32_t x, uint32_t y, const std::vector<PyramidLe
     const double l = luminance(rgb);
     if (!std::isfinite(l)) return rgb;
     const double adapted = std::max(luminance_at(levels[foveal_level - 1], foveal_level, x, y), kFloor);
-    const double footprint = std::sqrt(2) * pixels_per_degree / acuity(adapted);
+    const double footprint = std::sqrt(2) * pixels_per_degree / vision::acuity(adapted);
     const double level =
         std::clamp(std::log2(std::max(footprint, 1.0)), 0.0, double(std::min<size_t>(levels.size(), 5)));
     const auto blurred = [&](double k) { return k == 0 ? l : luminance_at(levels[size_t(k) - 1], uint32_t(k), x, y); };

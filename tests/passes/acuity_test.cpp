@@ -11,12 +11,13 @@
 namespace vesper::test::acuity_test {
 namespace {
 
-std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, const View& view,
+std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, const gpu_scene::View& view,
                             uint32_t foveal_level) {
-    FrameGraph graph;
-    const Resource scene = rig.image(graph, "scene", kSceneFormat, view.extent, pixels);
-    const Pyramid pyramid = add_pyramid(rig.frame(graph, view), scene);
-    const Resource kept = keep<glm::vec4>(graph, add_acuity(rig.frame(graph, view), scene, pyramid, foveal_level));
+    graph::FrameGraph graph;
+    const graph::Resource scene = rig.image(graph, "scene", render::kSceneFormat, view.extent, pixels);
+    const render::Pyramid pyramid = render::add_pyramid(rig.frame(graph, view), scene);
+    const graph::Resource kept =
+        keep<glm::vec4>(graph, render::add_acuity(rig.frame(graph, view), scene, pyramid, foveal_level));
     rig.run(graph);
     return rig.got<glm::vec4>(kept);
 }
@@ -27,7 +28,8 @@ TEST(Acuity, MatchesTheReference) {
         for (float degrees : {0.3f, 2.0f}) {
             auto pixels = night_pixels(extent, extent.width, -4, 1);
             if (pixels.size() > 20) pixels[9].x = std::numeric_limits<float>::quiet_NaN();
-            const View view = View::symmetric(extent, degrees * float(extent.height) / 33 / 57.2958f, glm::mat4(1));
+            const gpu_scene::View view =
+                gpu_scene::View::symmetric(extent, degrees * float(extent.height) / 33 / 57.2958f, glm::mat4(1));
             const auto levels = reference::pyramid(std::span<const glm::vec4>(pixels), extent.width, extent.height);
             const uint32_t foveal = std::min(4u, uint32_t(levels.size()));
             const auto got = seen(rig, pixels, view, foveal);
@@ -52,7 +54,7 @@ TEST(Acuity, MatchesTheReference) {
 TEST(Acuity, WhatIsTooFineInTheDarkIsGone) {
     PassRig rig;
     const VkExtent2D extent{256, 64};
-    const View view = View::symmetric(extent, 2 / 57.2958f, glm::mat4(1));  // 32 px a degree
+    const gpu_scene::View view = gpu_scene::View::symmetric(extent, 2 / 57.2958f, glm::mat4(1));  // 32 px a degree
     const auto contrast = [&](double mean, uint32_t period) {
         std::vector<glm::vec4> pixels;
         for (uint32_t i = 0; i < extent.width * extent.height; ++i)
@@ -71,10 +73,10 @@ TEST(Acuity, WhatIsTooFineInTheDarkIsGone) {
 
 TEST(Acuity, WithoutLossThereIsNoPass) {
     PassRig rig;
-    FrameGraph graph;
-    const FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
-    const Resource scene = graph.transient("scene", image_shape(kSceneFormat, {8, 8}));
-    EXPECT_EQ(add_acuity(frame, scene, {}, 1, false), scene);
+    graph::FrameGraph graph;
+    const render::FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
+    const graph::Resource scene = graph.transient("scene", graph::image_shape(render::kSceneFormat, {8, 8}));
+    EXPECT_EQ(render::add_acuity(frame, scene, {}, 1, false), scene);
     EXPECT_TRUE(graph.passes().empty());
 }
 

@@ -48,10 +48,10 @@ inline Adapted adapt(const AdaptInputs& in) {
                                                                   : double(in.previous.adaptation),
                                          kFloor, 1e6);
 
-    const ThresholdBreaks breaks{p.cone_break, p.rod_break};
-    const ReceptorModel cones(ReceptorKind::Cones, in.observer.observed_cones(), breaks),
-        rods(ReceptorKind::Rods, in.observer.observed_rods(), breaks);
-    const auto step = [&](const ReceptorModel& model, const shared::ReceptorMemory& m, double light) {
+    const vision::ThresholdBreaks breaks{p.cone_break, p.rod_break};
+    const vision::ReceptorModel cones(vision::ReceptorKind::Cones, in.observer.observed_cones(), breaks),
+        rods(vision::ReceptorKind::Rods, in.observer.observed_rods(), breaks);
+    const auto step = [&](const vision::ReceptorModel& model, const shared::ReceptorMemory& m, double light) {
         return first ? model.adapted(light) : model.after({m.pigment, m.fast, m.slow}, light, p.seconds);
     };
     const double scotopic = p.scotopic * adaptation;
@@ -59,8 +59,8 @@ inline Adapted adapt(const AdaptInputs& in) {
     const double cone_sigma = cones.sigma(out.cones), rod_sigma = rods.sigma(out.rods);
 
     out.share = shares(in.histogram, p.bins);
-    const bool has_curve = operator_info(in.tone_operator).histogram;
-    if (in.tone_operator == Operator::Ward)
+    const bool has_curve = render::operator_info(in.tone_operator).histogram;
+    if (in.tone_operator == render::Operator::Ward)
         out.adjusted = trim(out.share, adaptation, thresholds_of(p, cones, cone_sigma, rods, rod_sigma), p);
     else if (has_curve)
         out.adjusted = adjust(per_step(out.share, p), adapted_luminance(cone_sigma, cones),
@@ -103,21 +103,21 @@ inline Adapted adapt(const AdaptInputs& in) {
         found->second.frame(frame, out);
     } else {
         switch (in.tone_operator) {
-            case Operator::Reinhard:
+            case render::Operator::Reinhard:
                 reinhard_frame(frame, out);
                 break;
-            case Operator::Linear:
+            case render::Operator::Linear:
                 linear_frame(frame, out);
                 break;
-            case Operator::Pattanaik:
+            case render::Operator::Pattanaik:
                 pattanaik_frame(frame, out);
                 break;
-            case Operator::Ferwerda:
-            case Operator::Durand:
+            case render::Operator::Ferwerda:
+            case render::Operator::Durand:
                 gains_frame(frame, out);
                 break;
             // What comes out of bands is luminance of the display.
-            case Operator::Grave:
+            case render::Operator::Grave:
                 t.block[0] = {p.display_low, 1 / (p.display_high - p.display_low), 0, 0};
                 break;
             default:
@@ -125,14 +125,14 @@ inline Adapted adapt(const AdaptInputs& in) {
         }
     }
 
-    const auto memory = [](const ReceptorState& s) {
+    const auto memory = [](const vision::ReceptorState& s) {
         return shared::ReceptorMemory{float(s.pigment), float(s.fast), float(s.slow)};
     };
     out.eye.adaptation = float(adaptation);
     const double time = double(in.previous.seconds) + double(in.previous.seconds_lost) + double(p.seconds);
     out.eye.seconds = std::min(float(time), shared::kLongestLife),
     out.eye.seconds_lost = float(time - double(out.eye.seconds));
-    const double pupil = in.previous.pupil > 0 ? in.previous.pupil : 4.9, rest = pupil_moon_spencer(adaptation);
+    const double pupil = in.previous.pupil > 0 ? in.previous.pupil : 4.9, rest = vision::pupil_moon_spencer(adaptation);
     out.eye.pupil = float(rest + (pupil - rest) * std::exp(-double(p.seconds) / 0.5));
     out.eye.cones = memory(out.cones), out.eye.rods = memory(out.rods);
     out.eye.pattanaik = {float(out.pattanaik.cones), float(out.pattanaik.rods), float(out.pattanaik.cone_pigment),

@@ -10,6 +10,8 @@
 namespace vesper::reference::adapt_reference_test {
 namespace {
 
+using render::Operator;
+
 /// One frame whose foveal level is one texel of `luminance`.
 AdaptInputs frame_of(const shared::Histogram& histogram, double luminance, float seconds = 0) {
     AdaptInputs in{.histogram = histogram,
@@ -17,8 +19,8 @@ AdaptInputs frame_of(const shared::Histogram& histogram, double luminance, float
                    .fovea = {1, 1, {{luminance, 6, std::log(luminance), luminance}}},
                    .observer = {}};
     in.parameters = parameters_of(0.5, 200, shared::kCeilingEye);
-    in.parameters.cone_break = float(ThresholdBreaks::continuous().cones),
-    in.parameters.rod_break = float(ThresholdBreaks::continuous().rods);
+    in.parameters.cone_break = float(vision::ThresholdBreaks::continuous().cones),
+    in.parameters.rod_break = float(vision::ThresholdBreaks::continuous().rods);
     in.parameters.adapt_to = shared::kAdaptGaze;
     in.parameters.gaze = {0.5f, 0.5f};
     in.parameters.seconds = seconds, in.parameters.smoothing_seconds = 0.15f;

@@ -11,6 +11,8 @@
 namespace vesper::test::adapt_test {
 namespace {
 
+using render::Operator;
+
 // ln of display luminance, absolute: sums over 256 steps in float. An eighth of the smallest step of an 8-bit display
 // near white (1 / 255 / gamma is 2e-3 in ln).
 constexpr double kNodeError = 2e-4;
@@ -23,18 +25,19 @@ struct Frame {
     glm::vec4 top{0};         ///< the 1x1 level
     VkExtent2D texels{1, 1};  ///< of the foveal level
     std::vector<glm::vec4> fovea{};
-    HistogramSettings bins;
-    ToneSettings tone;
-    Display display;
+    render::HistogramSettings bins;
+    render::ToneSettings tone;
+    vision::Display display;
     Operator tone_operator = Operator::Irawan;
     float seconds = 0;
     VkExtent2D tiles{3, 2};
     std::vector<glm::vec4> colours{{1, 0.5, 0.2, 900},  {3, 2, 1, 1024}, {0, 0, 0, 0},
                                    {0.1, 0.1, 0.3, 17}, {-1, 2, 0, 5},   {1e4, 5e3, 10, 1024}};
 
-    const OperatorInfo& op() const { return operator_info(tone_operator); }
+    const render::OperatorInfo& op() const { return render::operator_info(tone_operator); }
     shared::ToneParameters parameters() const {
-        return tone_parameters(op(), bins, tone, display, {1, texels, {2 * texels.width, 2 * texels.height}}, seconds);
+        return render::tone_parameters(op(), bins, tone, display, {1, texels, {2 * texels.width, 2 * texels.height}},
+                                       seconds);
     }
     reference::Adapted wanted(const shared::EyeState& previous) const {
         const std::vector<glm::dvec4> level(fovea.begin(), fovea.end());
@@ -58,19 +61,20 @@ struct Got {
 };
 
 /// The eye goes on from the last frame, or from `eye`.
-Got adapt(PassRig& rig, const Frame& frame, const EyeState& eye = {.on_device = true}) {
-    FrameGraph graph;
-    const Resource top = rig.image(graph, "top", kSceneFormat, {1, 1}, std::vector{frame.top});
-    const Resource fovea = rig.image(graph, "fovea", kSceneFormat, frame.texels, frame.fovea);
-    const Resource histogram = rig.buffer(graph, "histogram", std::vector{frame.histogram});
-    const Colours colours =
+Got adapt(PassRig& rig, const Frame& frame, const render::EyeState& eye = {.on_device = true}) {
+    graph::FrameGraph graph;
+    const graph::Resource top = rig.image(graph, "top", render::kSceneFormat, {1, 1}, std::vector{frame.top});
+    const graph::Resource fovea = rig.image(graph, "fovea", render::kSceneFormat, frame.texels, frame.fovea);
+    const graph::Resource histogram = rig.buffer(graph, "histogram", std::vector{frame.histogram});
+    const render::Colours colours =
         frame.op().chromatic
-            ? Colours{rig.image(graph, "colours", kSceneFormat, frame.tiles, frame.colours), frame.tiles}
-            : Colours{};
-    const Pyramid pyramid{{fovea, top}, {frame.texels, {1, 1}}};
-    const Adaptation a =
-        add_adaptation(rig.frame(graph, View{}), {pyramid, 1, histogram, colours, eye}, frame.op(), frame.parameters());
-    const Resource curve = keep<shared::ToneCurve>(graph, a.curve), left = keep<shared::EyeState>(graph, a.eye);
+            ? render::Colours{rig.image(graph, "colours", render::kSceneFormat, frame.tiles, frame.colours),
+                              frame.tiles}
+            : render::Colours{};
+    const render::Pyramid pyramid{{fovea, top}, {frame.texels, {1, 1}}};
+    const render::Adaptation a = render::add_adaptation(
+        rig.frame(graph, gpu_scene::View{}), {pyramid, 1, histogram, colours, eye}, frame.op(), frame.parameters());
+    const graph::Resource curve = keep<shared::ToneCurve>(graph, a.curve), left = keep<shared::EyeState>(graph, a.eye);
     rig.run(graph);
     return {rig.got<shared::ToneCurve>(curve).at(0), rig.got<shared::EyeState>(left).at(0)};
 }
@@ -193,17 +197,18 @@ TEST(Adapt, MatchesTheReferenceOnRoadsDayAndNight) {
     };
     for (const auto& [name, frame] : frames)
         for (Operator op : {Operator::Irawan, Operator::Ward}) {
-            SCOPED_TRACE(std::string(name) + ", " + std::string(operator_info(op).name));
+            SCOPED_TRACE(std::string(name) + ", " + std::string(render::operator_info(op).name));
             Frame shown = frame;
             shown.tone_operator = op;
-            expect_same(adapt(rig, shown, EyeState{}), shown.wanted({}), shown);
+            expect_same(adapt(rig, shown, render::EyeState{}), shown.wanted({}), shown);
         }
     EXPECT_EQ(rig.complaints(), "");
 }
 
 TEST(Adapt, MatchesTheReferenceOnOtherDisplays) {
-    for (const Display& display :
-         {Display{10, 0.01f, 2.2f, 0, 0}, Display{1000, 0.001f, 2.4f, 0, 0}, Display{80, 1, 2.2f, 60, 0.02f}})
+    for (const vision::Display& display :
+         {vision::Display{10, 0.01f, 2.2f, 0, 0}, vision::Display{1000, 0.001f, 2.4f, 0, 0},
+          vision::Display{80, 1, 2.2f, 60, 0.02f}})
         for (Frame frame : {frame_of({{30, 8, 20000}, {85, 3, 200}}), frame_of({{74, 0.8, 1000}})}) {
             PassRig rig;
             frame.display = display;
@@ -257,7 +262,7 @@ TEST(Adapt, AnEmptyFrameIsBlackAndFinite) {
 TEST(Adapt, MatchesTheReferenceForEveryObserver) {
     PassRig rig;
     const Frame street = frame_of({{30, 8, 20000}, {60, 5, 4000}, {85, 3, 200}});
-    std::vector<ToneSettings> all(8);
+    std::vector<render::ToneSettings> all(8);
     all[0].observer.use_rods = true;
     all[1].observer.age = 70, all[1].observer.low_vision = 3;
     all[2].observer.cones.semi_saturation = 1.5, all[2].observer.cones.fast_share = 0.8;
@@ -266,18 +271,18 @@ TEST(Adapt, MatchesTheReferenceForEveryObserver) {
     all[5].adapt_to = shared::kAdaptTexel;
     all[6].adapt_to = shared::kAdaptGazeMean;
     all[7].photopic_rods = all[7].observer.use_rods = true;
-    for (const ToneSettings& tone : all) {
+    for (const render::ToneSettings& tone : all) {
         SCOPED_TRACE(&tone - all.data());
         Frame frame = street;
         frame.tone = tone;
-        expect_same(adapt(rig, frame, EyeState{}), frame.wanted({}), frame);
+        expect_same(adapt(rig, frame, render::EyeState{}), frame.wanted({}), frame);
     }
     EXPECT_EQ(rig.complaints(), "");
 }
 
 // Every operator, over three frames of a street that grows darker.
 TEST(Adapt, MatchesTheReferenceForEveryOperatorOverTime) {
-    for (const OperatorInfo& op : operators())
+    for (const render::OperatorInfo& op : render::operators())
         for (bool automatic : {false, true}) {
             SCOPED_TRACE(op.name);
             PassRig rig;
@@ -311,7 +316,7 @@ TEST(Adapt, TheGazeMovesOverTheFovealLevel) {
         frame.tone.gaze = gaze;
         for (uint32_t to : {shared::kAdaptGaze, shared::kAdaptGazeMean, shared::kAdaptTexel}) {
             frame.tone.adapt_to = to;
-            expect_same(adapt(rig, frame, EyeState{}), frame.wanted({}), frame);
+            expect_same(adapt(rig, frame, render::EyeState{}), frame.wanted({}), frame);
         }
     }
     EXPECT_EQ(rig.complaints(), "");
@@ -346,7 +351,7 @@ TEST(Adapt, EntersATunnelAsTabulated) {
     PassRig rig;
     const double table[][3]{{0.05, 4204, 1.064}, {0.2, 1772, 0.463},  {1, 1317, 0.351},    {5, 737.8, 0.208},
                             {10, 459.0, 0.140},  {20, 281.1, 0.0964}, {60, 184.3, 0.0736}, {300, 135.9, 0.0628}};
-    const ReceptorModel cones(ReceptorKind::Cones, Receptors::cones());
+    const vision::ReceptorModel cones(vision::ReceptorKind::Cones, vision::Receptors::cones());
     Frame frame = frame_of({{60, 8, 2000}});
     frame.fovea = {{5000, 4, std::log(5000), 0}};
     adapt(rig, frame);

@@ -98,12 +98,12 @@ struct Thresholds {
     std::function<double(double)> scene, display;
 };
 
-inline Thresholds thresholds_of(const shared::ToneParameters& p, const ReceptorModel& cones, double cone_sigma,
-                                const ReceptorModel& rods, double rod_sigma) {
-    const ThresholdBreaks breaks{p.cone_break, p.rod_break};
+inline Thresholds thresholds_of(const shared::ToneParameters& p, const vision::ReceptorModel& cones, double cone_sigma,
+                                const vision::ReceptorModel& rods, double rod_sigma) {
+    const vision::ThresholdBreaks breaks{p.cone_break, p.rod_break};
     const auto linear = [](double l) { return l; };
-    const auto human = [=](double l) { return human_threshold(l, breaks); };
-    const auto adapted = [=](double l) { return cone_threshold(l, breaks); };
+    const auto human = [=](double l) { return vision::human_threshold(l, breaks); };
+    const auto adapted = [=](double l) { return vision::cone_threshold(l, breaks); };
     const auto eye = [=, &cones, &rods](double l) {
         const double t = cones.threshold(l, cone_sigma);
         return p.use_rods ? std::min(t, rods.threshold(p.scotopic * l, rod_sigma) / p.scotopic) : t;

@@ -130,7 +130,7 @@ TEST(AdjustReference, TrimmingHasItsEndsRight) {
     for (uint32_t i = 30; i <= 90; ++i) EXPECT_NEAR(equalized.curve.node[i], std::log(100) * (i - 30) / 60, 1e-12);
     const Adjusted linear = trim(narrow, 200, t, p);
     EXPECT_TRUE(linear.under);
-    const double scale = human_threshold(10) / human_threshold(200);
+    const double scale = vision::human_threshold(10) / vision::human_threshold(200);
     for (uint32_t i = 60; i <= 70; ++i)
         EXPECT_NEAR(linear.curve.node[i], std::log(std::pow(10, -4 + 0.1 * i) * scale), 1e-5);
     EXPECT_EQ(linear.curve.node[100], std::log(100));

@@ -40,7 +40,7 @@ struct Viewer {
 
 /// The luminance to which cones of that half saturation are adapted, at least 1e-4 cd/m^2: where the threshold of
 /// adapted ones overtakes theirs.
-inline double adapted_luminance(double sigma, const ReceptorModel& cones) {
+inline double adapted_luminance(double sigma, const vision::ReceptorModel& cones) {
     double low = std::log(1e-4), high = std::max(std::log(sigma), low);
     for (int k = 0; k < 100; ++k) {
         const double middle = (low + high) / 2, l = std::exp(middle);
@@ -53,7 +53,8 @@ inline double adapted_luminance(double sigma, const ReceptorModel& cones) {
 /// white.
 inline double anchor(double adapted, const Thresholds& threshold, const shared::ToneParameters& p) {
     const Viewer viewer(p);
-    const double t = viewer.linear ? cone_threshold(adapted, {p.cone_break, p.rod_break}) : threshold.scene(adapted);
+    const double t =
+        viewer.linear ? vision::cone_threshold(adapted, {p.cone_break, p.rod_break}) : threshold.scene(adapted);
     const double most = viewer.differences(std::max(0.3 * viewer.high, viewer.low));
     // R (1 - R) = step L / T(L): the lesser root, that of a luminance below half saturation.
     const double product = std::min(viewer.step * adapted / t, 0.25),

@@ -229,9 +229,9 @@ TEST(AnchorReference, NoLightIsBlackForEveryEye) {
     std::mt19937 random(8);
     for (double factor : {0.3, 0.6, 0.9, 1.0, 2.0, 10.0})
         for (double adapted : {0.01, 1.0, 1000.0}) {
-            Receptors receptors = Receptors::cones();
+            vision::Receptors receptors = vision::Receptors::cones();
             receptors.threshold_factor = factor;
-            const ReceptorModel eye(ReceptorKind::Cones, receptors);
+            const vision::ReceptorModel eye(vision::ReceptorKind::Cones, receptors);
             const Curve curve = adjust(random_votes(random, p.bins * p.steps_per_bin), adapted,
                                        thresholds_of(p, eye, eye.adapted_sigma(adapted), kRods, 1), p)
                                     .curve;

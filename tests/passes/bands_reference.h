@@ -35,7 +35,8 @@ double expanded(const PyramidLevel& level, uint32_t x, uint32_t y, const Value& 
 inline double ln_steepness(double adapted, const shared::ToneCurve& curve, const shared::ToneParameters& p) {
     const double scene = std::exp(adapted), shown = std::exp(node_at(scene, curve).x), sigma = p.viewer_sigma;
     const double on_display = double(p.viewer_step) * (shown + sigma) * (shown + sigma) / sigma;
-    return std::min(std::log(on_display / shown / (cone_threshold(scene, {p.cone_break, p.rod_break}) / scene)), 0.0);
+    return std::min(std::log(on_display / shown / (vision::cone_threshold(scene, {p.cone_break, p.rod_break}) / scene)),
+                    0.0);
 }
 
 /// Of pixels with `luminance`, of which `levels` is the pyramid; bands up to level `top`, 1-based.

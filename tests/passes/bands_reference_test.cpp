@@ -10,8 +10,8 @@
 namespace vesper::reference::bands_reference_test {
 namespace {
 
-constexpr ThresholdBreaks kBreaks = ThresholdBreaks::continuous();
-const ReceptorModel kViewer(ReceptorKind::Cones, Receptors::cones());
+constexpr vision::ThresholdBreaks kBreaks = vision::ThresholdBreaks::continuous();
+const vision::ReceptorModel kViewer(vision::ReceptorKind::Cones, vision::Receptors::cones());
 constexpr double kViewerSees = 60;  // cd/m^2
 
 shared::ToneParameters display_parameters() {
@@ -68,7 +68,7 @@ TEST(BandsReference, SmallTargetsKeepTheirVisibilityLevel) {
             l[64 * 31 + 33] *= 1 + contrast;
             const double field = std::exp(node_at(background, power_curve(6, 0.5)).x);
             const double difference = shown(l, 64, 64, 5, power_curve(6, 0.5))[64 * 31 + 33] - field;
-            const double in_scene = contrast * background / cone_threshold(background, kBreaks),
+            const double in_scene = contrast * background / vision::cone_threshold(background, kBreaks),
                          on_display = difference / kViewer.threshold(field, kViewer.adapted_sigma(kViewerSees));
             const double same_contrast =
                 contrast * field / kViewer.threshold(field, kViewer.adapted_sigma(kViewerSees));

@@ -20,12 +20,13 @@ shared::ToneParameters display_parameters() {
 
 std::vector<glm::vec4> bands(PassRig& rig, VkExtent2D extent, const std::vector<glm::vec4>& scene, uint32_t top,
                              uint32_t tone, const shared::ToneCurve& curve) {
-    FrameGraph graph;
-    const Resource image = rig.image(graph, "scene", kSceneFormat, extent, scene);
-    const Pyramid pyramid = add_pyramid(rig.frame(graph, extent), image);
-    const Resource table = graph.upload("curve", std::vector{curve}, VK_FORMAT_R32G32B32A32_SFLOAT);
-    const Resource kept = keep<glm::vec4>(graph, add_bands(rig.frame(graph, extent), image, pyramid, top, table,
-                                                           {.tone = tone, .parameters = display_parameters()}));
+    graph::FrameGraph graph;
+    const graph::Resource image = rig.image(graph, "scene", render::kSceneFormat, extent, scene);
+    const render::Pyramid pyramid = render::add_pyramid(rig.frame(graph, extent), image);
+    const graph::Resource table = graph.upload("curve", std::vector{curve}, VK_FORMAT_R32G32B32A32_SFLOAT);
+    const graph::Resource kept =
+        keep<glm::vec4>(graph, render::add_bands(rig.frame(graph, extent), image, pyramid, top, table,
+                                                 {.tone = tone, .parameters = display_parameters()}));
     rig.run(graph);
     return rig.got<glm::vec4>(kept);
 }
@@ -79,10 +80,10 @@ TEST(Bands, WhatIsNotFiniteStaysAloneAndSo) {
 
 TEST(Bands, WhereTheyAreNotOnThereIsNoPass) {
     PassRig rig;
-    FrameGraph graph;
-    const FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
-    const Resource scene = graph.transient("scene", image_shape(kSceneFormat, {8, 8}));
-    EXPECT_EQ(add_bands(frame, scene, {}, 1, {}, {.on = false}), scene);
+    graph::FrameGraph graph;
+    const render::FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
+    const graph::Resource scene = graph.transient("scene", graph::image_shape(render::kSceneFormat, {8, 8}));
+    EXPECT_EQ(render::add_bands(frame, scene, {}, 1, {}, {.on = false}), scene);
     EXPECT_TRUE(graph.passes().empty());
 }
 

@@ -22,7 +22,7 @@ constexpr float kAll = 1e-9f;  // lx: a threshold that leaves no lamp out
 /// A road of some kind 1.2 m under the eye between walls at 8 m, sky above 20 m; and, in squares here and there, what
 /// makes other classes.
 Surfaces canyon(VkExtent2D extent, float road_kind = 0, bool mixed = true, bool sheets = false) {
-    const View view = View::symmetric(extent, 0.7f, glm::mat4(1));
+    const gpu_scene::View view = gpu_scene::View::symmetric(extent, 0.7f, glm::mat4(1));
     Surfaces s{extent, {}, {}, {}};
     Noise noise(extent.width);
     for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
@@ -56,7 +56,7 @@ reference::Block block_of(const Surfaces& s, uint32_t x, uint32_t y) {
 }
 
 struct Merged {
-    Blocks blocks;
+    render::Blocks blocks;
     shared::ClusterPush cluster;
     std::vector<uint32_t> counts, entries, class_counts, class_blocks;
     std::vector<glm::vec4> sums;
@@ -81,18 +81,19 @@ struct Merged {
     }
 };
 
-Merged merge(PassRig& rig, const Surfaces& s, const LampList& list, float tolerance = kTolerance, float far = 0) {
-    FrameGraph graph;
-    const FrameContext frame = rig.frame(graph, View::symmetric(s.extent, 0.7f, glm::mat4(1)));
-    const GBuffer g = upload(graph, s);
-    const Clusters c = add_clusters(frame, g.surface, list, no_tables(graph), {.far = far});
+Merged merge(PassRig& rig, const Surfaces& s, const gpu_scene::LampList& list, float tolerance = kTolerance,
+             float far = 0) {
+    graph::FrameGraph graph;
+    const render::FrameContext frame = rig.frame(graph, gpu_scene::View::symmetric(s.extent, 0.7f, glm::mat4(1)));
+    const render::GBuffer g = upload(graph, s);
+    const render::Clusters c = render::add_clusters(frame, g.surface, list, no_tables(graph), {.far = far});
     Merged got;
-    got.blocks = add_blocks(frame, g, c, tolerance);
+    got.blocks = render::add_blocks(frame, g, c, tolerance);
     got.cluster = c.push;
-    const Blocks& b = got.blocks;
-    const Resource counts = keep<uint32_t>(graph, b.counts), entries = keep<uint32_t>(graph, b.entries),
-                   sums = keep<glm::vec4>(graph, b.sums), classes = keep<uint32_t>(graph, b.class_counts),
-                   members = keep<uint32_t>(graph, b.class_blocks);
+    const render::Blocks& b = got.blocks;
+    const graph::Resource counts = keep<uint32_t>(graph, b.counts), entries = keep<uint32_t>(graph, b.entries),
+                          sums = keep<glm::vec4>(graph, b.sums), classes = keep<uint32_t>(graph, b.class_counts),
+                          members = keep<uint32_t>(graph, b.class_blocks);
     rig.run(graph);
     got.counts = rig.got<uint32_t>(counts), got.entries = rig.got<uint32_t>(entries),
     got.sums = rig.got<glm::vec4>(sums);
@@ -109,7 +110,7 @@ TEST(Blocks, EveryLampIsListedOrAddedUp) {
         SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height) + ", far " +
                      std::to_string(far));
         const Surfaces s = canyon(extent);
-        const LampList list = street_lamps({20, 20, 0}, 300, extent.width);
+        const gpu_scene::LampList list = street_lamps({20, 20, 0}, 300, extent.width);
         const Merged got = merge(rig, s, list, kTolerance, far);
         uint32_t planes = 0, taken = 0, sliced = 0;
         for (uint32_t b = 0; b < got.blocks.count; ++b) {
@@ -210,7 +211,7 @@ TEST(Blocks, ANegativeToleranceAddsUpNothing) {
 TEST(Blocks, ShadingWithSumsIsShadingLampByLamp) {
     PassRig rig;
     const Surfaces s = canyon({333, 211});
-    const LampList list = street_lamps({60, 60, 1}, 300, 7);
+    const gpu_scene::LampList list = street_lamps({60, 60, 1}, 300, 7);
     for (const float far : {0.0f, 60.0f}) {
         const Shot merged = shade(rig, s, list, {.threshold = kAll, .far = far}, {}),
                    one_by_one = shade(rig, s, list, {.threshold = kAll, .far = far}, {.merge_tolerance = -1});
@@ -229,7 +230,7 @@ TEST(Blocks, ShadingWithSumsIsShadingLampByLamp) {
 TEST(Blocks, LampsNearTheThresholdCountOrNot) {
     PassRig rig;
     const Surfaces s = canyon({333, 211}, 0, false);
-    const LampList list = street_lamps({60, 0, 0}, 300, 7);
+    const gpu_scene::LampList list = street_lamps({60, 0, 0}, 300, 7);
     const float threshold = 0.5f;
     const Shot got = shade(rig, s, list, {.threshold = threshold}, {}),
                without = shade(rig, s, list, {.threshold = threshold}, {.merge_tolerance = -1}),
@@ -258,7 +259,7 @@ TEST(Blocks, LightThatGrazesUnevenGroundIsShadedLampByLamp) {
                                          glm::normalize(glm::dvec3(0, 1, 2e-4 * std::sin(0.5 * y + 0.1 * x))))),
                                      s.surface[i].z, 1);
     }
-    LampList list = street_lamps({2, 0, 0}, 1);
+    gpu_scene::LampList list = street_lamps({2, 0, 0}, 1);
     for (int i = 0; i < 2; ++i)
         list.lamps[size_t(i)] = {{float(i) - 0.5f, -1.0f, -90}, 1e4f, {0, 0, 1}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
     const Shot merged = shade(rig, s, list, {.threshold = kAll}, {}),
@@ -271,7 +272,7 @@ TEST(Blocks, LightThatGrazesUnevenGroundIsShadedLampByLamp) {
 TEST(Blocks, WhatIsNoNumberStaysInItsPixel) {
     PassRig rig;
     Surfaces s = canyon({61, 43}, 0, false);
-    const LampList list = street_lamps({20, 20, 0}, 300, 8);
+    const gpu_scene::LampList list = street_lamps({20, 20, 0}, 300, 8);
     const Shot clean = shade(rig, s, list, {.threshold = kAll}, {});
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
     const std::set<size_t> spoiled{0, 700, 1500, 2000, 2222, size_t(61 * 43 - 1)};

@@ -12,23 +12,23 @@ namespace {
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 struct Inputs {
-    View view;
+    gpu_scene::View view;
     std::vector<glm::vec4> scene;
     shared::ToneCurve curve = crooked_curve({});
-    Display display{};
-    BloomSettings settings{};
+    vision::Display display{};
+    render::BloomSettings settings{};
 };
 
-View view_of(VkExtent2D extent) {
-    return View::symmetric(extent, 0.02f * float(extent.height) / 57.2958f, glm::mat4(1));
+gpu_scene::View view_of(VkExtent2D extent) {
+    return gpu_scene::View::symmetric(extent, 0.02f * float(extent.height) / 57.2958f, glm::mat4(1));
 }
 
 Picture glare(PassRig& rig, const Inputs& in, uint32_t tone) {
-    FrameGraph graph;
-    const Resource scene = rig.image(graph, "scene", kSceneFormat, in.view.extent, in.scene);
-    const Resource curve = graph.upload("curve", std::vector{in.curve}, VK_FORMAT_R32G32B32A32_SFLOAT);
-    const Resource kept =
-        keep<uint64_t>(graph, add_bloom(rig.frame(graph, in.view), scene, curve, tone, in.display, in.settings));
+    graph::FrameGraph graph;
+    const graph::Resource scene = rig.image(graph, "scene", render::kSceneFormat, in.view.extent, in.scene);
+    const graph::Resource curve = graph.upload("curve", std::vector{in.curve}, VK_FORMAT_R32G32B32A32_SFLOAT);
+    const graph::Resource kept = keep<uint64_t>(
+        graph, render::add_bloom(rig.frame(graph, in.view), scene, curve, tone, in.display, in.settings));
     rig.run(graph);
     const uint32_t w = (in.view.extent.width + 3) / 4, h = (in.view.extent.height + 3) / 4;
     const auto texels = from_halves(rig.got<uint64_t>(kept));
@@ -88,7 +88,7 @@ TEST(Bloom, MatchesTheReferenceForEveryOperatorAndSize) {
 TEST(Bloom, MatchesTheReferenceOfAWholeFrame) {
     PassRig rig;
     const VkExtent2D extent{1680, 1050};
-    expect_reference(rig, {View::symmetric(extent, 0.6f, glm::mat4(1)), night_pixels(extent, 3, -2, 4)},
+    expect_reference(rig, {gpu_scene::View::symmetric(extent, 0.6f, glm::mat4(1)), night_pixels(extent, 3, -2, 4)},
                      shared::kToneCurve);
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -135,7 +135,7 @@ TEST(Bloom, ViewsOfHardlyAnyAngleGlareEvenly) {
     PassRig rig;
     Inputs in = lamp({240, 200}, {0, 0}, {240, 200}, 1e6f);
     for (float angle : {1e-4f, 1e-36f}) {
-        in.view = View::symmetric(in.view.extent, angle, glm::mat4(1));
+        in.view = gpu_scene::View::symmetric(in.view.extent, angle, glm::mat4(1));
         const Picture got = glare(rig, in, shared::kToneReinhard);
         const double want = 60 * 50 / (513.0 * 513.0);
         // At 1e-4 rad the weights fall by 0.35 % towards the radius; three roundings as above.
@@ -182,10 +182,10 @@ TEST(Bloom, DarkImagesAndNanDoNotGlare) {
 
 TEST(Bloom, WithoutGainThereIsNoPass) {
     PassRig rig;
-    FrameGraph graph;
-    const FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
-    const Resource scene = graph.transient("scene", image_shape(kSceneFormat, {8, 8}));
-    EXPECT_EQ(add_bloom(frame, scene, {}, shared::kToneLinear, {}, {.gain = 0}), Resource{});
+    graph::FrameGraph graph;
+    const render::FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
+    const graph::Resource scene = graph.transient("scene", graph::image_shape(render::kSceneFormat, {8, 8}));
+    EXPECT_EQ(render::add_bloom(frame, scene, {}, shared::kToneLinear, {}, {.gain = 0}), graph::Resource{});
     EXPECT_TRUE(graph.passes().empty());
 }
 

@@ -13,6 +13,8 @@
 namespace vesper::test::cluster_test {
 namespace {
 
+using gpu_scene::LampList;
+
 struct Lists {
     shared::ClusterPush push;
     shared::ClusterReport report;
@@ -37,18 +39,20 @@ std::vector<float> depths(VkExtent2D extent) {
     return depths;
 }
 
-Resource surface_of(FrameGraph& graph, VkExtent2D extent) {
+graph::Resource surface_of(graph::FrameGraph& graph, VkExtent2D extent) {
     std::vector<glm::vec4> texels;
     for (const float depth : depths(extent)) texels.emplace_back(0, 0, depth, 1);
-    return PassRig::image(graph, "surface", kSurfaceFormat, extent, texels);
+    return PassRig::image(graph, "surface", render::kSurfaceFormat, extent, texels);
 }
 
-Lists cluster(PassRig& rig, const LampList& list, const View& view, const ClusterSettings& settings) {
-    FrameGraph graph;
-    const Clusters clusters =
-        add_clusters(rig.frame(graph, view), surface_of(graph, view.extent), list, no_tables(graph), settings);
-    const Resource counts = keep<uint32_t>(graph, clusters.counts), indices = keep<uint32_t>(graph, clusters.indices),
-                   report = keep<shared::ClusterReport>(graph, clusters.report);
+Lists cluster(PassRig& rig, const LampList& list, const gpu_scene::View& view,
+              const render::ClusterSettings& settings) {
+    graph::FrameGraph graph;
+    const render::Clusters clusters =
+        render::add_clusters(rig.frame(graph, view), surface_of(graph, view.extent), list, no_tables(graph), settings);
+    const graph::Resource counts = keep<uint32_t>(graph, clusters.counts),
+                          indices = keep<uint32_t>(graph, clusters.indices),
+                          report = keep<shared::ClusterReport>(graph, clusters.report);
     rig.run(graph);
 
     Lists out;
@@ -115,7 +119,7 @@ std::pair<uint64_t, uint64_t> expect_superset(const Lists& lists, const LampList
     return {found, listed};
 }
 
-View view_of(VkExtent2D extent) { return View::symmetric(extent, 0.7f, glm::mat4(1)); }
+gpu_scene::View view_of(VkExtent2D extent) { return gpu_scene::View::symmetric(extent, 0.7f, glm::mat4(1)); }
 
 TEST(Cluster, ListsEveryLampThatLightsTheFroxel) {
     PassRig rig;
@@ -251,9 +255,10 @@ TEST(Cluster, ALampDarkerThanTheThresholdEverywhereIsNotListed) {
 
 TEST(Cluster, GridMapsDepthsFromAMetreToTheEnd) {
     PassRig rig;
-    FrameGraph graph;
-    const Clusters c = add_clusters(rig.frame(graph, view_of({1680, 1050})), surface_of(graph, {1680, 1050}),
-                                    street_lamps({3, 0, 0}, 100), no_tables(graph), {.far = 400});
+    graph::FrameGraph graph;
+    const render::Clusters c =
+        render::add_clusters(rig.frame(graph, view_of({1680, 1050})), surface_of(graph, {1680, 1050}),
+                             street_lamps({3, 0, 0}, 100), no_tables(graph), {.far = 400});
     EXPECT_EQ(c.push.grid.tiles_x, 27u);
     EXPECT_EQ(c.push.grid.tiles_y, 17u);
     EXPECT_EQ(reference::slice_of(c.push.grid, 0.01), 0u);
@@ -265,16 +270,17 @@ TEST(Cluster, GridMapsDepthsFromAMetreToTheEnd) {
 
 TEST(Cluster, RefusesImpossibleSettings) {
     PassRig rig;
-    FrameGraph graph;
+    graph::FrameGraph graph;
     const LampList list = street_lamps({3, 0, 0}, 100);
-    const TableTexels tables = no_tables(graph);
-    const Resource surface = surface_of(graph, {64, 64});
-    for (const ClusterSettings& settings : {ClusterSettings{.slices = 0}, ClusterSettings{.slices = 1},
-                                            ClusterSettings{.slices = 33}, ClusterSettings{.capacity = 0}})
-        EXPECT_THROW(add_clusters(rig.frame(graph, view_of({64, 64})), surface, list, tables, settings), Error);
+    const render::TableTexels tables = no_tables(graph);
+    const graph::Resource surface = surface_of(graph, {64, 64});
+    for (const render::ClusterSettings& settings :
+         {render::ClusterSettings{.slices = 0}, render::ClusterSettings{.slices = 1},
+          render::ClusterSettings{.slices = 33}, render::ClusterSettings{.capacity = 0}})
+        EXPECT_THROW(render::add_clusters(rig.frame(graph, view_of({64, 64})), surface, list, tables, settings), Error);
     LampList crowd;
     crowd.counts.cones = 1u << 20, crowd.lamps.resize(1u << 20);
-    EXPECT_THROW(add_clusters(rig.frame(graph, view_of({64, 64})), surface, crowd, tables, {}), Error);
+    EXPECT_THROW(render::add_clusters(rig.frame(graph, view_of({64, 64})), surface, crowd, tables, {}), Error);
 }
 
 }  // namespace

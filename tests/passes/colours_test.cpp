@@ -20,10 +20,10 @@ TEST(Colours, AreMeansOfTheFinitePixelsOfTiles) {
             scene[i] = {std::pow(10.0f, decades(random)), std::pow(10.0f, decades(random)), i % 5 ? 1.0f : -1.0f, 1};
         if (scene.size() > 9)
             scene[3].y = std::numeric_limits<float>::quiet_NaN(), scene[9].x = std::numeric_limits<float>::infinity();
-        FrameGraph graph;
-        const Colours colours =
-            add_colours(rig.frame(graph, extent), rig.image(graph, "scene", kSceneFormat, extent, scene));
-        const Resource kept = keep<glm::vec4>(graph, colours.tiles);
+        graph::FrameGraph graph;
+        const render::Colours colours = render::add_colours(
+            rig.frame(graph, extent), rig.image(graph, "scene", render::kSceneFormat, extent, scene));
+        const graph::Resource kept = keep<glm::vec4>(graph, colours.tiles);
         rig.run(graph);
         const auto got = rig.got<glm::vec4>(kept);
         const auto want = reference::colour_tiles(std::span<const glm::vec4>(scene), extent.width, extent.height);
@@ -38,10 +38,10 @@ TEST(Colours, AreMeansOfTheFinitePixelsOfTiles) {
 
 TEST(Colours, WhereTheyAreNotWantedThereIsNoPass) {
     PassRig rig;
-    FrameGraph graph;
-    const FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
-    const Resource scene = graph.transient("scene", image_shape(kSceneFormat, {8, 8}));
-    EXPECT_EQ(add_colours(frame, scene, false).tiles, Resource{});
+    graph::FrameGraph graph;
+    const render::FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
+    const graph::Resource scene = graph.transient("scene", graph::image_shape(render::kSceneFormat, {8, 8}));
+    EXPECT_EQ(render::add_colours(frame, scene, false).tiles, graph::Resource{});
     EXPECT_TRUE(graph.passes().empty());
 }
 

@@ -32,7 +32,7 @@ inline double scotopic(dvec3 rgb, uint32_t tone) {
     const glm::dmat3 xyz = glm::transpose(
         glm::dmat3(0.412391, 0.357584, 0.180481, 0.212639, 0.715169, 0.072192, 0.019331, 0.119195, 0.950532));
     const dvec3 c = xyz * glm::max(rgb, dvec3(0));
-    return scotopic_luminance(c.x, c.y, c.z) / scotopic_luminance(0.950456, 1, 1.089058);
+    return vision::scotopic_luminance(c.x, c.y, c.z) / vision::scotopic_luminance(0.950456, 1, 1.089058);
 }
 
 /// Displayed luminance of a scene colour, relative, before the display's limits.
@@ -81,20 +81,20 @@ inline dvec3 perceived(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c) {
 
 /// The light that an operator which maps colours shows of a finite pixel.
 inline dvec3 colour_mapped(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c) {
-    const auto found = operator_references().find(Operator(tone & shared::kToneForm));
+    const auto found = operator_references().find(render::Operator(tone & shared::kToneForm));
     const bool maps = found != operator_references().end() && found->second.rgb && std::isfinite(luminance(rgb));
     return maps ? found->second.rgb(c, rgb) : rgb;
 }
 
 /// From linear Rec. 709 to a display's primaries: the same XYZ (Lindbloom, "RGB/XYZ matrices").
-inline glm::dmat3 from_rec709(const Primaries& to) {
-    const auto to_xyz = [](const Primaries& p) {
+inline glm::dmat3 from_rec709(const io::Primaries& to) {
+    const auto to_xyz = [](const io::Primaries& p) {
         const auto xyz = [](dvec2 c) { return dvec3(c.x / c.y, 1, (1 - c.x - c.y) / c.y); };
         const glm::dmat3 m(xyz(p.red), xyz(p.green), xyz(p.blue));
         const dvec3 s = glm::inverse(m) * xyz(p.white);
         return glm::dmat3(m[0] * s.x, m[1] * s.y, m[2] * s.z);
     };
-    return glm::inverse(to_xyz(to)) * to_xyz(kRec709);
+    return glm::inverse(to_xyz(to)) * to_xyz(io::kRec709);
 }
 
 /// Colour of a pixel at displayed luminance d: ratios are kept; with Pattanaik et al. 2000 (Eq. 19) the nearest of the
@@ -185,29 +185,29 @@ dvec3 bilinear(std::span<const Rgb> image, uint32_t width, uint32_t height, dvec
 
 /// Signal in [0, 1] for which a display emits a luminance, cd/m^2: the transfer functions as their standards give the
 /// inverse. A table is searched.
-inline double signal_of(double luminance, const Display& display) {
+inline double signal_of(double luminance, const vision::Display& display) {
     const double black = double(display.black), peak = double(display.peak),
                  light = std::clamp((luminance - black) / (peak - black), 0.0, 1.0);
     switch (display.eotf) {
-        case Eotf::Gamma:
+        case vision::Eotf::Gamma:
             return std::pow(light, 1 / double(display.gamma));
-        case Eotf::Srgb:
+        case vision::Eotf::Srgb:
             return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
-        case Eotf::Pq: {  // ST 2084, 5.2
+        case vision::Eotf::Pq: {  // ST 2084, 5.2
             const double y = std::pow(std::clamp(luminance, black, peak) / 10000, 0.1593017578125);
             return std::pow((0.8359375 + 18.8515625 * y) / (1 + 18.6875 * y), 78.84375);
         }
-        case Eotf::Table:
+        case vision::Eotf::Table:
             break;
     }
-    const DisplayCurve curve(display);
+    const vision::DisplayCurve curve(display);
     double low = 0, high = 1;
     for (int i = 0; i < 60; ++i) (curve.emitted((low + high) / 2) < luminance ? low : high) = (low + high) / 2;
     return high;
 }
 
 /// Codes of displayed light, not yet rounded.
-inline dvec3 code(dvec3 shown, const Display& display) {
+inline dvec3 code(dvec3 shown, const vision::Display& display) {
     dvec3 codes;
     for (int c = 0; c < 3; ++c)
         codes[c] =
@@ -229,7 +229,7 @@ struct CompositeFrame {
 /// Displayed light of one pixel.
 template <class Rgb>
 dvec3 composite_light(const CompositeFrame<Rgb>& frame, shared::uvec2 pixel, uint32_t tone,
-                      const shared::ToneCurve& curve, const Display& display) {
+                      const shared::ToneCurve& curve, const vision::Display& display) {
     const auto& texel = frame.scene[size_t(pixel.y) * frame.size.x + pixel.x];
     const dvec3 light(texel.x, texel.y, texel.z);
     const glm::dmat3 to_own = from_rec709(display.primaries);
@@ -246,12 +246,12 @@ dvec3 composite_light(const CompositeFrame<Rgb>& frame, shared::uvec2 pixel, uin
 /// Unrounded codes of one pixel.
 template <class Rgb>
 dvec3 composite(const CompositeFrame<Rgb>& frame, shared::uvec2 pixel, uint32_t tone, const shared::ToneCurve& curve,
-                const Display& display) {
+                const vision::Display& display) {
     return code(composite_light(frame, pixel, tone, curve, display), display);
 }
 
 /// What the display would show of a scene colour without its limits, cd/m^2: colour keeps its ratios.
-inline dvec3 display_light(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c, const Display& display) {
+inline dvec3 display_light(dvec3 rgb, uint32_t tone, const shared::ToneCurve& c, const vision::Display& display) {
     const double low = double(display.low()), range = double(display.high()) - low;
     const uint32_t form = tone & shared::kToneForm;
     if (form == shared::kToneLdr) return low + range * displayed(rgb, tone, c, low, low + range);

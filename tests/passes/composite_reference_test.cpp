@@ -222,8 +222,8 @@ TEST(CompositeReference, NeighbouringHuesLookAlike) {
 
 // What is white is the display's, also where it is another than the scene's.
 TEST(CompositeReference, OtherDisplaysHaveAWhiteOfTheirOwn) {
-    for (const Primaries& primaries :
-         {kDisplayP3, kRec2020, Primaries{{0.66, 0.32}, {0.28, 0.65}, {0.15, 0.05}, {0.30, 0.32}}}) {
+    for (const io::Primaries& primaries :
+         {io::kDisplayP3, io::kRec2020, io::Primaries{{0.66, 0.32}, {0.28, 0.65}, {0.15, 0.05}, {0.30, 0.32}}}) {
         const glm::dmat3 to_own = from_rec709(primaries), from_own = glm::inverse(to_own);
         for (double d : {0.2, 0.9, 0.999})
             EXPECT_NEAR(glm::length(bright(from_own * dvec3(1), d, shared::kGamutLuminance, to_own) - dvec3(d)), 0,
@@ -268,7 +268,7 @@ shared::ToneCurve evening(uint32_t form) {
         c.block[2].x = c.block[3].y = c.block[4].z = 1;
         return c;
     }
-    const pattanaik::Appearance appearance(pattanaik::adapted(1, 2.57), 5e5);
+    const vision::pattanaik::Appearance appearance(vision::pattanaik::adapted(1, 2.57), 5e5);
     c.bins = shared::kMaxNodes, c.ln_low = float(std::log(1e-4)),
     c.bins_per_ln = float(shared::kMaxNodes / std::log(1e12));
     for (uint32_t i = 0; i <= shared::kMaxNodes; ++i) {
@@ -277,7 +277,7 @@ shared::ToneCurve evening(uint32_t form) {
             glm::vec4(float(appearance.cones(luminance)), float(appearance(luminance, luminance).colour_exponent),
                       float(appearance.rods(2.57 * luminance)), 0);
     }
-    c.block[0].x = float(appearance.offset()), c.block[0].y = float(pattanaik::cone_sigma(25) / 125);
+    c.block[0].x = float(appearance.offset()), c.block[0].y = float(vision::pattanaik::cone_sigma(25) / 125);
     return c;
 }
 
@@ -344,25 +344,26 @@ TEST(CompositeReference, BilinearHitsTexelsAndTheMeansBetween) {
 }
 
 TEST(CompositeReference, CodesInvertTheDisplay) {
-    const Display gamma{.gamma = 2};
+    const vision::Display gamma{.gamma = 2};
     EXPECT_EQ(code(dvec3(0, 1, 4), gamma), dvec3(0, 255, 255));
     EXPECT_NEAR(code(dvec3(0.25), gamma).x, 127.5, 1e-9);
-    const Display srgb{.eotf = Eotf::Srgb};  // IEC 61966-2-1: 18 % grey is 117.6, and the line below 0.0031308
+    const vision::Display srgb{
+        .eotf = vision::Eotf::Srgb};  // IEC 61966-2-1: 18 % grey is 117.6, and the line below 0.0031308
     EXPECT_NEAR(code(dvec3(0.18), srgb).x, 117.6, 0.1);
     EXPECT_NEAR(code(dvec3(0.001), srgb).x, 255 * 0.01292, 1e-6);
     // ITU-R BT.2408: 100 cd/m^2 is 50.8 %, 203 cd/m^2 is 58.1 %, 1000 cd/m^2 is 75.2 % of PQ.
-    const Display pq{.peak = 10000, .black = 0, .eotf = Eotf::Pq, .bits = 10};
+    const vision::Display pq{.peak = 10000, .black = 0, .eotf = vision::Eotf::Pq, .bits = 10};
     EXPECT_NEAR(code({0.01, 0.0203, 0.1}, pq).x / 1023, 0.508, 5e-4);
     EXPECT_NEAR(code({0.01, 0.0203, 0.1}, pq).y / 1023, 0.581, 5e-4);
     EXPECT_NEAR(code({0.01, 0.0203, 0.1}, pq).z / 1023, 0.752, 5e-4);
-    const Display table{
-        .peak = 100, .black = 1, .eotf = Eotf::Table, .table = {{0, 1}, {0.25, 5}, {0.7, 60}, {1, 100}}};
+    const vision::Display table{
+        .peak = 100, .black = 1, .eotf = vision::Eotf::Table, .table = {{0, 1}, {0.25, 5}, {0.7, 60}, {1, 100}}};
     EXPECT_NEAR(code(dvec3(59.0 / 99), table).x, 0.7 * 255, 1e-6);
 }
 
 TEST(CompositeReference, PrimariesKeepTheColour) {
     // ITU-R BT.2087: Rec. 709 red, green and blue in Rec. 2020.
-    const glm::dmat3 m = from_rec709(kRec2020);
+    const glm::dmat3 m = from_rec709(io::kRec2020);
     const glm::dmat3 want{{0.6274, 0.0691, 0.0164}, {0.3293, 0.9195, 0.0880}, {0.0433, 0.0114, 0.8956}};
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(glm::length(m[c] - want[c]), 0, 1e-4) << c;
     EXPECT_NEAR(glm::length(m * dvec3(1) - dvec3(1)), 0, 1e-12) << "white";
@@ -372,7 +373,7 @@ TEST(CompositeReference, BloomIsAdded) {
     shared::ToneCurve c{};
     c.block[0].y = 0.01f;
     const std::vector<dvec3> scene(25, dvec3(20)), bloom(4, dvec3(0.1));
-    Display display{.peak = 1, .black = 0, .gamma = 1, .ambient = 0};
+    vision::Display display{.peak = 1, .black = 0, .gamma = 1, .ambient = 0};
     const auto value = [&](bool with_bloom) {
         const CompositeFrame<dvec3> frame{scene, with_bloom ? std::span(bloom) : std::span<const dvec3>{}, {5, 5}, 2};
         return composite(frame, {4, 2}, shared::kToneLinear, c, display).y / 255;

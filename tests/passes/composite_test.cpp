@@ -10,6 +10,8 @@
 namespace vesper::test::composite_test {
 namespace {
 
+using vision::Display;
+
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 
 // Codes beyond the half that rounding takes. log, exp and pow in float, the curve's slope and the 8-bit store each move
@@ -29,20 +31,21 @@ struct Inputs {
 
 VkExtent2D quarter(VkExtent2D e) { return {(e.width + 3) / 4, (e.height + 3) / 4}; }
 
-CompositeInputs inputs_of(PassRig& rig, FrameGraph& graph, const Inputs& in) {
-    CompositeInputs inputs{rig.image(graph, "scene", kSceneFormat, in.extent, in.scene),
-                           graph.upload("curve", std::vector{in.curve}, VK_FORMAT_R32G32B32A32_SFLOAT)};
+render::CompositeInputs inputs_of(PassRig& rig, graph::FrameGraph& graph, const Inputs& in) {
+    render::CompositeInputs inputs{rig.image(graph, "scene", render::kSceneFormat, in.extent, in.scene),
+                                   graph.upload("curve", std::vector{in.curve}, VK_FORMAT_R32G32B32A32_SFLOAT)};
     if (!in.glare.empty())
-        inputs.bloom = rig.image(graph, "glare", kBloomFormat, quarter(in.extent), to_halves(in.glare));
+        inputs.bloom = rig.image(graph, "glare", render::kBloomFormat, quarter(in.extent), to_halves(in.glare));
     return inputs;
 }
 
 /// Codes, RGBA.
 std::vector<uint16_t> composite(PassRig& rig, const Inputs& in, uint32_t tone) {
-    FrameGraph graph;
-    const CompositeInputs inputs = inputs_of(rig, graph, in);
-    const CompositeSettings settings{.tone = tone, .display = in.display, .bloom_gain = in.gain};
-    const Resource kept = keep<uint32_t>(graph, add_composite(rig.frame(graph, in.extent), inputs, settings));
+    graph::FrameGraph graph;
+    const render::CompositeInputs inputs = inputs_of(rig, graph, in);
+    const render::CompositeSettings settings{.tone = tone, .display = in.display, .bloom_gain = in.gain};
+    const graph::Resource kept =
+        keep<uint32_t>(graph, render::add_composite(rig.frame(graph, in.extent), inputs, settings));
     rig.run(graph);
     std::vector<uint16_t> codes;
     for (const uint32_t word : rig.got<uint32_t>(kept)) {
@@ -159,7 +162,8 @@ TEST(Composite, SweepsOfHueAndLuminance) {
             in.scene.emplace_back(colour * (0.05f + float(y) / 30), 1);
         }
     for (uint32_t gamut : {shared::kGamutLuminance, shared::kGamutChromaticity, shared::kGamutClip})
-        for (const Display& display : {Display{}, Display{.primaries = kDisplayP3}, Display{.primaries = kRec2020}}) {
+        for (const Display& display :
+             {Display{}, Display{.primaries = io::kDisplayP3}, Display{.primaries = io::kRec2020}}) {
             in.display = display;
             expect_reference(composite(rig, in, shared::kToneLinear | gamut), in, shared::kToneLinear | gamut);
         }
@@ -176,7 +180,7 @@ TEST(Composite, EveryKindOfDisplay) {
     PassRig rig;
     const VkExtent2D extent{70, 40};
     std::vector<Display> displays = every_kind_of_display();
-    displays.push_back({.eotf = Eotf::Srgb, .bits = 10, .primaries = kDisplayP3});
+    displays.push_back({.eotf = vision::Eotf::Srgb, .bits = 10, .primaries = io::kDisplayP3});
     displays.push_back({.primaries = {{0.66, 0.32}, {0.28, 0.65}, {0.15, 0.05}, {0.30, 0.32}}});
     for (const Display& display : displays)
         for (uint32_t tone : kEveryTone) {
@@ -194,11 +198,11 @@ TEST(Composite, EveryKindOfDisplay) {
 TEST(Composite, CodesAreTheNearest) {
     PassRig rig;
     for (Display display : every_kind_of_display()) {
-        display.primaries = kRec709;
+        display.primaries = io::kRec709;
         std::vector<float> lights{0, -0.0f, 1};
         for (int i = 0; i <= 20000; ++i)
             lights.push_back(float(i) / 20000), lights.push_back(std::pow(10.0f, -9 * float(i) / 20000));
-        const DisplayCurve curve(display);
+        const vision::DisplayCurve curve(display);
         const double black = double(display.black), range = double(display.peak) - black;
         for (double code = 0.5; code < display.largest_code(); ++code) {
             const float at = float((curve.emitted(code / display.largest_code()) - black) / range);
@@ -227,10 +231,10 @@ TEST(Composite, LightOfTheDisplayWithoutItsLimits) {
         Inputs in{extent, night_pixels(extent, tone), {}, crooked_curve_of(tone, {}), {}};
         in.scene[5] = {kNan, 1, 1, 1}, in.scene[6] = {1, kInf, 1, 1}, in.scene[7] = {-5, -5, -5, 1},
         in.scene[8] = {90, -1, 20, 1};
-        FrameGraph graph;
-        const CompositeInputs inputs = inputs_of(rig, graph, in);
-        const Resource kept = keep<glm::vec4>(
-            graph, add_display_light(rig.frame(graph, extent), inputs, {.tone = tone, .display = in.display}));
+        graph::FrameGraph graph;
+        const render::CompositeInputs inputs = inputs_of(rig, graph, in);
+        const graph::Resource kept = keep<glm::vec4>(
+            graph, render::add_display_light(rig.frame(graph, extent), inputs, {.tone = tone, .display = in.display}));
         rig.run(graph);
         const auto got = rig.got<glm::vec4>(kept);
         Picture got_light(extent.width, extent.height, 3), want = got_light;

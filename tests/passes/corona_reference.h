@@ -22,19 +22,19 @@ struct CoronaLight {
     double width = 0;                           // a pixel included
 };
 
-inline dvec3 corona_ray(const View& view, dvec2 place) {
+inline dvec3 corona_ray(const gpu_scene::View& view, dvec2 place) {
     return glm::normalize(dvec3(dvec2(view.ray_scale()) * place + dvec2(view.ray_offset()), -1));
 }
 
 /// sr of a pixel seen along a unit vector.
-inline double corona_pixel(const View& view, dvec3 ray) {
+inline double corona_pixel(const gpu_scene::View& view, dvec3 ray) {
     const dvec2 span = glm::abs(dvec2(view.ray_scale()));
     return span.x * span.y * std::pow(-ray.z, 3);
 }
 
 /// Of every square that has light, brightest first, kCoronaLamps of them, each without the share that the next one has
 /// of it.
-inline std::vector<CoronaLight> corona_lights(const View& view, const std::vector<dvec3>& scene) {
+inline std::vector<CoronaLight> corona_lights(const gpu_scene::View& view, const std::vector<dvec3>& scene) {
     struct Square {
         double luminance;
         int place;
@@ -104,7 +104,7 @@ inline dvec3 corona_added(const std::vector<glm::vec4>& pattern, const CoronaLig
 
 /// What single precision may do to each pixel: directions and middles of squares are good to 1e-6 rad, where another
 /// row of the pattern may be taken; azimuths to 4096 ulp (Vulkan's atan), 1e-3 rad; the light itself to 3e-5.
-inline std::vector<double> corona_doubt(const View& view, const std::vector<dvec3>& scene,
+inline std::vector<double> corona_doubt(const gpu_scene::View& view, const std::vector<dvec3>& scene,
                                         const std::vector<glm::vec4>& pattern) {
     std::vector<double> doubts;
     const std::vector<CoronaLight> lamps = corona_lights(view, scene);
@@ -133,8 +133,8 @@ inline std::vector<double> corona_doubt(const View& view, const std::vector<dvec
 }
 
 /// What all of them make of a veil.
-inline std::vector<dvec3> corona(const View& view, const std::vector<dvec3>& scene, std::vector<dvec3> veiled,
-                                 const std::vector<glm::vec4>& pattern) {
+inline std::vector<dvec3> corona(const gpu_scene::View& view, const std::vector<dvec3>& scene,
+                                 std::vector<dvec3> veiled, const std::vector<glm::vec4>& pattern) {
     const std::vector<CoronaLight> lamps = corona_lights(view, scene);
     for (uint32_t y = 0; y < view.extent.height; ++y)
         for (uint32_t x = 0; x < view.extent.width; ++x) {

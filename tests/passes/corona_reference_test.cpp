@@ -13,10 +13,10 @@ namespace {
 
 using glm::dvec2, glm::dvec3;
 
-View view_of(VkExtent2D extent) { return View::symmetric(extent, 0.4f, glm::mat4(1)); }
+gpu_scene::View view_of(VkExtent2D extent) { return gpu_scene::View::symmetric(extent, 0.4f, glm::mat4(1)); }
 
 TEST(CoronaReference, ALampIsTheLightOfItsSquare) {
-    const View view = view_of({64, 48});
+    const gpu_scene::View view = view_of({64, 48});
     std::vector<dvec3> scene(64 * 48, dvec3(0));
     scene[20 * 64 + 21] = {3000, 1000, 500};
     scene[20 * 64 + 25] = {3000, 1000, 500};
@@ -33,7 +33,7 @@ TEST(CoronaReference, ALampIsTheLightOfItsSquare) {
 }
 
 TEST(CoronaReference, WhatLeavesTheListHasNothingLeft) {
-    const View view = view_of({16 * 40, 16});
+    const gpu_scene::View view = view_of({16 * 40, 16});
     std::vector<dvec3> scene(16 * 40 * 16, dvec3(0));
     for (size_t i = 0; i < 40; ++i) scene[8 * 640 + 16 * i + 3] = dvec3(100.0 + double(i));
     const auto lamps = reference::corona_lights(view, scene);
@@ -46,18 +46,18 @@ TEST(CoronaReference, WhatLeavesTheListHasNothingLeft) {
 
 // Summed over a ring about the lamp, and over the whole reach: as much light as before.
 TEST(CoronaReference, AddsNoLight) {
-    CoronaCache cache;
-    for (const auto model : {ScatterSettings::Model::Temporal, ScatterSettings::Model::Spencer}) {
-        const ScatterSettings settings{.model = model, .state = SpencerState::Scotopic};
+    gpu_scene::CoronaCache cache;
+    for (const auto model : {gpu_scene::ScatterSettings::Model::Temporal, gpu_scene::ScatterSettings::Model::Spencer}) {
+        const gpu_scene::ScatterSettings settings{.model = model, .state = vision::SpencerState::Scotopic};
         const auto texels = cache.at(settings, 1, 0.5).texels;
-        const EyeScatter smooth = eye_scatter(settings);
+        const vision::EyeScatter smooth = gpu_scene::eye_scatter(settings);
         const reference::CoronaLight lamp{glm::normalize(dvec3(0.3, -0.2, -1)), dvec3(1), 1e-4};
         const dvec3 right = glm::normalize(glm::cross(lamp.direction, dvec3(0, 1, 0))),
                     up = glm::cross(right, lamp.direction);
         dvec3 all(0);
         constexpr int kRings = 448, kParts = 1536;
         for (int ring = 0; ring < kRings; ++ring) {
-            const double theta = GlarePattern::angle(ring + 0.5) * std::numbers::pi / 180;
+            const double theta = vision::GlarePattern::angle(ring + 0.5) * std::numbers::pi / 180;
             dvec3 sum(0);
             for (int i = 0; i < kParts; ++i) {
                 const double turn = 2 * std::numbers::pi * i / kParts;
@@ -67,10 +67,10 @@ TEST(CoronaReference, AddsNoLight) {
             }
             sum /= double(kParts);
             // 1e-4 of the veil: sums of single precision.
-            if (model == ScatterSettings::Model::Temporal) {
-                EXPECT_NEAR(
-                    (0.212639 * sum.r + 0.715169 * sum.g + 0.072192 * sum.b) / smooth(GlarePattern::angle(ring + 0.5)),
-                    0, 1e-4)
+            if (model == gpu_scene::ScatterSettings::Model::Temporal) {
+                EXPECT_NEAR((0.212639 * sum.r + 0.715169 * sum.g + 0.072192 * sum.b) /
+                                smooth(vision::GlarePattern::angle(ring + 0.5)),
+                            0, 1e-4)
                     << ring;
             }
             const double step = 2 * std::numbers::pi / 512;

@@ -11,6 +11,7 @@ namespace vesper::test::corona_test {
 namespace {
 
 using glm::dvec2, glm::dvec3, glm::vec4;
+using gpu_scene::View;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 
@@ -23,16 +24,16 @@ View wide(VkExtent2D extent) {
 }
 
 const std::vector<vec4>& pattern() {
-    static CoronaCache cache;
-    return cache.at({.model = ScatterSettings::Model::Temporal}, 1, 0.3).texels;
+    static gpu_scene::CoronaCache cache;
+    return cache.at({.model = gpu_scene::ScatterSettings::Model::Temporal}, 1, 0.3).texels;
 }
 
 std::vector<vec4> seen(PassRig& rig, const View& view, const std::vector<vec4>& scene, const std::vector<vec4>& veiled,
                        const std::vector<vec4>& texels) {
-    FrameGraph graph;
-    const Resource picture = rig.image(graph, "scene", kSceneFormat, view.extent, scene),
-                   veil = rig.image(graph, "veil", kSceneFormat, view.extent, veiled);
-    const Resource kept = keep<vec4>(graph, add_corona(rig.frame(graph, view), picture, veil, texels));
+    graph::FrameGraph graph;
+    const graph::Resource picture = rig.image(graph, "scene", render::kSceneFormat, view.extent, scene),
+                          veil = rig.image(graph, "veil", render::kSceneFormat, view.extent, veiled);
+    const graph::Resource kept = keep<vec4>(graph, render::add_corona(rig.frame(graph, view), picture, veil, texels));
     rig.run(graph);
     return rig.got<vec4>(kept);
 }
@@ -139,11 +140,11 @@ TEST(Corona, KeepsTheLightOfAWideView) {
 
 TEST(Corona, WithoutAPatternThereIsNoPass) {
     PassRig rig;
-    FrameGraph graph;
-    const FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
-    const Resource scene = graph.transient("scene", image_shape(kSceneFormat, {8, 8}));
-    const Resource retina = graph.transient("retina", image_shape(kSceneFormat, {8, 8}));
-    EXPECT_EQ(add_corona(frame, scene, retina, {}), retina);
+    graph::FrameGraph graph;
+    const render::FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
+    const graph::Resource scene = graph.transient("scene", graph::image_shape(render::kSceneFormat, {8, 8}));
+    const graph::Resource retina = graph.transient("retina", graph::image_shape(render::kSceneFormat, {8, 8}));
+    EXPECT_EQ(render::add_corona(frame, scene, retina, {}), retina);
     EXPECT_TRUE(graph.passes().empty());
 }
 

@@ -39,9 +39,9 @@ inline double polygon_form_factor(const std::vector<dvec3>& polygon, dvec3 n) {
 }
 
 /// Part of the light in the open that a surface gets; world.
-inline double daylight_part(const std::vector<Tunnel>& tunnels, dvec3 position, dvec3 n) {
+inline double daylight_part(const std::vector<scene::Tunnel>& tunnels, dvec3 position, dvec3 n) {
     double part = 1;
-    for (const Tunnel& t : tunnels) {
+    for (const scene::Tunnel& t : tunnels) {
         const dvec3 from(t.from), to(t.to), along = glm::normalize(to - from);
         const dvec3 up = glm::normalize(dvec3(0, 1, 0) - along.y * along), across = glm::cross(along, up);
         const dvec3 there = position - from;
@@ -61,8 +61,8 @@ inline double daylight_part(const std::vector<Tunnel>& tunnels, dvec3 position, 
 }
 
 /// One pixel of a view; `luminance` is what it had.
-inline dvec3 add_daylight(const std::vector<Tunnel>& tunnels, const SurfaceTexel& texel, dvec3 luminance,
-                          glm::dvec2 pixel_centre, const View& view, dvec3 illuminance, double lambert,
+inline dvec3 add_daylight(const std::vector<scene::Tunnel>& tunnels, const SurfaceTexel& texel, dvec3 luminance,
+                          glm::dvec2 pixel_centre, const gpu_scene::View& view, dvec3 illuminance, double lambert,
                           dvec3 moved = dvec3(0)) {
     const double depth = texel.surface.z;
     if (!(depth > 0)) return luminance;

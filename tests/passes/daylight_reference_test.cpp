@@ -10,7 +10,7 @@ namespace {
 
 using glm::dvec3;
 constexpr double kPi = std::numbers::pi;
-const Tunnel kTunnel{{0, 0, -10}, {0, 0, -110}, 14, 5};
+const scene::Tunnel kTunnel{{0, 0, -10}, {0, 0, -110}, 14, 5};
 
 // Howell's catalogue, B-4: an element below the corner of a parallel rectangle a x b at distance c.
 TEST(DaylightReference, AParallelRectangleHasItsClosedForm) {

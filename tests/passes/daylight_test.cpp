@@ -11,7 +11,7 @@ namespace vesper::test::daylight_test {
 namespace {
 
 using glm::dvec3;
-const std::vector<Tunnel> kTunnels{{{0, 0, -3}, {1, 1, -43}, 14, 5}, {{20, -1, -10}, {60, -1, -20}, 8, 4}};
+const std::vector<scene::Tunnel> kTunnels{{{0, 0, -3}, {1, 1, -43}, 14, 5}, {{20, -1, -10}, {60, -1, -20}, 8, 4}};
 const glm::vec3 kLight(900, 1000, 1300);
 
 /// Surfaces, and what lamps gave them.
@@ -35,16 +35,18 @@ Lit noise(VkExtent2D extent, uint32_t seed) {
     return s;
 }
 
-View looking(VkExtent2D extent) {
-    return View::symmetric(extent, 0.9f, glm::rotate(glm::translate(glm::mat4(1), {0.4f, -1.3f, 0}), 0.15f, {0, 1, 0}));
+gpu_scene::View looking(VkExtent2D extent) {
+    return gpu_scene::View::symmetric(extent, 0.9f,
+                                      glm::rotate(glm::translate(glm::mat4(1), {0.4f, -1.3f, 0}), 0.15f, {0, 1, 0}));
 }
 
-std::vector<glm::vec4> add(PassRig& rig, const Lit& s, const std::vector<Tunnel>& tunnels, const View& view) {
-    FrameGraph graph;
-    const GBuffer g = upload(graph, s);
-    const Resource scene = rig.image(graph, "scene", kSceneFormat, s.extent, s.scene);
-    const Resource wanted =
-        keep<glm::vec4>(graph, add_daylight(rig.frame(graph, view), g, scene, {tunnels, kLight, 0.318309886f}));
+std::vector<glm::vec4> add(PassRig& rig, const Lit& s, const std::vector<scene::Tunnel>& tunnels,
+                           const gpu_scene::View& view) {
+    graph::FrameGraph graph;
+    const render::GBuffer g = upload(graph, s);
+    const graph::Resource scene = rig.image(graph, "scene", render::kSceneFormat, s.extent, s.scene);
+    const graph::Resource wanted =
+        keep<glm::vec4>(graph, render::add_daylight(rig.frame(graph, view), g, scene, {tunnels, kLight, 0.318309886f}));
     rig.run(graph);
     return rig.got<glm::vec4>(wanted);
 }
@@ -55,10 +57,10 @@ std::vector<glm::vec4> add(PassRig& rig, const Lit& s, const std::vector<Tunnel>
 TEST(Daylight, MatchesTheReferenceAtEverySize) {
     PassRig rig;
     for (const VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {33, 9}, {97, 61}}) {
-        const View view = looking(extent);
+        const gpu_scene::View view = looking(extent);
         const Lit s = noise(extent, extent.width);
         for (const size_t count : {size_t(1), size_t(2)}) {
-            const std::vector<Tunnel> tunnels(kTunnels.begin(), kTunnels.begin() + std::ptrdiff_t(count));
+            const std::vector<scene::Tunnel> tunnels(kTunnels.begin(), kTunnels.begin() + std::ptrdiff_t(count));
             const auto got = add(rig, s, tunnels, view);
             expect_light("daylight", extent, got, {2e-5, 1e-6}, [&](size_t i) {
                 const glm::dvec2 centre = glm::dvec2(s.pixel(i)) + 0.5;
@@ -101,10 +103,10 @@ TEST(Daylight, WhatIsNotFiniteStaysInItsPixel) {
 
 TEST(Daylight, WithoutTunnelsThereIsNoPass) {
     PassRig rig;
-    FrameGraph graph;
-    const FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
-    const Resource scene = graph.transient("scene", image_shape(kSceneFormat, {8, 8}));
-    EXPECT_EQ(add_daylight(frame, {}, scene, {{}, kLight, 1}), scene);
+    graph::FrameGraph graph;
+    const render::FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
+    const graph::Resource scene = graph.transient("scene", graph::image_shape(render::kSceneFormat, {8, 8}));
+    EXPECT_EQ(render::add_daylight(frame, {}, scene, {{}, kLight, 1}), scene);
     EXPECT_TRUE(graph.passes().empty());
 }
 

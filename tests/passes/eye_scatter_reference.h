@@ -30,7 +30,7 @@ struct Plane {
 
 // --- The definition: seen(q) = integral over directions of L * G(angle to q), pixels being of uniform luminance. ---
 
-inline dvec3 direction_of(const ImageAngles& image, dvec2 pixels) {
+inline dvec3 direction_of(const vision::ImageAngles& image, dvec2 pixels) {
     const dvec2 span = image.high - image.low;
     return glm::normalize(
         dvec3(image.low.x + span.x * pixels.x / image.width, image.high.y - span.y * pixels.y / image.height, -1));
@@ -41,7 +41,7 @@ inline double degrees_apart(dvec3 a, dvec3 b) {
 }
 
 /// sr, about a direction, of the part `scale` x `scale` of a pixel.
-inline double solid_angle(const ImageAngles& image, dvec3 direction, double scale = 1) {
+inline double solid_angle(const vision::ImageAngles& image, dvec3 direction, double scale = 1) {
     const dvec2 span = image.high - image.low;
     const double cosine = -direction.z;
     return scale * scale * span.x * span.y / (double(image.width) * image.height) * cosine * cosine * cosine;
@@ -49,7 +49,8 @@ inline double solid_angle(const ImageAngles& image, dvec3 direction, double scal
 
 /// What a pixel of 1 cd/m^2 is seen with from the middle of another, by `parts` x `parts` midpoints. In its own middle
 /// the function is too sharp for that: rings about the axis, of which the pixel has a part.
-inline double exact_response(const EyeScatter& psf, const ImageAngles& image, ivec2 to, ivec2 from, int parts) {
+inline double exact_response(const vision::EyeScatter& psf, const vision::ImageAngles& image, ivec2 to, ivec2 from,
+                             int parts) {
     const dvec3 axis = direction_of(image, dvec2(to) + 0.5);
     if (to == from) {
         // Rays from the middle to the edge, straight in the picture: each has the light within the angle of its end.
@@ -87,15 +88,15 @@ inline int parts_for(ivec2 to, ivec2 from) {
 }
 
 /// Seen at one pixel: every pixel, and lamps outside. Exact, and slow.
-inline dvec3 exact_at(const EyeScatter& psf, const ImageAngles& image, const Plane& scene,
-                      const std::vector<OffscreenLamp>& lamps, ivec2 to) {
+inline dvec3 exact_at(const vision::EyeScatter& psf, const vision::ImageAngles& image, const Plane& scene,
+                      const std::vector<gpu_scene::OffscreenLamp>& lamps, ivec2 to) {
     dvec3 sum(0);
     for (int y = 0; y < scene.size.y; ++y)
         for (int x = 0; x < scene.size.x; ++x)
             if (scene.at({x, y}) != dvec3(0))
                 sum += scene.at({x, y}) * exact_response(psf, image, to, {x, y}, parts_for(to, {x, y}));
     const dvec3 axis = direction_of(image, dvec2(to) + 0.5);
-    for (const OffscreenLamp& lamp : lamps) {
+    for (const gpu_scene::OffscreenLamp& lamp : lamps) {
         if (lamp.direction.z < 0) sum += psf(degrees_apart(axis, lamp.direction)) * lamp.illuminance;
     }
     return sum;
@@ -105,7 +106,7 @@ inline dvec3 exact_at(const EyeScatter& psf, const ImageAngles& image, const Pla
 /// block of 4 px seen from 64 px is off by n^2 / 2 * 1.25 / 64^2 for a function of power n: 0.1 % for n = 2.5.
 class ExactFrame {
 public:
-    ExactFrame(const EyeScatter& psf, const ImageAngles& image, const Plane& scene)
+    ExactFrame(const vision::EyeScatter& psf, const vision::ImageAngles& image, const Plane& scene)
         : psf_(psf), image_(image), scene_(scene), blocks_((scene.size + 3) / 4), middles_(blocks_.size) {
         for (int y = 0; y < scene.size.y; ++y)
             for (int x = 0; x < scene.size.x; ++x) {
@@ -133,8 +134,8 @@ public:
     }
 
 private:
-    const EyeScatter& psf_;
-    const ImageAngles& image_;
+    const vision::EyeScatter& psf_;
+    const vision::ImageAngles& image_;
     const Plane& scene_;
     Plane blocks_, middles_;
 };
@@ -155,14 +156,14 @@ inline int floor_half(int i) { return int(std::floor(i / 2.0)); }
 /// `beyond`: of each texel, from other pictures; or none.
 inline Plane scatter_up(const Plane& from, int margin, ivec2 size, const std::vector<glm::vec4>& lamps,
                         const std::vector<glm::vec4>& beyond = {}) {
-    Plane to(size + 2 * kScatterMargin);
+    Plane to(size + 2 * vision::kScatterMargin);
     for (int y = 0; y < to.size.y; ++y)
         for (int x = 0; x < to.size.x; ++x) {
-            const ivec2 j = ivec2(x, y) - kScatterMargin;
+            const ivec2 j = ivec2(x, y) - vision::kScatterMargin;
             dvec3 sum(0);
             for (int v = 0; v < 6; ++v)
                 for (int u = 0; u < 6; ++u)
-                    sum += kScatterFilter[size_t(u)] * kScatterFilter[size_t(v)] / 1024 *
+                    sum += vision::kScatterFilter[size_t(u)] * vision::kScatterFilter[size_t(v)] / 1024 *
                            from.at(2 * j - 2 + ivec2(u, v) + margin);
             for (size_t i = 0; i + 1 < lamps.size(); i += 2) {
                 const dvec2 d = dvec2(j) + 0.5 - dvec2(lamps[i]);
@@ -175,7 +176,7 @@ inline Plane scatter_up(const Plane& from, int margin, ivec2 size, const std::ve
 }
 
 /// Taps of a level at a place of the picture (px), linear between nodes.
-inline std::vector<double> taps_at(const ScatterFit& fit, dvec2 pixels, int level) {
+inline std::vector<double> taps_at(const vision::ScatterFit& fit, dvec2 pixels, int level) {
     const dvec2 place = glm::clamp(pixels / dvec2(fit.image.width, fit.image.height), 0.0, 1.0) * dvec2(fit.nodes - 1);
     const ivec2 first = glm::min(ivec2(place), fit.nodes - 2);
     std::vector<double> taps(size_t(fit.taps()), 0);
@@ -190,8 +191,8 @@ inline std::vector<double> taps_at(const ScatterFit& fit, dvec2 pixels, int leve
 
 /// What a pixel near the border keeps beyond that, linear between places: every one of those near a corner, some of the
 /// sides.
-inline double edge_light(const ScatterFit& fit, ivec2 pixel) {
-    const EdgeLight& edge = fit.edge;
+inline double edge_light(const vision::ScatterFit& fit, ivec2 pixel) {
+    const vision::EdgeLight& edge = fit.edge;
     const ivec2 size(fit.image.width, fit.image.height), last(edge.x.places() - 1, edge.y.places() - 1);
     const ivec2 away = glm::min(pixel, size - 1 - pixel);
     if (away.x >= edge.x.deep && away.y >= edge.y.deep) return 0;
@@ -205,14 +206,16 @@ inline double edge_light(const ScatterFit& fit, ivec2 pixel) {
 
 /// The whole operator. Over strips of texels taps are linear from top to bottom, in the middle of their columns; every
 /// two rows have those of the line between them, for what they give. Not finite: scatters nothing, and is not finite.
-inline Plane scatter(const Plane& scene, const ScatterFit& fit, const std::vector<std::vector<glm::vec4>>& lamps = {},
-                     const std::vector<glm::vec4>& veil = {}, const OffscreenLight& beyond = {}) {
+inline Plane scatter(const Plane& scene, const vision::ScatterFit& fit,
+                     const std::vector<std::vector<glm::vec4>>& lamps = {}, const std::vector<glm::vec4>& veil = {},
+                     const vision::OffscreenLight& beyond = {}) {
     Plane clean = scene;
     for (dvec3& t : clean.texels)
         if (!(std::abs(t.x) <= 3.4e38 && std::abs(t.y) <= 3.4e38 && std::abs(t.z) <= 3.4e38)) t = dvec3(0);
     std::vector<Plane> levels{clean};
     for (int l = 1; l <= fit.levels; ++l)
-        levels.push_back(scatter_up(levels.back(), l == 1 ? 0 : kScatterMargin, scatter_size(fit.image, l),
+        levels.push_back(scatter_up(levels.back(), l == 1 ? 0 : vision::kScatterMargin,
+                                    vision::scatter_size(fit.image, l),
                                     lamps.empty() ? std::vector<glm::vec4>{} : lamps[size_t(l)],
                                     beyond.levels.empty() ? std::vector<glm::vec4>{} : beyond.levels[size_t(l)]));
 
@@ -226,10 +229,10 @@ inline Plane scatter(const Plane& scene, const ScatterFit& fit, const std::vecto
     }
     const double spline[2][3]{{5.0 / 16, 10.0 / 16, 1.0 / 16}, {1.0 / 16, 10.0 / 16, 5.0 / 16}};
     for (int l = fit.levels - 1; l >= 0; --l) {
-        const int margin = l == 0 ? 0 : kScatterReach, inner = l == 0 ? 0 : kScatterMargin;
-        Plane made(scatter_size(fit.image, l) + 2 * margin);
-        const ivec2 strip(fit.strip.x, scatter_strip(fit.image, fit.nodes, l, fit.strip.y));
-        const std::vector<ivec2> taps = scatter_taps(fit.reach);
+        const int margin = l == 0 ? 0 : vision::kScatterReach, inner = l == 0 ? 0 : vision::kScatterMargin;
+        Plane made(vision::scatter_size(fit.image, l) + 2 * margin);
+        const ivec2 strip(fit.strip.x, vision::scatter_strip(fit.image, fit.nodes, l, fit.strip.y));
+        const std::vector<ivec2> taps = vision::scatter_taps(fit.reach);
         for (int sy = 0; sy < made.size.y; sy += strip.y)
             for (int sx = 0; sx < made.size.x; sx += strip.x) {
                 const dvec2 upper = dvec2(ivec2(sx, sy) - margin) + dvec2(0.5 * strip.x, 0),
@@ -244,7 +247,7 @@ inline Plane scatter(const Plane& scene, const ScatterFit& fit, const std::vecto
                             for (int u = 0; u < 3; ++u)
                                 sum += spline[at.x & 1][u] * spline[at.y & 1][v] *
                                        seen.at(ivec2(floor_half(at.x), floor_half(at.y)) - 1 + ivec2(u, v) +
-                                               kScatterReach);
+                                               vision::kScatterReach);
                         for (size_t t = 0; t < above.size(); ++t)
                             for (const int side : {1, -1}) {
                                 const ivec2 d = side * taps[t];

@@ -11,6 +11,8 @@
 namespace vesper::reference::eye_scatter_reference_test {
 namespace {
 
+using vision::EyeScatter, vision::ImageAngles, vision::ScatterFit, vision::fit_scatter;
+
 /// The driver's camera of the street: 36.9 degrees in height.
 ImageAngles driver(int width, int height) {
     const double y = 1.0 / 3, x = y * width / height;
@@ -20,7 +22,9 @@ ImageAngles driver(int width, int height) {
 /// Texels that one invocation does on a CPU device, at most.
 constexpr ivec2 kStrip(4, 32);
 
-EyeScatter eye(double age) { return eye_scatter({ScatterSettings::Model::Cie, {age, 0.5}, SpencerState::Photopic}); }
+EyeScatter eye(double age) {
+    return gpu_scene::eye_scatter({gpu_scene::ScatterSettings::Model::Cie, {age, 0.5}, vision::SpencerState::Photopic});
+}
 
 // 1: nothing is lost. A picture of 172 degrees has all of the hemisphere but 0.2 % of the light.
 TEST(EyeScatterReference, APixelGivesAsMuchAsItHas) {
@@ -155,7 +159,7 @@ TEST(ScatterFit, WideViewsAreNearTheDefinition) {
     const EyeScatter psf = eye(24);
     const ImageAngles wide{840, 525, {-1.35, -0.84}, {1.35, 0.84}}, high{525, 840, {-0.84, -1.35}, {0.84, 1.35}};
     const ScatterFit fit = fit_scatter(psf, wide, kStrip);
-    EXPECT_EQ(fit.reach, kWideTapReach);
+    EXPECT_EQ(fit.reach, vision::kWideTapReach);
     for (const ivec2 from : {ivec2(420, 262), {606, 146}, {820, 20}, {839, 0}}) expect_response(psf, fit, from, 3e-3);
     const ScatterFit tall = fit_scatter(psf, high, kStrip);
     for (const ivec2 from : {ivec2(20, 820), {0, 420}}) expect_response(psf, tall, from, 3e-3);
@@ -172,13 +176,15 @@ TEST(ScatterFit, LowAndNarrowPicturesCostNoMore) {
     expect_response(psf, narrow, {1, 300}, 1e-3);
     for (const auto& [width, height, levels] :
          {std::tuple{640, 400, 4}, {1920, 1080, 6}, {3840, 960, 6}, {7680, 1080, 7}, {16384, 1024, 7}})
-        EXPECT_EQ(scatter_levels({.width = width, .height = height}), levels) << width;
+        EXPECT_EQ(vision::scatter_levels({.width = width, .height = height}), levels) << width;
 }
 
 TEST(ScatterFit, SpencerWardAndSmallPictures) {
-    const EyeScatter spencer = eye_scatter({ScatterSettings::Model::Spencer, {}, SpencerState::Photopic});
+    const EyeScatter spencer =
+        gpu_scene::eye_scatter({gpu_scene::ScatterSettings::Model::Spencer, {}, vision::SpencerState::Photopic});
     expect_response(spencer, fit_scatter(spencer, driver(420, 262), kStrip), {300, 100}, 1e-3);
-    const EyeScatter ward = eye_scatter({ScatterSettings::Model::Ward, {}, SpencerState::Photopic});
+    const EyeScatter ward =
+        gpu_scene::eye_scatter({gpu_scene::ScatterSettings::Model::Ward, {}, vision::SpencerState::Photopic});
     expect_response(ward, fit_scatter(ward, driver(420, 262), kStrip), {300, 100}, 1e-3);
     const EyeScatter psf = eye(35);
     expect_response(psf, fit_scatter(psf, driver(37, 22), kStrip), {18, 11}, 1e-3);

@@ -15,21 +15,22 @@ using glm::dvec2, glm::dvec3, glm::ivec2;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 
-View view_of(VkExtent2D extent) { return View::symmetric(extent, 0.6435f, glm::mat4(1)); }
+gpu_scene::View view_of(VkExtent2D extent) { return gpu_scene::View::symmetric(extent, 0.6435f, glm::mat4(1)); }
 
-std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, const GpuScatter& fit,
-                            const std::vector<OffscreenLamp>& lamps, const OffscreenLight* beyond = nullptr) {
-    FrameGraph graph;
+std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, const gpu_scene::GpuScatter& fit,
+                            const std::vector<gpu_scene::OffscreenLamp>& lamps,
+                            const vision::OffscreenLight* beyond = nullptr) {
+    graph::FrameGraph graph;
     const VkExtent2D extent{uint32_t(fit.image().width), uint32_t(fit.image().height)};
-    const Resource scene = rig.image(graph, "scene", kSceneFormat, extent, pixels);
-    const Resource kept =
-        keep<glm::vec4>(graph, add_eye_scatter(rig.frame(graph, extent), scene, {&fit, lamps, beyond}));
+    const graph::Resource scene = rig.image(graph, "scene", render::kSceneFormat, extent, pixels);
+    const graph::Resource kept =
+        keep<glm::vec4>(graph, render::add_eye_scatter(rig.frame(graph, extent), scene, {&fit, lamps, beyond}));
     rig.run(graph);
     return rig.got<glm::vec4>(kept);
 }
 
 /// Beside the picture, above it, just outside a corner, far away, and behind.
-std::vector<OffscreenLamp> some_lamps(const ImageAngles& image) {
+std::vector<gpu_scene::OffscreenLamp> some_lamps(const vision::ImageAngles& image) {
     const auto towards = [&](dvec2 pixels) { return reference::direction_of(image, pixels); };
     const double w = image.width, h = image.height;
     return {{towards({-2.5, h / 3}), {3, 2, 1}},
@@ -41,8 +42,8 @@ std::vector<OffscreenLamp> some_lamps(const ImageAngles& image) {
 
 /// Light from beyond, of as many decades as a night has, wherever there may be some: not in the outermost texels of a
 /// margin.
-OffscreenLight some_light(const ImageAngles& image, uint32_t seed) {
-    OffscreenLight beyond;
+vision::OffscreenLight some_light(const vision::ImageAngles& image, uint32_t seed) {
+    vision::OffscreenLight beyond;
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> exponent(-4, 4);
     const auto fill = [&](ivec2 size) {
@@ -59,25 +60,28 @@ OffscreenLight some_light(const ImageAngles& image, uint32_t seed) {
                 texels[size_t(i)] = glm::vec4(0);
         return texels;
     };
-    for (int l = 0; l <= scatter_levels(image); ++l)
-        beyond.levels.push_back(l < 2 ? std::vector<glm::vec4>{} : margin(scatter_size(image, l) + 2 * kScatterMargin));
-    beyond.veil = fill(scatter_size(image, scatter_levels(image)) + 2 * kScatterReach);
+    for (int l = 0; l <= vision::scatter_levels(image); ++l)
+        beyond.levels.push_back(l < 2 ? std::vector<glm::vec4>{}
+                                      : margin(vision::scatter_size(image, l) + 2 * vision::kScatterMargin));
+    beyond.veil = fill(vision::scatter_size(image, vision::scatter_levels(image)) + 2 * vision::kScatterReach);
     return beyond;
 }
 
 void expect_reference(PassRig& rig, VkExtent2D extent, std::vector<glm::vec4> pixels, bool lamps, bool others = false) {
     SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
-    const ScatterSettings settings;
-    const ImageAngles image = angles_of(view_of(extent));
-    const GpuScatter resident(rig.device(), settings, image);
-    const ScatterFit fit = fit_scatter(eye_scatter(settings), image, scatter_down_strip(rig.device()));
-    const std::vector<OffscreenLamp> outside = lamps ? some_lamps(image) : std::vector<OffscreenLamp>{};
+    const gpu_scene::ScatterSettings settings;
+    const vision::ImageAngles image = gpu_scene::angles_of(view_of(extent));
+    const gpu_scene::GpuScatter resident(rig.device(), settings, image);
+    const vision::ScatterFit fit =
+        vision::fit_scatter(gpu_scene::eye_scatter(settings), image, gpu_scene::scatter_down_strip(rig.device()));
+    const std::vector<gpu_scene::OffscreenLamp> outside =
+        lamps ? some_lamps(image) : std::vector<gpu_scene::OffscreenLamp>{};
 
     reference::Plane scene({image.width, image.height});
     for (size_t i = 0; i < pixels.size(); ++i) scene.texels[i] = dvec3(pixels[i]);
     std::vector<std::vector<glm::vec4>> lists(size_t(fit.levels) + 1);
     for (int l = 1; l <= fit.levels; ++l) lists[size_t(l)] = resident.lamps_of(l, outside);
-    const OffscreenLight beyond = others ? some_light(image, extent.width) : OffscreenLight{};
+    const vision::OffscreenLight beyond = others ? some_light(image, extent.width) : vision::OffscreenLight{};
     const auto want = reference::scatter(scene, fit, lists, resident.far_veil(outside), beyond);
     const auto got = seen(rig, pixels, resident, outside, others ? &beyond : nullptr);
 
@@ -134,7 +138,7 @@ TEST(EyeScatter, AHeadlampDoesNotDrownTheDark) {
 TEST(EyeScatter, RunsAreAlikeToTheLastBit) {
     PassRig rig;
     const VkExtent2D extent{131, 67};
-    const GpuScatter fit(rig.device(), {}, angles_of(view_of(extent)));
+    const gpu_scene::GpuScatter fit(rig.device(), {}, gpu_scene::angles_of(view_of(extent)));
     const auto pixels = night_pixels(extent, 8);
     EXPECT_EQ(seen(rig, pixels, fit, some_lamps(fit.image())), seen(rig, pixels, fit, some_lamps(fit.image())));
 }
@@ -143,14 +147,14 @@ TEST(EyeScatter, RunsAreAlikeToTheLastBit) {
 TEST(EyeScatter, LampsOutsideGoOnWhereThoseInsideEnd) {
     PassRig rig;
     const VkExtent2D extent{300, 190};
-    const ImageAngles image = angles_of(view_of(extent));
-    const GpuScatter fit(rig.device(), {}, image);
-    const EyeScatter psf = eye_scatter({});
+    const vision::ImageAngles image = gpu_scene::angles_of(view_of(extent));
+    const gpu_scene::GpuScatter fit(rig.device(), {}, image);
+    const vision::EyeScatter psf = gpu_scene::eye_scatter({});
     const std::vector<glm::vec4> dark(size_t(extent.width) * extent.height, glm::vec4(0));
     for (double beyond : {-30.5, -3.5, 1.5, 6.5, 12.5, 25.5, 60.5, 111.5, 300.5, 900.5}) {
         const dvec3 direction = reference::direction_of(image, {-beyond, 80.5});
         std::vector<glm::vec4> pixels = dark;
-        std::vector<OffscreenLamp> lamps;
+        std::vector<gpu_scene::OffscreenLamp> lamps;
         if (beyond < 0)
             pixels[size_t(80 * 300 - beyond)] = glm::vec4(float(1 / reference::solid_angle(image, direction)));
         else
@@ -174,10 +178,10 @@ TEST(EyeScatter, LampsOutsideGoOnWhereThoseInsideEnd) {
 
 TEST(EyeScatter, WithoutAFitThereIsNoPass) {
     PassRig rig;
-    FrameGraph graph;
-    const FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
-    const Resource scene = graph.transient("scene", image_shape(kSceneFormat, {8, 8}));
-    EXPECT_EQ(add_eye_scatter(frame, scene, {}), scene);
+    graph::FrameGraph graph;
+    const render::FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
+    const graph::Resource scene = graph.transient("scene", graph::image_shape(render::kSceneFormat, {8, 8}));
+    EXPECT_EQ(render::add_eye_scatter(frame, scene, {}), scene);
     EXPECT_TRUE(graph.passes().empty());
 }
 

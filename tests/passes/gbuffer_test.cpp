@@ -15,17 +15,21 @@
 namespace vesper::test::gbuffer_test {
 namespace {
 
+using gpu_scene::View;
+using scene::Material, scene::Scene, scene::Vertex, scene::Wrap;
+
 struct Layers {
     std::vector<glm::vec4> reflectance, surface, emission;
 };
 
-Layers draw(PassRig& rig, const Scene& scene, const View& view, PictureFormat pictures = PictureFormat::Float) {
-    const GpuScene resident(rig.device(), scene, pictures);
-    const SceneFrame frame{world_transforms(scene, 0)};
-    FrameGraph graph;
-    const GBuffer g = add_gbuffer(rig.frame(graph, view), resident, frame);
-    const Resource reflectance = keep<uint64_t>(graph, g.reflectance), surface = keep<glm::vec4>(graph, g.surface),
-                   emission = keep<glm::vec4>(graph, g.emission);
+Layers draw(PassRig& rig, const Scene& scene, const View& view,
+            gpu_scene::PictureFormat pictures = gpu_scene::PictureFormat::Float) {
+    const gpu_scene::GpuScene resident(rig.device(), scene, pictures);
+    const gpu_scene::SceneFrame frame{scene::world_transforms(scene, 0)};
+    graph::FrameGraph graph;
+    const render::GBuffer g = render::add_gbuffer(rig.frame(graph, view), resident, frame);
+    const graph::Resource reflectance = keep<uint64_t>(graph, g.reflectance),
+                          surface = keep<glm::vec4>(graph, g.surface), emission = keep<glm::vec4>(graph, g.emission);
     rig.run(graph);
     return {from_halves(rig.got<uint64_t>(reflectance)), rig.got<glm::vec4>(surface), rig.got<glm::vec4>(emission)};
 }
@@ -38,7 +42,7 @@ struct Nearness {
     double emission = 1e-3;     ///< relative
     reference::Filter filter = reference::Filter::Bilinear;
     double emission_floor = 1e-6;  ///< cd/m^2: of what is darker this counts, not itself
-    PictureFormat pictures = PictureFormat::Float;
+    gpu_scene::PictureFormat pictures = gpu_scene::PictureFormat::Float;
 };
 
 reference::Rays rays_of(const View& view) {
@@ -95,7 +99,7 @@ size_t expect_reference(const Layers& got, const reference::Geometry& g, const V
 
 size_t expect_scene(PassRig& rig, const Scene& scene, const View& view, Nearness near = {}) {
     return expect_reference(draw(rig, scene, view, near.pictures),
-                            geometry_of(scene, world_transforms(scene, 0), view.world_to_view), view, near);
+                            geometry_of(scene, scene::world_transforms(scene, 0), view.world_to_view), view, near);
 }
 
 View view_of(VkExtent2D extent, float fov = 0.9f) { return View::symmetric(extent, fov, glm::mat4(1)); }
@@ -133,13 +137,13 @@ Scene soup(uint32_t seed) {
             indices[i] = i;
             for (int c = 0; c < 3; ++c) vertices[i].colour[size_t(c)] = uint16_t(32768 + 32000 * unit(random));
         }
-        Node node;
+        scene::Node node;
         node.translation = {5 * unit(random), 3 * unit(random), -7 + 3 * unit(random)};
         node.rotation = glm::normalize(glm::quat(unit(random), unit(random), unit(random), unit(random)));
         node.scale = {k % 3 == 0 ? -1 : 1, 0.6f + 0.4f * unit(random), 1.3f};
         add_mesh(scene, vertices, indices, uint32_t(k) % 2, node);
     }
-    Node again = scene.nodes[3];  // the same mesh a second time, mirrored
+    scene::Node again = scene.nodes[3];  // the same mesh a second time, mirrored
     again.translation.x += 2, again.scale = {1, -1, 1};
     scene.nodes.push_back(again);
     return scene;
@@ -198,7 +202,7 @@ TEST(Gbuffer, ASphereIsRound) {
             const uint32_t a = j * (columns + 1) + i, b = a + columns + 1;
             for (uint32_t k : {a, a + 1, b, a + 1, b + 1, b}) indices.push_back(k);
         }
-    Node node;
+    scene::Node node;
     node.translation = {1, 0.5f, -8};
     add_mesh(scene, vertices, indices, 0, node);
     const View view = view_of({90, 70});
@@ -254,7 +258,7 @@ Scene wall(const Material& material, std::vector<Image> images) {
 
 TEST(Gbuffer, TexturesAreFilteredAsLinearValues) {
     PassRig rig;
-    for (const Transfer& transfer : {Transfer{}, Transfer{Transfer::Kind::Gamma, 2.2f}}) {
+    for (const scene::Transfer& transfer : {scene::Transfer{}, scene::Transfer{scene::Transfer::Kind::Gamma, 2.2f}}) {
         Material m = plain({1, 1, 1});
         m.base_colour_texture.image = 0, m.metallic_roughness_texture.image = 1, m.emission_texture.image = 2;
         m.metallic = 0.9f, m.emission = {100, 200, 300};
@@ -289,15 +293,16 @@ TEST(Gbuffer, TexturesWrapRepeatAndMirror) {
 }
 
 /// Values of these decades around 1, evenly in their logarithms.
-LuminancePicture lamps(uint32_t side, uint32_t seed, float decades) {
+photometry::LuminancePicture lamps(uint32_t side, uint32_t seed, float decades) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> exponent(-decades / 2, decades / 2);
-    LuminancePicture picture{.name = "lights", .width = side, .height = side, .rgb = {}};
+    photometry::LuminancePicture picture{.name = "lights", .width = side, .height = side, .rgb = {}};
     for (uint32_t i = 0; i < side * side * 3; ++i) picture.rgb.push_back(std::pow(10.0f, exponent(random)));
     return picture;
 }
 
-Scene shining_wall(LuminancePicture picture, float scale, TextureUse use = {0, Wrap::Repeat, Wrap::Repeat, false}) {
+Scene shining_wall(photometry::LuminancePicture picture, float scale,
+                   scene::TextureUse use = {0, Wrap::Repeat, Wrap::Repeat, false}) {
     Material m = plain({0.3f, 0.3f, 0.3f});
     m.emission_picture = use, m.emission = glm::vec3(scale);
     Scene scene = wall(m, {});
@@ -308,7 +313,7 @@ Scene shining_wall(LuminancePicture picture, float scale, TextureUse use = {0, W
 // From 1e-4 cd/m^2 to a headlamp's 1e8 in one picture, where half floats end at 65504.
 TEST(Gbuffer, PicturesOfLightShowTheirLuminance) {
     PassRig rig;
-    const TextureUse nearest{0, Wrap::Clamp, Wrap::Clamp, true};
+    const scene::TextureUse nearest{0, Wrap::Clamp, Wrap::Clamp, true};
     const Scene scene = shining_wall(lamps(8, 11, 12), 100, nearest);
     EXPECT_GT(*std::max_element(scene.luminance_pictures[0].rgb.begin(), scene.luminance_pictures[0].rgb.end()), 3e5f);
     expect_scene(rig, scene, view_of({64, 64}), {.emission = 1e-6, .filter = reference::Filter::Nearest});
@@ -328,12 +333,12 @@ TEST(Gbuffer, PicturesOfLightAreFilteredAsLuminance) {
 // Where 32-bit floats cannot be filtered: 2^-11 of the value, from 1e-9 of the brightest on.
 TEST(Gbuffer, PicturesOfLightInHalfFloats) {
     PassRig rig;
-    const TextureUse nearest{0, Wrap::Clamp, Wrap::Clamp, true};
+    const scene::TextureUse nearest{0, Wrap::Clamp, Wrap::Clamp, true};
     expect_scene(rig, shining_wall(lamps(8, 14, 8.9f), 2e4f, nearest), view_of({64, 64}),
-                 {.emission = 5e-4, .filter = reference::Filter::Nearest, .pictures = PictureFormat::Half});
-    LuminancePicture black = lamps(2, 15, 1);
+                 {.emission = 5e-4, .filter = reference::Filter::Nearest, .pictures = gpu_scene::PictureFormat::Half});
+    photometry::LuminancePicture black = lamps(2, 15, 1);
     std::fill(black.rgb.begin(), black.rgb.end(), 0.0f);
-    expect_scene(rig, shining_wall(black, 7), view_of({64, 64}), {.pictures = PictureFormat::Half});
+    expect_scene(rig, shining_wall(black, 7), view_of({64, 64}), {.pictures = gpu_scene::PictureFormat::Half});
     EXPECT_EQ(rig.complaints(), "");
 }
 
@@ -355,7 +360,7 @@ TEST(Gbuffer, RoadsReflectWhatTheirTableSaysWhateverTheirColourIs) {
     Material road = plain({0.5f, 0.5f, 0.5f});
     road.reflection_table = 0;
     const auto mean = [&](Scene scene) {
-        scene.reflection_tables = {find_reflection_table("R3")};
+        scene.reflection_tables = {photometry::find_reflection_table("R3")};
         double sum = 0;
         for (const glm::vec4& seen : draw(rig, scene, view_of({16, 16})).reflectance) sum += seen.g / 256;
         return sum;

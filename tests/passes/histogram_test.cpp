@@ -11,6 +11,8 @@
 namespace vesper::test::histogram_test {
 namespace {
 
+using render::HistogramSettings;
+
 // Part of a bin by which a texel's position may be off: ln and the bin's position, up to 256, in float.
 constexpr double kDoubt = 2e-4;
 
@@ -48,13 +50,14 @@ shared::HistogramPush push_of(VkExtent2D image, uint32_t level, const HistogramS
 shared::Histogram count(PassRig& rig, const std::vector<glm::vec4>& texels, VkExtent2D image,
                         const shared::HistogramPush& p, const HistogramSettings& s,
                         const std::vector<glm::vec4>& fine = {}) {
-    FrameGraph graph;
+    graph::FrameGraph graph;
     const VkExtent2D size{p.level_size.x, p.level_size.y}, first{(image.width + 1) / 2, (image.height + 1) / 2};
-    const Resource level = rig.image(graph, "level", kSceneFormat, size, texels);
-    Pyramid pyramid{std::vector<Resource>(p.level, level), std::vector<VkExtent2D>(p.level, size)};
+    const graph::Resource level = rig.image(graph, "level", render::kSceneFormat, size, texels);
+    render::Pyramid pyramid{std::vector<graph::Resource>(p.level, level), std::vector<VkExtent2D>(p.level, size)};
     if (!fine.empty())
-        pyramid.levels[0] = rig.image(graph, "first", kSceneFormat, first, fine), pyramid.extents[0] = first;
-    const Resource kept = keep<shared::Histogram>(graph, add_histogram(rig.frame(graph, image), pyramid, p.level, s));
+        pyramid.levels[0] = rig.image(graph, "first", render::kSceneFormat, first, fine), pyramid.extents[0] = first;
+    const graph::Resource kept =
+        keep<shared::Histogram>(graph, render::add_histogram(rig.frame(graph, image), pyramid, p.level, s));
     rig.run(graph);
     return rig.got<shared::Histogram>(kept).at(0);
 }
@@ -110,11 +113,11 @@ TEST(Histogram, OverlappingTexelsMatchTheReference) {
             reference::vote(want, std::span<const glm::dvec4>(texels.texels), p);
             reference::vote(want, std::span<const glm::dvec4>(levels[0].texels), first);
 
-            FrameGraph graph;
-            const Pyramid pyramid =
-                add_pyramid(rig.frame(graph, image), rig.image(graph, "scene", kSceneFormat, image, pixels));
-            const Resource kept =
-                keep<shared::Histogram>(graph, add_histogram(rig.frame(graph, image), pyramid, level, settings));
+            graph::FrameGraph graph;
+            const render::Pyramid pyramid = render::add_pyramid(
+                rig.frame(graph, image), rig.image(graph, "scene", render::kSceneFormat, image, pixels));
+            const graph::Resource kept = keep<shared::Histogram>(
+                graph, render::add_histogram(rig.frame(graph, image), pyramid, level, settings));
             rig.run(graph);
             // As above: texels round, and their positions are in doubt.
             const double count = std::sqrt(double(texels.texels.size() + levels[0].texels.size()));
@@ -187,10 +190,11 @@ TEST(Histogram, CountsThePyramidsTexels) {
     const VkExtent2D image{33, 17};
     std::vector<glm::vec4> pixels(size_t(image.width) * image.height, glm::vec4(0.3f));
     for (size_t i = 0; i < pixels.size(); i += 11) pixels[i].x = std::numeric_limits<float>::quiet_NaN();
-    FrameGraph graph;
-    const Resource scene = rig.image(graph, "scene", kSceneFormat, image, pixels);
-    const Pyramid pyramid = add_pyramid(rig.frame(graph, image), scene);
-    const Resource kept = keep<shared::Histogram>(graph, add_histogram(rig.frame(graph, image), pyramid, 3, {}));
+    graph::FrameGraph graph;
+    const graph::Resource scene = rig.image(graph, "scene", render::kSceneFormat, image, pixels);
+    const render::Pyramid pyramid = render::add_pyramid(rig.frame(graph, image), scene);
+    const graph::Resource kept =
+        keep<shared::Histogram>(graph, render::add_histogram(rig.frame(graph, image), pyramid, 3, {}));
     rig.run(graph);
     const auto got = rig.got<shared::Histogram>(kept).at(0);
     EXPECT_EQ(got.non_finite, 51u);
@@ -205,14 +209,14 @@ TEST(Histogram, CountsThePyramidsTexels) {
 
 TEST(Histogram, RefusesImpossibleSettings) {
     PassRig rig;
-    FrameGraph graph;
-    const Resource level = rig.image(graph, "level", kSceneFormat, {1, 1}, std::vector{glm::vec4(1)});
-    const Pyramid pyramid{{level}, {{1, 1}}};
-    const FrameContext frame = rig.frame(graph, VkExtent2D{1, 1});
-    EXPECT_THROW(add_histogram(frame, pyramid, 1, {.bins = 0}), Error);
-    EXPECT_THROW(add_histogram(frame, pyramid, 1, {.bins = 257}), Error);
-    EXPECT_THROW(add_histogram(frame, pyramid, 0, {}), Error);
-    EXPECT_THROW(add_histogram(frame, pyramid, 2, {}), Error);
+    graph::FrameGraph graph;
+    const graph::Resource level = rig.image(graph, "level", render::kSceneFormat, {1, 1}, std::vector{glm::vec4(1)});
+    const render::Pyramid pyramid{{level}, {{1, 1}}};
+    const render::FrameContext frame = rig.frame(graph, VkExtent2D{1, 1});
+    EXPECT_THROW(render::add_histogram(frame, pyramid, 1, {.bins = 0}), Error);
+    EXPECT_THROW(render::add_histogram(frame, pyramid, 1, {.bins = 257}), Error);
+    EXPECT_THROW(render::add_histogram(frame, pyramid, 0, {}), Error);
+    EXPECT_THROW(render::add_histogram(frame, pyramid, 2, {}), Error);
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ struct Added {
     dvec3 luminance{0}, rounding{0};
 };
 
-inline Added added(const LuminaireList& list, uint32_t x, uint32_t y, double depth) {
+inline Added added(const gpu_scene::LuminaireList& list, uint32_t x, uint32_t y, double depth) {
     Added sum;
     for (const shared::Luminaire& s : list.luminaires) {
         std::vector<dvec2> silhouette;
@@ -69,7 +69,7 @@ inline Added added(const LuminaireList& list, uint32_t x, uint32_t y, double dep
 inline double corner_solid_angle(double x, double y) { return std::atan(x * y / std::sqrt(1 + x * x + y * y)); }
 
 /// Solid angle of a pixel, sr.
-inline double solid_angle(const View& view, uint32_t x, uint32_t y) {
+inline double solid_angle(const gpu_scene::View& view, uint32_t x, uint32_t y) {
     const dvec2 scale(view.ray_scale()), offset(view.ray_offset());
     const dvec2 a = scale * dvec2(x, y) + offset, b = scale * dvec2(x + 1, y + 1) + offset;
     return std::abs(corner_solid_angle(b.x, b.y) - corner_solid_angle(a.x, b.y) - corner_solid_angle(b.x, a.y) +
@@ -77,7 +77,7 @@ inline double solid_angle(const View& view, uint32_t x, uint32_t y) {
 }
 
 /// Solid angle of a silhouette, sr: the sum of its triangles (Van Oosterom and Strackee 1983).
-inline double solid_angle(const View& view, std::span<const dvec2> silhouette) {
+inline double solid_angle(const gpu_scene::View& view, std::span<const dvec2> silhouette) {
     const dvec2 scale(view.ray_scale()), offset(view.ray_offset());
     const auto ray = [&](dvec2 p) { return glm::normalize(dvec3(scale * p + offset, -1)); };
     double sum = 0;
@@ -90,7 +90,7 @@ inline double solid_angle(const View& view, std::span<const dvec2> silhouette) {
 
 /// Illuminance at the eye on a surface that faces every pixel in turn, lx: what the image holds of I / d^2.
 template <class Pixel>
-double illuminance(const View& view, const std::vector<Pixel>& pixels) {
+double illuminance(const gpu_scene::View& view, const std::vector<Pixel>& pixels) {
     double sum = 0;
     for (uint32_t y = 0; y < view.extent.height; ++y)
         for (uint32_t x = 0; x < view.extent.width; ++x) {

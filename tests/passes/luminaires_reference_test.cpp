@@ -14,7 +14,9 @@ namespace {
 using glm::dvec2, glm::dvec3;
 constexpr double kPi = std::numbers::pi;
 
-View narrow(VkExtent2D extent) { return View::symmetric(extent, 0.6f * float(extent.height) / 1050, glm::mat4(1)); }
+gpu_scene::View narrow(VkExtent2D extent) {
+    return gpu_scene::View::symmetric(extent, 0.6f * float(extent.height) / 1050, glm::mat4(1));
+}
 
 TEST(LuminairesReference, AreaWithinAPixel) {
     const std::vector<dvec2> square{{0.25, 0.5}, {1.25, 0.5}, {1.25, 1.5}, {0.25, 1.5}};
@@ -40,7 +42,7 @@ TEST(LuminairesReference, AreaWithinAPixel) {
 }
 
 TEST(LuminairesReference, SolidAnglesOfPixelsAddUp) {
-    const View view = View::symmetric({8, 8}, float(kPi / 2), glm::mat4(1));  // a face of a cube
+    const gpu_scene::View view = gpu_scene::View::symmetric({8, 8}, float(kPi / 2), glm::mat4(1));  // a face of a cube
     double sum = 0;
     for (uint32_t y = 0; y < 8; ++y)
         for (uint32_t x = 0; x < 8; ++x) sum += reference::solid_angle(view, x, y);
@@ -57,8 +59,8 @@ TEST(LuminairesReference, SurfacesHideWhatLiesBehind) {
 }
 
 /// The image of one lamp with nothing before it.
-std::vector<dvec3> image_of(const Lamps& lamps, const View& view) {
-    const LuminaireList list = lamps.seen(view);
+std::vector<dvec3> image_of(const Lamps& lamps, const gpu_scene::View& view) {
+    const gpu_scene::LuminaireList list = lamps.seen(view);
     std::vector<dvec3> pixels;
     for (uint32_t y = 0; y < view.extent.height; ++y)
         for (uint32_t x = 0; x < view.extent.width; ++x) pixels.push_back(reference::added(list, x, y, 0).luminance);
@@ -68,7 +70,7 @@ std::vector<dvec3> image_of(const Lamps& lamps, const View& view) {
 // The sum over the image is I(direction) / d^2 for discs and rectangles, facing the eye or not, in the middle of the
 // image or in its corner, from many pixels to a thousandth of one.
 TEST(LuminairesReference, TheImageHoldsTheIlluminance) {
-    const View view = narrow({96, 64});
+    const gpu_scene::View view = narrow({96, 64});
     for (const bool round : {false, true})
         for (const double distance : {8.0, 20.0, 75.0, 400.0, 3000.0})
             for (const dvec2 at : {dvec2(0), dvec2(0.012, -0.008)})

@@ -12,6 +12,7 @@ namespace vesper::test::luminaires_test {
 namespace {
 
 using glm::dvec2, glm::dvec3;
+using gpu_scene::View;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 
 /// Pixels as large as those of 1050 rows over 0.6 rad.
@@ -21,23 +22,24 @@ View view_of(VkExtent2D extent, float pixel = 0.6f / 1050) {
 
 struct Inputs {
     View view;
-    LuminaireList list;
+    gpu_scene::LuminaireList list;
     std::vector<float> depth;      ///< m, per pixel; 0: nothing
     std::vector<glm::vec4> scene;  ///< what was there before
 };
 
-Inputs on_black(const View& view, LuminaireList list, float depth = 0) {
+Inputs on_black(const View& view, gpu_scene::LuminaireList list, float depth = 0) {
     const size_t pixels = size_t(view.extent.width) * view.extent.height;
     return {view, std::move(list), std::vector<float>(pixels, depth), std::vector<glm::vec4>(pixels, {0, 0, 0, 1})};
 }
 
 std::vector<glm::vec4> draw(PassRig& rig, const Inputs& in) {
-    FrameGraph graph;
+    graph::FrameGraph graph;
     std::vector<glm::vec4> surfaces;
     for (const float depth : in.depth) surfaces.emplace_back(0, 0, depth, 1);
-    const Resource surface = rig.image(graph, "surface", kSurfaceFormat, in.view.extent, surfaces);
-    const Resource scene = rig.image(graph, "scene", kSceneFormat, in.view.extent, in.scene);
-    const Resource kept = keep<glm::vec4>(graph, add_luminaires(rig.frame(graph, in.view), scene, surface, in.list));
+    const graph::Resource surface = rig.image(graph, "surface", render::kSurfaceFormat, in.view.extent, surfaces);
+    const graph::Resource scene = rig.image(graph, "scene", render::kSceneFormat, in.view.extent, in.scene);
+    const graph::Resource kept =
+        keep<glm::vec4>(graph, render::add_luminaires(rig.frame(graph, in.view), scene, surface, in.list));
     rig.run(graph);
     return rig.got<glm::vec4>(kept);
 }
@@ -50,8 +52,9 @@ Lamps many_lamps(uint32_t count, uint32_t seed) {
     Lamps lamps;
     for (uint32_t i = 0; i < count; ++i) {
         const float depth = 2 * std::pow(300.0f, unit(random));
-        Lamp lamp = lamp_with_opening(1000 * unit(random), 0.05 + 0.3 * unit(random), 0.05 + 0.3 * unit(random),
-                                      i % 2 == 0, i % 3 == 0 ? Lamp::Kind::Point : Lamp::Kind::CosinePower);
+        scene::Lamp lamp =
+            lamp_with_opening(1000 * unit(random), 0.05 + 0.3 * unit(random), 0.05 + 0.3 * unit(random), i % 2 == 0,
+                              i % 3 == 0 ? scene::Lamp::Kind::Point : scene::Lamp::Kind::CosinePower);
         lamp.colour = glm::vec3(0.5f + unit(random), 0.5f + unit(random), 0.5f + unit(random));
         const glm::vec3 position(depth * 0.03f * normal(random), depth * 0.03f * normal(random), -depth);
         lamps.add(lamp, aimed(position, {normal(random), normal(random), 0.2f + std::abs(normal(random))}));
@@ -146,7 +149,7 @@ TEST(Luminaires, SurfacesHideLamps) {
     const View view = view_of({32, 24});
     Lamps lamps;
     lamps.add(lamp_with_opening(9000, 0.2, 0.12), aimed({0, 0, -40}, {0, 0, 1}));
-    const LuminaireList list = lamps.seen(view);
+    const gpu_scene::LuminaireList list = lamps.seen(view);
     const double open = reference::illuminance(view, draw(rig, on_black(view, list)));
     EXPECT_NEAR(open, 9000.0 / (40 * 40), 1e-2);
     const auto behind = [&](auto depth) {
@@ -206,10 +209,10 @@ TEST(Luminaires, EveryRunGivesTheSameBits) {
 TEST(Luminaires, WithoutLampsThereIsNoPass) {
     PassRig rig;
     const View view = view_of({8, 8});
-    FrameGraph graph;
-    const Resource scene = graph.transient("scene", image_shape(kSceneFormat, view.extent));
-    const Resource surface = graph.transient("surface", image_shape(kSurfaceFormat, view.extent));
-    EXPECT_EQ(add_luminaires(rig.frame(graph, view), scene, surface, Lamps{}.seen(view)), scene);
+    graph::FrameGraph graph;
+    const graph::Resource scene = graph.transient("scene", graph::image_shape(render::kSceneFormat, view.extent));
+    const graph::Resource surface = graph.transient("surface", graph::image_shape(render::kSurfaceFormat, view.extent));
+    EXPECT_EQ(render::add_luminaires(rig.frame(graph, view), scene, surface, Lamps{}.seen(view)), scene);
     EXPECT_TRUE(graph.passes().empty());
     EXPECT_EQ(rig.complaints(), "");
 }

@@ -15,36 +15,36 @@ namespace {
 
 /// An image that no graph knows of.
 struct Stranger {
-    Stranger(const Device& device, VkFormat format, VkExtent2D extent)
+    Stranger(const gpu::Device& device, VkFormat format, VkExtent2D extent)
         : arena(device),
-          image(make_image(device, image_info(format, extent, 1,
-                                              VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
-                                                  VK_IMAGE_USAGE_TRANSFER_SRC_BIT))),
+          image(gpu::make_image(device, gpu::image_info(format, extent, 1,
+                                                        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                                                            VK_IMAGE_USAGE_TRANSFER_SRC_BIT))),
           described{image.get(), format, extent, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL} {
         arena.bind(image.get());
     }
-    ExternalImage filled() const {
-        ExternalImage f = described;
+    graph::ExternalImage filled() const {
+        graph::ExternalImage f = described;
         f.before = f.after;
         return f;
     }
-    Arena arena;
-    OwnedImage image;
-    ExternalImage described;
+    gpu::Arena arena;
+    gpu::OwnedImage image;
+    graph::ExternalImage described;
 };
 
 template <class T>
 void fill(PassRig& rig, const Stranger& stranger, const std::vector<T>& texels) {
-    FrameGraph graph;
+    graph::FrameGraph graph;
     graph.copy("fill", graph.upload("texels", texels), graph.target("stranger", stranger.described));
     rig.run(graph);
 }
 
 std::vector<glm::vec4> map(PassRig& rig, const Stranger& stranger, float scale) {
-    FrameGraph graph;
-    const Resource picture = graph.external("stranger", stranger.filled());
-    const Resource scene = add_picture(rig.frame(graph, stranger.described.extent), picture, scale);
-    const Resource kept = keep<glm::vec4>(graph, scene);
+    graph::FrameGraph graph;
+    const graph::Resource picture = graph.external("stranger", stranger.filled());
+    const graph::Resource scene = render::add_picture(rig.frame(graph, stranger.described.extent), picture, scale);
+    const graph::Resource kept = keep<glm::vec4>(graph, scene);
     rig.run(graph);
     return rig.got<glm::vec4>(kept);
 }
@@ -100,11 +100,12 @@ TEST(Picture, FramesFollowOneAnother) {
     Stranger one(rig.device(), VK_FORMAT_R32G32B32A32_SFLOAT, extent),
         other(rig.device(), VK_FORMAT_R32G32B32A32_SFLOAT, extent);
     fill(rig, one, std::vector<glm::vec4>(33 * 17, glm::vec4(1)));
-    Resource kept;
+    graph::Resource kept;
     for (int frame = 0; frame < 7; ++frame) {
         const Stranger &from = frame % 2 ? other : one, &to = frame % 2 ? one : other;
-        FrameGraph graph;
-        const Resource scene = add_picture(rig.frame(graph, extent), graph.external("from", from.filled()), 2);
+        graph::FrameGraph graph;
+        const graph::Resource scene =
+            render::add_picture(rig.frame(graph, extent), graph.external("from", from.filled()), 2);
         graph.copy("show", scene, graph.target("to", to.described));
         kept = keep<glm::vec4>(graph, scene);
         rig.executor().submit(graph, {});
@@ -116,17 +117,19 @@ TEST(Picture, FramesFollowOneAnother) {
 }
 
 TEST(Picture, ImagesOfOthersAreReadOrWrittenNotBoth) {
-    FrameGraph graph;
-    const ExternalImage described{
+    graph::FrameGraph graph;
+    const graph::ExternalImage described{
         VK_NULL_HANDLE, VK_FORMAT_R32G32B32A32_SFLOAT, {2, 2}, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_GENERAL};
-    const Resource read = graph.external("read", described), texels = graph.upload("texels", std::vector<float>(16));
+    const graph::Resource read = graph.external("read", described),
+                          texels = graph.upload("texels", std::vector<float>(16));
     EXPECT_THROW(graph.copy("write", texels, read), Error);
-    const Resource written = graph.target("written", described);
+    const graph::Resource written = graph.target("written", described);
     EXPECT_THROW(
-        graph.copy("read", written, graph.transient("copy", image_shape(VK_FORMAT_R32G32B32A32_SFLOAT, {2, 2}))), Error)
+        graph.copy("read", written, graph.transient("copy", graph::image_shape(VK_FORMAT_R32G32B32A32_SFLOAT, {2, 2}))),
+        Error)
         << "before anything wrote it";
-    EXPECT_THROW(graph.compile([](const Shape&, uint32_t) {
-        return Footprint{1, 1, 1};
+    EXPECT_THROW(graph.compile([](const graph::Shape&, uint32_t) {
+        return graph::Footprint{1, 1, 1};
     }),
                  Error)
         << "nothing writes what is to be shown";

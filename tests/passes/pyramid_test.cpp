@@ -26,11 +26,11 @@ std::vector<glm::vec4> night(VkExtent2D extent, uint32_t seed) {
 
 void expect_pyramid(const std::vector<glm::vec4>& pixels, VkExtent2D extent, float log_epsilon = 0) {
     PassRig rig;
-    FrameGraph graph;
-    const Resource scene = rig.image(graph, "scene", kSceneFormat, extent, pixels);
-    const Pyramid pyramid = add_pyramid(rig.frame(graph, extent), scene, log_epsilon);
-    std::vector<Resource> kept;
-    for (Resource level : pyramid.levels) kept.push_back(keep<glm::vec4>(graph, level));
+    graph::FrameGraph graph;
+    const graph::Resource scene = rig.image(graph, "scene", render::kSceneFormat, extent, pixels);
+    const render::Pyramid pyramid = render::add_pyramid(rig.frame(graph, extent), scene, log_epsilon);
+    std::vector<graph::Resource> kept;
+    for (graph::Resource level : pyramid.levels) kept.push_back(keep<glm::vec4>(graph, level));
     rig.run(graph);
 
     const auto want =
@@ -97,14 +97,14 @@ TEST(Pyramid, TakesLogarithmsOfAnyFloat) {
 
 TEST(Pyramid, FovealTexelIsNearestToADegree) {
     // tone-mapping.md, 2.3: 1920 px over 60 degrees: 29 px to the degree, level 5; over 90 degrees 16.8, level 4.
-    Pyramid pyramid;
+    render::Pyramid pyramid;
     pyramid.levels.resize(11);
     const auto level = [&](uint32_t width, double horizontal_degrees) {
-        View view;
+        gpu_scene::View view;
         view.extent = {width, width / 2};
         const float tangent = float(std::tan(horizontal_degrees / 2 * 3.14159265358979 / 180));
         view.tangent_high = {tangent, tangent / 2}, view.tangent_low = -view.tangent_high;
-        return foveal_level(view, pyramid);
+        return render::foveal_level(view, pyramid);
     };
     EXPECT_EQ(level(1920, 60), 5u);
     EXPECT_EQ(level(1920, 90), 4u);

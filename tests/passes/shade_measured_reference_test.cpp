@@ -15,29 +15,31 @@ const dvec3 kUp(0, 1, 0);
 dvec3 sight(double degrees) { return {0, std::sin(glm::radians(degrees)), std::cos(glm::radians(degrees))}; }
 
 TEST(ShadeMeasuredReference, ARoadSeenAtOneDegreeHasTheTablesLuminance) {
-    const ReflectionTable table = find_reflection_table("R3");
+    const photometry::ReflectionTable table = photometry::find_reflection_table("R3");
     const double height = 8, candela = 3000;
     for (dvec3 lamp : {dvec3(0, height, 0), {3, height, -20}, {-6, height, -40}, {2, height, 25}}) {
         const double d2 = glm::dot(lamp, lamp), tan_gamma = std::hypot(lamp.x, lamp.z) / height;
         // From the observer on is -Z, so a lamp beyond the point is at beta 0.
         const double beta = glm::degrees(std::atan2(std::abs(lamp.x), -lamp.z));
-        const double luminance = candela / d2 * road_coefficient(extended(table), kUp, glm::normalize(lamp), sight(1));
-        EXPECT_NEAR(luminance, reduced_luminance_coefficient(table, tan_gamma, beta) * candela / (height * height),
+        const double luminance =
+            candela / d2 * road_coefficient(photometry::extended(table), kUp, glm::normalize(lamp), sight(1));
+        EXPECT_NEAR(luminance,
+                    photometry::reduced_luminance_coefficient(table, tan_gamma, beta) * candela / (height * height),
                     1e-9);
     }
 }
 
 TEST(ShadeMeasuredReference, BeyondTheTableItsLastValueStays) {
-    const ReflectionTable table = extended(find_reflection_table("R3"));
+    const photometry::ReflectionTable table = photometry::extended(photometry::find_reflection_table("R3"));
     const auto at = [&](double tan_gamma) {
         return road_coefficient(table, kUp, glm::normalize(dvec3(0, 1, -tan_gamma)), sight(1));
     };
-    EXPECT_NEAR(at(12), reduced_luminance_coefficient(table, 12, 0) * 145, 1e-6);
+    EXPECT_NEAR(at(12), photometry::reduced_luminance_coefficient(table, 12, 0) * 145, 1e-6);
     EXPECT_NEAR(at(40), at(12), 1e-9);
 }
 
 TEST(ShadeMeasuredReference, SheenIsGoneAtTenDegrees) {
-    const ReflectionTable table = extended(find_reflection_table("W4"));
+    const photometry::ReflectionTable table = photometry::extended(photometry::find_reflection_table("W4"));
     const auto at = [&](double degrees, double beta) {
         const double b = glm::radians(beta);
         return road_coefficient(table, kUp, glm::normalize(dvec3(5 * std::sin(b), 1, -5 * std::cos(b))),
@@ -57,9 +59,9 @@ TEST(ShadeMeasuredReference, SheenIsGoneAtTenDegrees) {
 // A sky of 1 cd/m^2, as ambient light and as lamps from every half degree.
 TEST(ShadeMeasuredReference, LightFromAllSidesIsTheSumOfItsDirections) {
     for (const char* name : {"R3", "W4"}) {
-        const RoadSurface road(extended(find_reflection_table(name)));
-        const double plain =
-            diffuse_luminance_coefficient(without_sheen(road.table)) / diffuse_luminance_coefficient(road.table);
+        const RoadSurface road(photometry::extended(photometry::find_reflection_table(name)));
+        const double plain = photometry::diffuse_luminance_coefficient(photometry::without_sheen(road.table)) /
+                             photometry::diffuse_luminance_coefficient(road.table);
         EXPECT_LT(plain, 0.7);
         for (const double degrees : {1.0, 3.0, 6.0, 20.0}) {
             const double step = glm::radians(0.5);
@@ -80,7 +82,7 @@ TEST(ShadeMeasuredReference, LightFromAllSidesIsTheSumOfItsDirections) {
 }
 
 TEST(ShadeMeasuredReference, ALampsFrameTurnsWithIt) {
-    Distribution d;
+    photometry::Distribution d;
     d.horizontal = {0, 180, 360}, d.vertical = {0, 90}, d.candela = {10, 20, 10, 40, 10, 20};
     // Its nadir looks along the view, its C0 up.
     const MeasuredLamp lamp{&d, glm::dmat3(dvec3(0, 1, 0), dvec3(-1, 0, 0), dvec3(0, 0, 1)), 2};

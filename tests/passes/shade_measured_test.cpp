@@ -17,46 +17,48 @@ const std::filesystem::path kData = std::filesystem::path(VESPER_SOURCE_DIR) / "
 /// A luminaire, two beams, a floodlight of type B, two lamps that are dark on their axis and one that shines here and
 /// there, on nodes of every pose; and some lamps of other kinds.
 struct Street {
-    Scene scene;
-    SceneFrame frame;
-    IntensityTables tables;
-    LampList list;
+    scene::Scene scene;
+    gpu_scene::SceneFrame frame;
+    gpu_scene::IntensityTables tables;
+    gpu_scene::LampList list;
     std::vector<reference::MeasuredLamp> measured;
     std::vector<reference::RoadSurface> roads;
 
     /// `kinds` of the lamps: the seventh has edges too steep for lamps that all but touch a surface.
     explicit Street(VkExtent2D extent, uint32_t lamps, uint32_t seed, LampMix others = {}, uint32_t kinds = 6) {
         for (const char* file : {"street-lamp.ies", "low-beam.csv", "high-beam.csv"})
-            scene.distributions.push_back(read_distribution(kData / file));
-        Distribution flood;
-        flood.goniometry = Goniometry::TypeB;
+            scene.distributions.push_back(photometry::read_distribution(kData / file));
+        photometry::Distribution flood;
+        flood.goniometry = photometry::Goniometry::TypeB;
         flood.horizontal = {-60, -30, 0, 30, 60}, flood.vertical = {-90, -20, 5, 90};
         for (size_t i = 0; i < 20; ++i) flood.candela.push_back(double(100 + 37 * i % 400));
         scene.distributions.push_back(flood);
         // Dark where others are bright: about the axis, and before the lamp.
-        Distribution ring, behind;
+        photometry::Distribution ring, behind;
         ring.horizontal = {0}, ring.vertical = {0, 40, 60, 80, 180}, ring.candela = {0, 0, 900, 0, 0};
-        behind.goniometry = Goniometry::TypeA;
+        behind.goniometry = photometry::Goniometry::TypeA;
         behind.horizontal = {100, 140, 180}, behind.vertical = {-40, 0, 40},
         behind.candela = {0, 0, 0, 0, 700, 0, 0, 0, 0};
         scene.distributions.push_back(ring), scene.distributions.push_back(behind);
-        Distribution spots;
+        photometry::Distribution spots;
         for (int c = 0; c <= 360; c += 6) spots.horizontal.push_back(c);
         for (int gamma = 0; gamma <= 180; gamma += 3) spots.vertical.push_back(gamma);
         for (size_t i = 0; i < 61 * 61; ++i)
             spots.candela.push_back(i % 61 > 4 && i % 61 < 56 && i / 61 % 60 * 37 % 13 == 0 && i % 61 * 5 % 7 == 3 ? 900
                                                                                                                    : 0);
         scene.distributions.push_back(spots);
-        scene.reflection_tables = {find_reflection_table("R3"), find_reflection_table("W4")};
-        for (const ReflectionTable& table : scene.reflection_tables) roads.emplace_back(extended(table));
+        scene.reflection_tables = {photometry::find_reflection_table("R3"), photometry::find_reflection_table("W4")};
+        for (const photometry::ReflectionTable& table : scene.reflection_tables)
+            roads.emplace_back(photometry::extended(table));
 
         std::mt19937 random(seed);
         std::uniform_real_distribution<float> unit(0, 1);
         std::normal_distribution<float> normal;
         for (uint32_t i = 0; i < lamps; ++i) {
-            Lamp lamp{.kind = Lamp::Kind::Measured, .intensity = 0.2f + unit(random), .distribution = i % kinds};
+            scene::Lamp lamp{
+                .kind = scene::Lamp::Kind::Measured, .intensity = 0.2f + unit(random), .distribution = i % kinds};
             scene.lamps.push_back(lamp);
-            Node node;
+            scene::Node node;
             node.lamp = i;
             scene.nodes.push_back(node);
             glm::mat4 pose = glm::translate(
@@ -66,16 +68,16 @@ struct Street {
             if (i % 3 == 0) pose = glm::scale(pose, glm::vec3(-2, 2, 2));  // mirrored
             frame.world.push_back(pose);
         }
-        tables = intensity_tables(scene);
-        const View view = View::symmetric(extent, 0.7f, glm::mat4(1));
-        list = lamp_list(placed_lamps(scene), tables, frame, view);
+        tables = gpu_scene::intensity_tables(scene);
+        const gpu_scene::View view = gpu_scene::View::symmetric(extent, 0.7f, glm::mat4(1));
+        list = gpu_scene::lamp_list(gpu_scene::placed_lamps(scene), tables, frame, view);
         for (uint32_t i = 0; i < lamps; ++i) {
             glm::dmat3 axes(frame.world[i]);
             for (int c = 0; c < 3; ++c) axes[c] = glm::normalize(axes[c]);
             measured.push_back({&scene.distributions[i % kinds], axes, double(scene.lamps[i].intensity)});
         }
         // Tables come third in the list.
-        const LampList more = street_lamps(others, 300, seed);
+        const gpu_scene::LampList more = street_lamps(others, 300, seed);
         list.lamps.insert(list.lamps.begin(), more.lamps.begin(), more.lamps.begin() + others.cones + others.powers);
         list.lamps.insert(list.lamps.end(), more.lamps.end() - others.directional, more.lamps.end());
         list.counts.cones = others.cones, list.counts.powers = others.powers,
@@ -106,7 +108,7 @@ Surfaces noise(VkExtent2D extent, uint32_t seed) {
 
 /// A matt ground 1.5 m under the eye, sky above: blocks of pixels that lie close together.
 Surfaces ground(VkExtent2D extent) {
-    const View view = View::symmetric(extent, 0.7f, glm::mat4(1));
+    const gpu_scene::View view = gpu_scene::View::symmetric(extent, 0.7f, glm::mat4(1));
     Surfaces p{extent, {}, {}, {}};
     for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
         const double ray = double(view.ray_scale().y) * (double(p.pixel(i).y) + 0.5) + double(view.ray_offset().y);
@@ -120,14 +122,14 @@ Surfaces ground(VkExtent2D extent) {
 
 // 2e-3 for the device's angles, which are polynomials, where edges are steep: at the cut-off of a low beam intensity
 // changes by a factor of e within 0.12 degrees, 480 per rad, and directions are known to some 1e-6 rad.
-void expect_reference(PassRig& rig, const Street& street, const Surfaces& s, const ShadeSettings& settings) {
+void expect_reference(PassRig& rig, const Street& street, const Surfaces& s, const render::ShadeSettings& settings) {
     const Shot shot = shade(rig, s, street.list, {}, settings, street.tables);
-    test::expect_reference(shot, s, street.list, settings, {street.measured, street.roads, {}}, {2e-3, 1e-7});
+    expect_reference(shot, s, street.list, settings, {street.measured, street.roads, {}}, {2e-3, 1e-7});
 }
 
 TEST(ShadeMeasured, MatchesTheReferenceAtEverySize) {
     PassRig rig;
-    ShadeSettings settings;
+    render::ShadeSettings settings;
     settings.ambient = {0.2f, 0.3f, 0.4f}, settings.sky = {0.01f, 0.02f, 0.03f};
     for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {33, 9}, {67, 65}}) {
         SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
@@ -164,7 +166,7 @@ TEST(ShadeMeasured, AThousandLampsOnRoadsEqualTheReference) {
 // between them; hardly a pixel sees that of a lamp that gives most of its light.
 TEST(ShadeMeasured, ShadingWithSumsIsShadingLampByLamp) {
     PassRig rig;
-    const ShadeSettings settings;
+    const render::ShadeSettings settings;
     for (const VkExtent2D extent : {VkExtent2D{320, 200}, {840, 525}}) {
         const Street street(extent, 60, extent.width);
         const Surfaces s = ground(extent);

@@ -76,7 +76,7 @@ struct Shaded {
 
 /// A retroreflective surface: its class, if it is one, and its colour.
 struct Sheet {
-    const Retroreflector* retroreflector = nullptr;
+    const photometry::Retroreflector* retroreflector = nullptr;
     dvec3 base{0};
 };
 
@@ -110,7 +110,7 @@ inline void add_lamp(const shared::Lamp& lamp, LampKind kind, dvec3 point, dvec3
 
     if (road) {
         const dvec3 reflected = dvec3(lamp.colour) * rho_lambert / road->diffuse;
-        const ReflectionTable& table = road->table;
+        const photometry::ReflectionTable& table = road->table;
         if (nl > 0 && (!placed || e * arriving >= threshold))
             sum.luminance += reflected * e * road_coefficient(table, n, l, v);
         const double largest = *std::max_element(table.r.begin(), table.r.end()) * 145;

@@ -17,12 +17,14 @@ struct Returned {
 };
 
 /// Of a surface of normal n, lit along l, seen along v (photometry/retroreflection.h); nothing for light from behind.
-inline Returned returned(const Retroreflector& r, glm::dvec3 n, glm::dvec3 l, glm::dvec3 v, double epsilon) {
+inline Returned returned(const photometry::Retroreflector& r, glm::dvec3 n, glm::dvec3 l, glm::dvec3 v,
+                         double epsilon) {
     const double nl = glm::dot(n, l), nv = glm::dot(n, v), degrees = 180 / std::numbers::pi;
     if (!(nl > 0)) return {};
     const auto angle = [&](double cosine) { return std::acos(std::clamp(cosine, 0.0, 1.0)) * degrees; };
     const auto luminance = [&](double observation, double entrance_cosine, double view_cosine) {
-        return retroreflected_luminance(r, std::max(observation, 0.0), angle(entrance_cosine), angle(view_cosine), 1);
+        return photometry::retroreflected_luminance(r, std::max(observation, 0.0), angle(entrance_cosine),
+                                                    angle(view_cosine), 1);
     };
     const double observation = 2 * std::asin(std::min(glm::length(l - v) / 2, 1.0)) * degrees;
     const double value = luminance(observation, nl, nv), shift = 2 * epsilon, turn = shift * degrees;

@@ -6,16 +6,16 @@
 namespace vesper::test::shade_retro_test {
 namespace {
 
-const std::vector<Retroreflector> kClasses{retroreflective_class("RA1"),
-                                           retroreflective_class("RA2"),
-                                           retroreflective_class("prismatic"),
-                                           retroreflective_marking(150),
-                                           {"eight nodes",
-                                            {0.1, 0.2, 0.33, 0.5, 1, 2, 4, 8},
-                                            {300, 250, 180, 90, 40, 5, 2, 0.5},
-                                            {0, 10, 20, 30, 40, 50, 60, 70},
-                                            {1, 0.9, 0.85, 0.6, 0.4, 0.2, 0.1, 0.02},
-                                            false}};
+const std::vector<photometry::Retroreflector> kClasses{photometry::retroreflective_class("RA1"),
+                                                       photometry::retroreflective_class("RA2"),
+                                                       photometry::retroreflective_class("prismatic"),
+                                                       photometry::retroreflective_marking(150),
+                                                       {"eight nodes",
+                                                        {0.1, 0.2, 0.33, 0.5, 1, 2, 4, 8},
+                                                        {300, 250, 180, 90, 40, 5, 2, 0.5},
+                                                        {0, 10, 20, 30, 40, 50, 60, 70},
+                                                        {1, 0.9, 0.85, 0.6, 0.4, 0.2, 0.1, 0.02},
+                                                        false}};
 
 /// Signs facing the eye more or less, markings, beside matt and glossy surfaces, roads with a table and sky.
 Surfaces signs(VkExtent2D extent, uint32_t seed, bool roads) {
@@ -38,8 +38,8 @@ Surfaces signs(VkExtent2D extent, uint32_t seed, bool roads) {
 }
 
 /// Headlamps beside the eye, and lamps along the street.
-LampList headlamps(LampMix others, uint32_t seed) {
-    LampList list = street_lamps(others, 300, seed);
+gpu_scene::LampList headlamps(LampMix others, uint32_t seed) {
+    gpu_scene::LampList list = street_lamps(others, 300, seed);
     for (float x : {-0.7f, 0.7f}) {
         shared::Lamp lamp{};
         lamp.position = {x, -0.55f, -1.5f}, lamp.intensity = 20000, lamp.axis = {0, 0, -1}, lamp.colour = {1, 1, 1},
@@ -51,20 +51,20 @@ LampList headlamps(LampMix others, uint32_t seed) {
 }
 
 // 2e-3 on roads for the device's angles, which are polynomials.
-void expect_reference(PassRig& rig, const LampList& list, const Surfaces& s, bool roads,
-                      const ShadeSettings& settings) {
-    Scene scene;
+void expect_reference(PassRig& rig, const gpu_scene::LampList& list, const Surfaces& s, bool roads,
+                      const render::ShadeSettings& settings) {
+    scene::Scene scene;
     std::vector<reference::RoadSurface> tables;
     if (roads)
-        scene.reflection_tables = {find_reflection_table("R3")},
-        tables.emplace_back(extended(scene.reflection_tables[0]));
-    const Shot shot = shade(rig, s, list, {}, settings, intensity_tables(scene), kClasses);
-    test::expect_reference(shot, s, list, settings, {{}, tables, kClasses}, {2e-5, 1e-7}, 2e-3);
+        scene.reflection_tables = {photometry::find_reflection_table("R3")},
+        tables.emplace_back(photometry::extended(scene.reflection_tables[0]));
+    const Shot shot = shade(rig, s, list, {}, settings, gpu_scene::intensity_tables(scene), kClasses);
+    expect_reference(shot, s, list, settings, {{}, tables, kClasses}, {2e-5, 1e-7}, 2e-3);
 }
 
 TEST(ShadeRetro, MatchesTheReferenceAtEverySize) {
     PassRig rig;
-    ShadeSettings settings;
+    render::ShadeSettings settings;
     settings.ambient = {0.2f, 0.3f, 0.4f}, settings.sky = {0.01f, 0.02f, 0.03f};
     for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {33, 9}, {67, 65}}) {
         SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
@@ -88,7 +88,7 @@ TEST(ShadeRetro, ASignInTheHeadlamps) {
     const VkExtent2D extent{9, 9};
     Surfaces s = signs(extent, 1, false);
     for (size_t i = 0; i < s.surface.size(); ++i) s.surface[i] = {0, 0, 100, 1}, s.reflectance[i] = {1, 1, 1, 3};
-    LampList list;
+    gpu_scene::LampList list;
     for (float side : {-1.0f, 1.0f}) {
         shared::Lamp lamp{};
         const float off = 100 * std::tan(glm::radians(0.5f)) / std::sqrt(2.0f);
@@ -97,7 +97,7 @@ TEST(ShadeRetro, ASignInTheHeadlamps) {
         list.lamps.push_back(lamp);
     }
     list.counts.cones = 2;
-    const auto luminance = [&](const std::vector<Retroreflector>& classes) {
+    const auto luminance = [&](const std::vector<photometry::Retroreflector>& classes) {
         return shade(rig, s, list, {}, {}, {}, classes).pixels[4 * 9 + 4].g;
     };
     EXPECT_NEAR(luminance(kClasses), 12.5, 0.2);
@@ -110,7 +110,7 @@ TEST(ShadeRetro, NeighboursAreUntouched) {
     PassRig rig;
     const VkExtent2D extent{70, 20};
     const Surfaces s = signs(extent, 7, false);
-    const LampList list = headlamps({20, 10, 1}, 5);
+    const gpu_scene::LampList list = headlamps({20, 10, 1}, 5);
     const auto with = shade(rig, s, list, {}, {}, {}, kClasses).pixels, without = shade(rig, s, list, {}, {}).pixels;
     size_t brighter = 0;
     for (size_t i = 0; i < with.size(); ++i) {

@@ -7,6 +7,8 @@
 namespace vesper::test::shade_test {
 namespace {
 
+using gpu_scene::LampList;
+
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
 
 /// A street of noise: walls and road with every normal, depth, roughness and colour, some signs, some sky.
@@ -28,7 +30,7 @@ Surfaces street(VkExtent2D extent, uint32_t seed, float nearest = 0.5f, float fa
 
 TEST(Shade, MatchesTheReferenceAtEverySize) {
     PassRig rig;
-    ShadeSettings settings;
+    render::ShadeSettings settings;
     settings.ambient = {0.2f, 0.3f, 0.4f}, settings.sky = {0.01f, 0.02f, 0.03f};
     // 33 x 9: one past the CPU device's workgroup of 32 x 8 pixels in both directions.
     for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {33, 9}, {67, 65}}) {
@@ -55,7 +57,7 @@ TEST(Shade, ThePapersLambertAndTheLdrBaselinesLimit) {
     PassRig rig;
     const Surfaces s = street({31, 17}, 3);
     const LampList list = street_lamps({10, 5, 1}, 500, 3);
-    const ShadeSettings settings{.lambert = 1, .emission_limit = 1};
+    const render::ShadeSettings settings{.lambert = 1, .emission_limit = 1};
     expect_reference(shade(rig, s, list, {}, settings), s, list, settings);
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -81,7 +83,7 @@ TEST(Shade, ClusteredIsEveryLight) {
 }
 
 /// A street canyon: a road 1.2 m under the eye between walls at 8 m, sky above 20 m, in a whole frame.
-Surfaces canyon(const View& view) {
+Surfaces canyon(const gpu_scene::View& view) {
     Surfaces s{view.extent, {}, {}, {}};
     const glm::vec2 up = reference::octahedral_encode({0, 1, 0});
     const glm::vec2 left = reference::octahedral_encode({-1, 0, 0}), right = reference::octahedral_encode({1, 0, 0});
@@ -101,7 +103,7 @@ Surfaces canyon(const View& view) {
 
 TEST(Shade, ClusteredIsEveryLightInAWholeFrame) {
     PassRig rig;
-    const Surfaces s = canyon(View::symmetric({1680, 1050}, 0.7f, glm::mat4(1)));
+    const Surfaces s = canyon(gpu_scene::View::symmetric({1680, 1050}, 0.7f, glm::mat4(1)));
     const LampList list = street_lamps({50, 30, 1}, 300, 16);
     const Shot clustered = shade(rig, s, list, {.far = 400}, {.merge_tolerance = -1}),
                all = shade(rig, s, list, {}, {.all_lamps = true});
@@ -185,7 +187,7 @@ TEST(Shade, OneLampOverTheRoad) {
     PassRig rig;
     const VkExtent2D extent{64, 48};
     Surfaces s{extent, {}, {}, {}};
-    const View view = View::symmetric(extent, 0.7f, glm::mat4(1));
+    const gpu_scene::View view = gpu_scene::View::symmetric(extent, 0.7f, glm::mat4(1));
     const glm::vec2 up = reference::octahedral_encode({0, 1, 0});
     for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
         const float slope = view.ray_scale().y * (float(i / extent.width) + 0.5f) + view.ray_offset().y;
@@ -211,7 +213,7 @@ TEST(Shade, OneLampOverTheRoad) {
 TEST(Shade, HeadlampsDownAWetRoad) {
     PassRig rig;
     const VkExtent2D extent{48, 64};
-    const View view = View::symmetric(extent, 0.1f, glm::mat4(1));
+    const gpu_scene::View view = gpu_scene::View::symmetric(extent, 0.1f, glm::mat4(1));
     Surfaces s{extent, {}, {}, {}};
     for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
         const float slope = view.ray_scale().y * (float(i / extent.width) + 0.5f) + view.ray_offset().y;
@@ -264,7 +266,8 @@ TEST(Shade, WhatIsNotFiniteStaysInItsPixel) {
         if (i % 4 == 2) s.surface[i] = {kNan, kNan, s.surface[i].z, 0.5f};  // a normal of no length
         if (i % 4 == 3) s.reflectance[i] = {kInf, kNan, 1, kNan};
     }
-    const ClusterSettings all{.threshold = 1e-9f};  // blocks with a pixel that is no number are shaded lamp by lamp
+    const render::ClusterSettings all{.threshold =
+                                          1e-9f};  // blocks with a pixel that is no number are shaded lamp by lamp
     const Shot got = shade(rig, s, list, all, {}), want = shade(rig, clean, list, all, {});
     for (size_t i = 0; i < got.pixels.size(); ++i)
         if (!poisoned(i)) {

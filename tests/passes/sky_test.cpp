@@ -13,9 +13,11 @@
 namespace vesper::test::sky_test {
 namespace {
 
+using gpu_scene::View;
+
 /// A night sky: dim, brighter towards the horizon, with a town's lamps in it.
-Environment night(uint32_t height, uint32_t seed) {
-    Environment e{2 * height, height, std::vector<float>(size_t(height) * height * 6), 0.8};
+photometry::Environment night(uint32_t height, uint32_t seed) {
+    photometry::Environment e{2 * height, height, std::vector<float>(size_t(height) * height * 6), 0.8};
     std::mt19937 random(seed);
     for (uint32_t y = 0; y < height; ++y)
         for (uint32_t x = 0; x < e.width; ++x)
@@ -47,18 +49,18 @@ Lit noise(VkExtent2D extent, uint32_t seed) {
     return s;
 }
 
-std::vector<glm::vec4> add(PassRig& rig, const Lit& s, const SkyMap& sky, const View& view, float lambert) {
-    FrameGraph graph;
-    const GBuffer g = upload(graph, s);
-    const Resource scene = rig.image(graph, "scene", kSceneFormat, s.extent, s.scene);
-    const Resource texels = graph.upload("sky", sky_texels(sky), VK_FORMAT_R32G32B32A32_SFLOAT);
-    const Resource wanted =
-        keep<glm::vec4>(graph, add_sky(rig.frame(graph, view), g, scene, {texels, sky.sharp.side}, lambert));
+std::vector<glm::vec4> add(PassRig& rig, const Lit& s, const photometry::SkyMap& sky, const View& view, float lambert) {
+    graph::FrameGraph graph;
+    const render::GBuffer g = upload(graph, s);
+    const graph::Resource scene = rig.image(graph, "scene", render::kSceneFormat, s.extent, s.scene);
+    const graph::Resource texels = graph.upload("sky", gpu_scene::sky_texels(sky), VK_FORMAT_R32G32B32A32_SFLOAT);
+    const graph::Resource wanted =
+        keep<glm::vec4>(graph, render::add_sky(rig.frame(graph, view), g, scene, {texels, sky.sharp.side}, lambert));
     rig.run(graph);
     return rig.got<glm::vec4>(wanted);
 }
 
-void expect_reference(const std::vector<glm::vec4>& got, const Lit& s, const SkyMap& sky, const View& view,
+void expect_reference(const std::vector<glm::vec4>& got, const Lit& s, const photometry::SkyMap& sky, const View& view,
                       float lambert) {
     // Lamps in the sky are edges: a direction off by 3e-7 moves on the sharp map by a small part of a texel, and
     // what differs between neighbours comes in. Found by turning the ray. The table of fractions is within 0.008.
@@ -83,7 +85,7 @@ void expect_reference(const std::vector<glm::vec4>& got, const Lit& s, const Sky
 
 TEST(Sky, MatchesTheReferenceAtEverySize) {
     PassRig rig;
-    const SkyMap sky = make_sky_map(night(64, 1));
+    const photometry::SkyMap sky = photometry::make_sky_map(night(64, 1));
     const glm::mat4 turned = glm::rotate(glm::rotate(glm::mat4(1), 0.4f, {1, 0, 0}), 2.1f, {0, 1, 0});
     for (VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {33, 9}, {67, 65}}) {
         SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
@@ -98,7 +100,7 @@ TEST(Sky, MatchesTheReferenceAtEverySize) {
 // than L; rough metals lose up to 70 % to masking, as they do of the light of lamps (single scattering).
 TEST(Sky, AUniformSkyIsAFurnace) {
     PassRig rig;
-    const SkyMap sky = make_sky_map({64, 32, std::vector<float>(64 * 32 * 3, 2.0f)});
+    const photometry::SkyMap sky = photometry::make_sky_map({64, 32, std::vector<float>(64 * 32 * 3, 2.0f)});
     const VkExtent2D extent{40, 21};
     const View view = View::symmetric(extent, 0.8f, glm::mat4(1));
     Lit s = noise(extent, 9);
@@ -125,7 +127,7 @@ TEST(Sky, AUniformSkyIsAFurnace) {
 
 TEST(Sky, WhatIsNotFiniteStaysInItsPixel) {
     PassRig rig;
-    const SkyMap sky = make_sky_map(night(64, 3));
+    const photometry::SkyMap sky = photometry::make_sky_map(night(64, 3));
     const VkExtent2D extent{40, 16};
     const View view = View::symmetric(extent, 0.8f, glm::mat4(1));
     const Lit clean = noise(extent, 4);
@@ -143,10 +145,10 @@ TEST(Sky, WhatIsNotFiniteStaysInItsPixel) {
 
 TEST(Sky, WithoutASkyThereIsNoPass) {
     PassRig rig;
-    FrameGraph graph;
-    const FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
-    const Resource scene = graph.transient("scene", image_shape(kSceneFormat, {8, 8}));
-    EXPECT_EQ(add_sky(frame, {}, scene, {}, 1), scene);
+    graph::FrameGraph graph;
+    const render::FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
+    const graph::Resource scene = graph.transient("scene", graph::image_shape(render::kSceneFormat, {8, 8}));
+    EXPECT_EQ(render::add_sky(frame, {}, scene, {}, 1), scene);
     EXPECT_TRUE(graph.passes().empty());
 }
 

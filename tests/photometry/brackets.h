@@ -70,8 +70,8 @@ inline KnownCamera filmic_camera(double noise = 0) {
 }
 
 /// A night in five decades: a dark gradient, texture, and lamps with soft borders. Largest value near 100.
-inline HdrImage night(uint32_t width, uint32_t height) {
-    HdrImage image{width, height};
+inline io::HdrImage night(uint32_t width, uint32_t height) {
+    io::HdrImage image{width, height};
     CameraNoise random;
     for (uint32_t y = 0; y < height; ++y)
         for (uint32_t x = 0; x < width; ++x) {
@@ -92,9 +92,9 @@ inline HdrImage night(uint32_t width, uint32_t height) {
 
 /// One photograph of the scene without its outer `margin` px, through a camera that lets in `exposure`. What is at (x,
 /// y) comes to (x, y) + shift.
-inline Exposure photograph(const HdrImage& scene, const KnownCamera& camera, double exposure, CameraNoise& random,
-                           glm::ivec2 shift = glm::ivec2(0), int margin = 0) {
-    Exposure made;
+inline photometry::Exposure photograph(const io::HdrImage& scene, const KnownCamera& camera, double exposure,
+                                       CameraNoise& random, glm::ivec2 shift = glm::ivec2(0), int margin = 0) {
+    photometry::Exposure made;
     made.exposure = exposure;
     const int width = static_cast<int>(scene.width), height = static_cast<int>(scene.height);
     made.image.width = static_cast<uint32_t>(width - 2 * margin);
@@ -112,16 +112,17 @@ inline Exposure photograph(const HdrImage& scene, const KnownCamera& camera, dou
 }
 
 /// Exposures `ratio` apart, the first letting in `first`.
-inline std::vector<Exposure> bracket(const HdrImage& scene, const KnownCamera& camera, double first, double ratio,
-                                     int count) {
-    std::vector<Exposure> made;
+inline std::vector<photometry::Exposure> bracket(const io::HdrImage& scene, const KnownCamera& camera, double first,
+                                                 double ratio, int count) {
+    std::vector<photometry::Exposure> made;
     CameraNoise random;
     for (int i = 0; i < count; ++i) made.push_back(photograph(scene, camera, first * std::pow(ratio, i), random));
     return made;
 }
 
 /// The largest difference, relative, of a response from the camera's over a range of codes.
-inline double response_error(const Response& response, const KnownCamera& camera, size_t channel, int from, int to) {
+inline double response_error(const photometry::Response& response, const KnownCamera& camera, size_t channel, int from,
+                             int to) {
     double worst = 0;
     for (int z = from; z <= to; ++z) {
         const double wanted = camera.exposure(z / 255.0, channel) / camera.exposure(128 / 255.0, channel);
@@ -137,13 +138,13 @@ struct RadianceError {
 
 /// Relative errors of a merged picture, over values that some exposure holds with a code from 40 to 223 before noise.
 /// Its scale is not fitted: a code of 128 is exposure 1.
-inline RadianceError radiance_error(const MergedImage& merged, const HdrImage& scene, const KnownCamera& camera,
-                                    const std::vector<Exposure>& exposures) {
+inline RadianceError radiance_error(const photometry::MergedImage& merged, const io::HdrImage& scene,
+                                    const KnownCamera& camera, const std::vector<photometry::Exposure>& exposures) {
     std::vector<double> errors;
     for (size_t i = 0; i < scene.rgb.size(); ++i) {
         const size_t c = i % 3;
         const auto truth = static_cast<double>(scene.rgb[i]);
-        const bool held = std::any_of(exposures.begin(), exposures.end(), [&](const Exposure& e) {
+        const bool held = std::any_of(exposures.begin(), exposures.end(), [&](const photometry::Exposure& e) {
             const double code = 255 * camera.value(truth * e.exposure, c);
             return code >= 40 && code <= 223;
         });

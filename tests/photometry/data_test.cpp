@@ -8,11 +8,13 @@
 namespace vesper::test {
 namespace {
 
+using photometry::intensity;
+
 const std::filesystem::path kData = std::filesystem::path(VESPER_SOURCE_DIR) / "data" / "photometry";
 
 class LowBeam : public testing::Test {
 protected:
-    const Distribution beam_ = read_distribution(kData / "low-beam.csv");
+    const photometry::Distribution beam_ = photometry::read_distribution(kData / "low-beam.csv");
     double at(double h, double v) const { return intensity(beam_, type_a(h, v)); }
     /// Least and largest intensity over a rectangle.
     std::pair<double, double> range(double left, double right, double bottom, double top) const {
@@ -65,21 +67,21 @@ TEST_F(LowBeam, HasItsCutOffAndFlux) {
         if (fall > steepest) steepest = fall, where = v;
     }
     EXPECT_NEAR(where, -0.57, 0.12);
-    EXPECT_NEAR(luminous_flux(beam_), 403, 1);
-    EXPECT_NEAR(largest_intensity(beam_), 28150, 10);
+    EXPECT_NEAR(photometry::luminous_flux(beam_), 403, 1);
+    EXPECT_NEAR(photometry::largest_intensity(beam_), 28150, 10);
     EXPECT_LT(at(2.5, 1.0), 400);
-    const Distribution left_hand = mirrored(beam_);
+    const photometry::Distribution left_hand = photometry::mirrored(beam_);
     EXPECT_NEAR(intensity(left_hand, type_a(3.43, 0.57)), at(-3.43, 0.57), 1e-6);
 }
 
 TEST(HighBeam, IsStrongAhead) {
-    const Distribution beam = read_distribution(kData / "high-beam.csv");
-    EXPECT_NEAR(largest_intensity(beam), 57000, 1);
-    EXPECT_NEAR(luminous_flux(beam), 724.7, 1);
+    const photometry::Distribution beam = photometry::read_distribution(kData / "high-beam.csv");
+    EXPECT_NEAR(photometry::largest_intensity(beam), 57000, 1);
+    EXPECT_NEAR(photometry::luminous_flux(beam), 724.7, 1);
     const auto at = [&](double h) { return intensity(beam, type_a(h, 0)); };
     // UN R149, table 5, class B: I_M >= 40 500 cd, HV >= 0.8 I_M, 2.5 deg >= 20 300, 5 deg >= 5 100, I_M <= 215 000.
-    EXPECT_GE(at(0), 0.8 * largest_intensity(beam));
-    EXPECT_GE(largest_intensity(beam), 40500);
+    EXPECT_GE(at(0), 0.8 * photometry::largest_intensity(beam));
+    EXPECT_GE(photometry::largest_intensity(beam), 40500);
     for (const double side : {-1.0, 1.0}) {
         EXPECT_GE(at(side * 2.5), 20300);
         EXPECT_GE(at(side * 5), 5100);
@@ -87,9 +89,9 @@ TEST(HighBeam, IsStrongAhead) {
 }
 
 TEST(StreetLamp, LightsTheRoad) {
-    const Distribution lamp = read_distribution(kData / "street-lamp.ies");
-    EXPECT_EQ(lamp.goniometry, Goniometry::CGamma);
-    EXPECT_NEAR(luminous_flux(lamp), 8000, 10);
+    const photometry::Distribution lamp = photometry::read_distribution(kData / "street-lamp.ies");
+    EXPECT_EQ(lamp.goniometry, photometry::Goniometry::CGamma);
+    EXPECT_NEAR(photometry::luminous_flux(lamp), 8000, 10);
     double best = 0, best_c = 0, best_gamma = 0;
     for (size_t h = 0; h < lamp.horizontal.size(); ++h)
         for (size_t v = 0; v < lamp.vertical.size(); ++v)

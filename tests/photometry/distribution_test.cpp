@@ -9,6 +9,8 @@
 namespace vesper::test {
 namespace {
 
+using photometry::Distribution, photometry::Goniometry, photometry::intensity, photometry::luminous_flux;
+
 const std::vector<double> kGammas = steps(0, 180, 5), kPlanes = steps(0, 360, 15);
 
 /// Flux by brute force over directions, independent of the goniometry's angles.
@@ -108,7 +110,7 @@ TEST(Distribution, MirroringExchangesLeftAndRight) {
         return 300 + std::fmod(h, 360) + v * std::sin(h * kRadiansPerDegree + 1);
     };
     const auto check = [](const Distribution& d) {
-        const Distribution other = mirrored(d);
+        const Distribution other = photometry::mirrored(d);
         for (const auto& way : {type_a(7, 3), type_a(-8, -2), type_a(1, -30), c_gamma(200, 120), c_gamma(5, 60)})
             EXPECT_NEAR(intensity(other, way), intensity(d, {-way.x, way.y, way.z}), 1e-6);
         EXPECT_NEAR(luminous_flux(other), luminous_flux(d), 1e-9 * luminous_flux(d));
@@ -121,9 +123,9 @@ TEST(Distribution, MirroringExchangesLeftAndRight) {
 }
 
 TEST(Distribution, AreaOfTheOpening) {
-    EXPECT_NEAR((LuminousOpening{0.6, 0.2, 0, false}.area()), 0.12, 1e-12);
-    EXPECT_NEAR((LuminousOpening{0.2, 0.2, 0, true}.area()), kPi * 0.01, 1e-12);
-    EXPECT_EQ(LuminousOpening{}.area(), 0);
+    EXPECT_NEAR((photometry::LuminousOpening{0.6, 0.2, 0, false}.area()), 0.12, 1e-12);
+    EXPECT_NEAR((photometry::LuminousOpening{0.2, 0.2, 0, true}.area()), kPi * 0.01, 1e-12);
+    EXPECT_EQ(photometry::LuminousOpening{}.area(), 0);
 }
 
 }  // namespace

@@ -26,9 +26,10 @@ inline std::vector<double> steps(double first, double last, double step) {
     return angles;
 }
 
-inline Distribution tabulate(Goniometry goniometry, std::vector<double> horizontal, std::vector<double> vertical,
-                             const std::function<double(double, double)>& candela) {
-    Distribution made;
+inline photometry::Distribution tabulate(photometry::Goniometry goniometry, std::vector<double> horizontal,
+                                         std::vector<double> vertical,
+                                         const std::function<double(double, double)>& candela) {
+    photometry::Distribution made;
     made.name = "made";
     made.goniometry = goniometry;
     made.horizontal = std::move(horizontal);

@@ -31,8 +31,8 @@ struct File {
     }
 };
 
-Distribution parsed_ldt(const std::string& text, size_t lamp_set = 0) {
-    return parse_eulumdat(bytes_of(text), "x.ldt", lamp_set);
+photometry::Distribution parsed_ldt(const std::string& text, size_t lamp_set = 0) {
+    return photometry::parse_eulumdat(bytes_of(text), "x.ldt", lamp_set);
 }
 std::string ldt_complaint(const std::string& text, size_t lamp_set = 0) {
     return complaint_of([&] { parsed_ldt(text, lamp_set); });
@@ -62,7 +62,7 @@ TEST(Eulumdat, PlanesGoRound) {
     EXPECT_NO_THROW(parsed_ldt(file.text()));
 }
 
-double at(const Distribution& d, double c) { return intensity(d, c_gamma(c, 45)); }
+double at(const photometry::Distribution& d, double c) { return photometry::intensity(d, c_gamma(c, 45)); }
 
 TEST(Eulumdat, AnAngleThatIsThereTwiceMustSayTheSame) {
     File file = plain();
@@ -73,7 +73,7 @@ TEST(Eulumdat, AnAngleThatIsThereTwiceMustSayTheSame) {
 }
 
 TEST(Eulumdat, ExpandsEverySymmetry) {
-    const Distribution none = parsed_ldt(plain().text());
+    const photometry::Distribution none = parsed_ldt(plain().text());
     EXPECT_EQ(none.horizontal, (std::vector<double>{0, 90, 180, 270, 360}));
     EXPECT_NEAR(at(none, 315), 25, 1e-9);
 
@@ -105,7 +105,7 @@ TEST(Eulumdat, ScalesByFluxAndConversionOnly) {
     File file = plain();
     file.lamps = {"3", "A", "2000", "3000", "80", "20", "-1", "B", "5000", "4000", "70", "50"};
     file.conversion = "1,5";
-    const Distribution first = parsed_ldt(file.text()), second = parsed_ldt(file.text(), 1);
+    const photometry::Distribution first = parsed_ldt(file.text()), second = parsed_ldt(file.text(), 1);
     EXPECT_NEAR(at(first, 0), 10 * 2 * 1.5, 1e-9);
     EXPECT_EQ(first.lamp_flux, 2000);
     EXPECT_NEAR(at(second, 0), 10 * 5 * 1.5, 1e-9);
@@ -115,7 +115,7 @@ TEST(Eulumdat, ScalesByFluxAndConversionOnly) {
 }
 
 TEST(Eulumdat, TakesWhatFilesReallyHold) {
-    const Distribution wanted = parsed_ldt(plain().text());
+    const photometry::Distribution wanted = parsed_ldt(plain().text());
     const auto same = [&](const std::string& text) { EXPECT_EQ(parsed_ldt(text).candela, wanted.candela) << text; };
     const std::string text = plain().text();
     std::string windows;
@@ -126,14 +126,14 @@ TEST(Eulumdat, TakesWhatFilesReallyHold) {
     same(text + "\n\n\x1a\n17\n18\n");  // another table after a blank line
     same(replaced(text, "0\n45\n90\n", "0,0\n\"45\"\n +90 \n"));
     same(replaced(text, "500\n200\n100\n0\n", "\n\n\n\n"));
-    const Distribution d = parsed_ldt(replaced(text, "\nLamp\n", "\nR\xe9verb\xe8re\n"));
+    const photometry::Distribution d = parsed_ldt(replaced(text, "\nLamp\n", "\nR\xe9verb\xe8re\n"));
     EXPECT_EQ(d.name, "Réverbère");
 }
 
 TEST(Eulumdat, ReadsTheLuminousArea) {
     File file = plain();
     file.area = "800\n200\n0\n30\n0\n0\n";
-    LuminousOpening o = parsed_ldt(file.text()).opening;
+    photometry::LuminousOpening o = parsed_ldt(file.text()).opening;
     EXPECT_EQ(o.width, 0.8);  // a luminaire is long across C0
     EXPECT_EQ(o.length, 0.2);
     EXPECT_EQ(o.height, 0.03);

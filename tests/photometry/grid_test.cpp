@@ -18,7 +18,9 @@
 namespace vesper::test {
 namespace {
 
-Distribution parsed_grid(const std::string& text) { return parse_grid_csv(bytes_of(text), "x.csv"); }
+using photometry::Distribution, photometry::Goniometry, photometry::read_distribution;
+
+Distribution parsed_grid(const std::string& text) { return photometry::parse_grid_csv(bytes_of(text), "x.csv"); }
 std::string grid_complaint(const std::string& text) {
     return complaint_of([&] { parsed_grid(text); });
 }
@@ -31,7 +33,7 @@ TEST(Grid, ReadsRowsAndColumns) {
     EXPECT_EQ(d.horizontal, (std::vector<double>{-10, 0, 20}));
     EXPECT_EQ(d.vertical, (std::vector<double>{-5, 5}));
     EXPECT_EQ(d.candela, (std::vector<double>{1, 4, 2, 5, 3, 6}));
-    EXPECT_NEAR(intensity(d, type_a(20, 5)), 6, 1e-9);
+    EXPECT_NEAR(photometry::intensity(d, type_a(20, 5)), 6, 1e-9);
 }
 
 TEST(Grid, TakesWhatLaboratoriesWrite) {
@@ -122,23 +124,24 @@ TEST(Grid, ReadsOpenExr) {
     EXPECT_EQ(d.vertical, (std::vector<double>{-5, 5}));
     EXPECT_EQ(d.candela, (std::vector<double>{1, 4, 2, 5, 3, 6}));
     write_picture(folder / "b.exr", "B");
-    EXPECT_EQ(read_grid_exr(folder / "b.exr").goniometry, Goniometry::TypeB);
+    EXPECT_EQ(photometry::read_grid_exr(folder / "b.exr").goniometry, Goniometry::TypeB);
     write_picture(folder / "d.exr", "D");
-    EXPECT_TRUE(
-        contains(complaint_of([&] { read_grid_exr(folder / "d.exr"); }), "d.exr: OpenEXR: its header attribute gonio"));
+    EXPECT_TRUE(contains(complaint_of([&] { photometry::read_grid_exr(folder / "d.exr"); }),
+                         "d.exr: OpenEXR: its header attribute gonio"));
     write_picture(folder / "e.exr", "", false);
-    EXPECT_TRUE(contains(complaint_of([&] { read_grid_exr(folder / "e.exr"); }), "verticalTop"));
+    EXPECT_TRUE(contains(complaint_of([&] { photometry::read_grid_exr(folder / "e.exr"); }), "verticalTop"));
 
     for (const char* name : {"a.exr", "d.exr", "e.exr"})
-        EXPECT_TRUE(is_grid_exr(bytes_of(read_text(folder / name)))) << name;
-    EXPECT_TRUE(is_grid_exr(bytes_of(read_text(folder / "a.exr").substr(0, 300))));
-    EXPECT_FALSE(is_grid_exr(bytes_of("no OpenEXR file at all")));
+        EXPECT_TRUE(photometry::is_grid_exr(bytes_of(read_text(folder / name)))) << name;
+    EXPECT_TRUE(photometry::is_grid_exr(bytes_of(read_text(folder / "a.exr").substr(0, 300))));
+    EXPECT_FALSE(photometry::is_grid_exr(bytes_of("no OpenEXR file at all")));
     // A header that states more than is there is refused before anything is allocated for it.
     std::string huge = read_text(folder / "a.exr");
     const size_t window = huge.find("dataWindow");
     ASSERT_NE(window, huge.npos);
     huge.replace(window + 11 + 6 + 4 + 8, 4, "\xff\xff\xff\x7f", 4);
-    EXPECT_TRUE(contains(complaint_of([&] { parse_grid_exr(bytes_of(huge), "huge.exr"); }), "horizontal angles"));
+    EXPECT_TRUE(
+        contains(complaint_of([&] { photometry::parse_grid_exr(bytes_of(huge), "huge.exr"); }), "horizontal angles"));
 }
 
 TEST(Grid, DamagedOpenExrGivesAnError) {
@@ -147,8 +150,8 @@ TEST(Grid, DamagedOpenExrGivesAnError) {
     const std::string picture = read_text(folder / "a.exr");
     const auto attempt = [](const std::string& bytes) {
         try {
-            const Distribution d = parse_grid_exr(bytes_of(bytes), "x.exr");
-            EXPECT_TRUE(std::isfinite(luminous_flux(d)));
+            const Distribution d = photometry::parse_grid_exr(bytes_of(bytes), "x.exr");
+            EXPECT_TRUE(std::isfinite(photometry::luminous_flux(d)));
         } catch (const Error& error) {
             EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
         }
@@ -167,7 +170,7 @@ TEST(Grid, FilesAreKnownByNameOrContents) {
     const TempFolder folder;
     EXPECT_EQ(read_distribution(folder.write("x.CSV", kPlain)).vertical.size(), 2u);
     EXPECT_EQ(read_distribution(folder.write("grid", kPlain)).vertical.size(), 2u);
-    const std::string ies = write_ies(parsed_grid(kPlain));
+    const std::string ies = photometry::write_ies(parsed_grid(kPlain));
     EXPECT_EQ(read_distribution(folder.write("x.IES", ies)).goniometry, Goniometry::TypeA);
     EXPECT_EQ(read_distribution(folder.write("profile.txt", ies)).goniometry, Goniometry::TypeA);
     write_picture(folder / "x.exr", "");

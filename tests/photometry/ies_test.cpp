@@ -8,7 +8,9 @@
 namespace vesper::test {
 namespace {
 
-Distribution parsed_ies(const std::string& text) { return parse_ies(bytes_of(text), "x.ies"); }
+using photometry::Distribution, photometry::Goniometry;
+
+Distribution parsed_ies(const std::string& text) { return photometry::parse_ies(bytes_of(text), "x.ies"); }
 std::string ies_complaint(const std::string& text) {
     return complaint_of([&] { parsed_ies(text); });
 }
@@ -46,7 +48,7 @@ TEST(Ies, MultipliesByWhatTheVersionSays) {
 }
 
 TEST(Ies, ExpandsSymmetry) {
-    const auto at = [](const Distribution& d, double c) { return intensity(d, c_gamma(c, 45)); };
+    const auto at = [](const Distribution& d, double c) { return photometry::intensity(d, c_gamma(c, 45)); };
     // Values at gamma 45: the plane's angle.
     const std::string three = "1 0 0\n1 45 0\n1 90 0";
     const Distribution quadrant = parsed_ies(file("IESNA:LM-63-2002", "3", "0 45 90", three));
@@ -176,12 +178,12 @@ TEST(Ies, AppliesTiltForTheLampAsMeasured) {
 
     const TempFolder folder;
     const auto lamp = folder.write("lamp.ies", replaced(kPlainIes, "TILT=NONE", "TILT=lamp.tlt"));
-    EXPECT_TRUE(contains(complaint_of([&] { read_ies(lamp); }), "line 4: TILT=lamp.tlt"));
+    EXPECT_TRUE(contains(complaint_of([&] { photometry::read_ies(lamp); }), "line 4: TILT=lamp.tlt"));
     folder.write("lamp.tlt", table);
-    EXPECT_NEAR(read_ies(lamp).candela[0], 90, 1e-9);
-    EXPECT_EQ(read_ies(lamp).name, "lamp");
+    EXPECT_NEAR(photometry::read_ies(lamp).candela[0], 90, 1e-9);
+    EXPECT_EQ(photometry::read_ies(lamp).name, "lamp");
     const auto outside = folder.write("outside.ies", replaced(kPlainIes, "TILT=NONE", "TILT=../lamp.tlt"));
-    EXPECT_TRUE(contains(complaint_of([&] { read_ies(outside); }), "neither NONE"));
+    EXPECT_TRUE(contains(complaint_of([&] { photometry::read_ies(outside); }), "neither NONE"));
     EXPECT_NEAR(parsed_ies(replaced(kPlainIes, "TILT=NONE", "TILT=lamp.tlt")).candela[0], 100,
                 1e-9);  // no folder to look in
 }
@@ -190,7 +192,7 @@ TEST(Ies, ReadsTheLuminousOpening) {
     const auto opening = [](const std::string& units, const std::string& size) {
         return parsed_ies(replaced(kPlainIes, "2 0 0 0\n", units + " " + size + "\n")).opening;
     };
-    LuminousOpening o = opening("2", "0.3 1.2 0");
+    photometry::LuminousOpening o = opening("2", "0.3 1.2 0");
     EXPECT_EQ(o.length, 1.2);
     EXPECT_EQ(o.width, 0.3);
     EXPECT_FALSE(o.round);
@@ -264,7 +266,7 @@ TEST(Ies, WritingComesBack) {
     all[1].opening = {1.2, 0.3, 0, false};
     all[1].metadata = {{"MANUFAC", "Réverbère\nSA"}, {"LUMINAIRE", "made"}};
     for (const Distribution& d : all) {
-        const std::string text = write_ies(d);
+        const std::string text = photometry::write_ies(d);
         const Distribution back = parsed_ies(text);
         EXPECT_EQ(back.goniometry, d.goniometry);
         EXPECT_EQ(back.name, d.name);
@@ -276,7 +278,7 @@ TEST(Ies, WritingComesBack) {
             EXPECT_EQ(static_cast<float>(back.candela[i]), static_cast<float>(d.candela[i]));
         EXPECT_NEAR(back.opening.area(), d.opening.area(), 1e-12);
         EXPECT_EQ(back.opening.height, d.opening.height);
-        EXPECT_EQ(write_ies(back), text);  // nothing drifts
+        EXPECT_EQ(photometry::write_ies(back), text);  // nothing drifts
         for (size_t at = 0; at < text.size();) {
             const size_t end = text.find("\r\n", at);
             EXPECT_LE(end - at, 256u);
@@ -285,10 +287,11 @@ TEST(Ies, WritingComesBack) {
     }
     // A range that begins at H = 0 is not taken for a half.
     const Distribution right = tabulate(Goniometry::TypeA, {0, 10}, {-5, 5}, [](double, double) { return 7.0; });
-    const Distribution back = parsed_ies(write_ies(right));
-    EXPECT_EQ(intensity(back, type_a(5, 0)), 7);
-    EXPECT_EQ(intensity(back, type_a(-5, 0)), 0);
-    EXPECT_NEAR(luminous_flux(back), luminous_flux(right), 1e-3 * luminous_flux(right));
+    const Distribution back = parsed_ies(photometry::write_ies(right));
+    EXPECT_EQ(photometry::intensity(back, type_a(5, 0)), 7);
+    EXPECT_EQ(photometry::intensity(back, type_a(-5, 0)), 0);
+    EXPECT_NEAR(photometry::luminous_flux(back), photometry::luminous_flux(right),
+                1e-3 * photometry::luminous_flux(right));
 }
 
 }  // namespace

@@ -11,45 +11,45 @@
 #include "io/hdr_image.h"
 #include "support/complaints.h"
 
-namespace vesper {
+namespace vesper::test {
 namespace {
 
 double photometric(const float* c) { return 0.212639 * c[0] + 0.715169 * c[1] + 0.072192 * c[2]; }
 
-HdrImage grey(uint32_t width, uint32_t height, const std::vector<float>& values) {
-    HdrImage image{.width = width, .height = height};
+io::HdrImage grey(uint32_t width, uint32_t height, const std::vector<float>& values) {
+    io::HdrImage image{.width = width, .height = height};
     for (const float value : values) image.rgb.insert(image.rgb.end(), 3, value);
     return image;
 }
 
 TEST(LuminancePicture, KeepsItsNumbers) {
-    HdrImage image = grey(2, 1, {1e-6f, 1e8f});
+    io::HdrImage image = grey(2, 1, {1e-6f, 1e8f});
     image.rgb[5] = 3;
-    const LuminancePicture made = make_luminance_picture(image);
+    const photometry::LuminancePicture made = photometry::make_luminance_picture(image);
     EXPECT_EQ(made.rgb, image.rgb);
-    EXPECT_NEAR(largest_luminance(made), 0.927808e8, 1);
-    EXPECT_NEAR(mean_colour(made).g, 0.5e8, 1);
-    EXPECT_NEAR(mean_colour(made).b, 1.5, 1e-5);
+    EXPECT_NEAR(photometry::largest_luminance(made), 0.927808e8, 1);
+    EXPECT_NEAR(photometry::mean_colour(made).g, 0.5e8, 1);
+    EXPECT_NEAR(photometry::mean_colour(made).b, 1.5, 1e-5);
 }
 
 TEST(LuminancePicture, RefusesWhatIsNoNumber) {
     const float inf = std::numeric_limits<float>::infinity();
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), inf, -inf, 2e30f}) {
-        HdrImage image = grey(3, 2, {1, 1, 1, 1, 1, 1});
+        io::HdrImage image = grey(3, 2, {1, 1, 1, 1, 1, 1});
         image.rgb[3 * 5 + 1] = bad;
-        EXPECT_EQ(test::complaint_of([&] { make_luminance_picture(image); }),
+        EXPECT_EQ(complaint_of([&] { photometry::make_luminance_picture(image); }),
                   "pixel (2, 1) is not finite, or beyond 1e30")
             << bad;
     }
 }
 
 TEST(LuminancePicture, ColoursOutsideTheGamutKeepTheirLuminance) {
-    HdrImage image = grey(4, 1, {2, -1, 0, 1});
+    io::HdrImage image = grey(4, 1, {2, -1, 0, 1});
     const float red[] = {5, -0.4f, -0.1f};  // a tail lamp in Rec. 709
     std::copy(red, red + 3, image.rgb.begin());
     image.rgb[9] = -9;  // of negative luminance
     uint64_t changed = 3;
-    const LuminancePicture made = make_luminance_picture(image, &changed);
+    const photometry::LuminancePicture made = photometry::make_luminance_picture(image, &changed);
     EXPECT_EQ(changed, 6u);
     EXPECT_NEAR(photometric(&made.rgb[0]) / photometric(red), 1, 1e-6);
     EXPECT_NEAR(made.rgb[1], 0, 1e-6);
@@ -60,8 +60,8 @@ TEST(LuminancePicture, ColoursOutsideTheGamutKeepTheirLuminance) {
 
 TEST(LuminancePicture, MeansOverTriangles) {
     // 4 x 2: left half 1, right half 9, one texel of 100.
-    LuminancePicture p = make_luminance_picture(grey(4, 2, {1, 1, 9, 9, 1, 100, 9, 9}));
-    const PictureMeans means(p);
+    photometry::LuminancePicture p = photometry::make_luminance_picture(grey(4, 2, {1, 1, 9, 9, 1, 100, 9, 9}));
+    const photometry::PictureMeans means(p);
     const auto quad = [&](glm::dvec2 low, glm::dvec2 high) {  // two triangles of equal size
         return (means.over({low, {high.x, low.y}, high}) + means.over({low, high, {low.x, high.y}})) / 2;
     };
@@ -83,8 +83,8 @@ TEST(LuminancePicture, MeansAreThoseOfManyPoints) {
     std::uniform_real_distribution<double> unit(0, 1);
     std::vector<float> values(64 * 64);
     for (float& v : values) v = float(unit(random));
-    const LuminancePicture p = make_luminance_picture(grey(64, 64, values));
-    const PictureMeans means(p);
+    const photometry::LuminancePicture p = photometry::make_luminance_picture(grey(64, 64, values));
+    const photometry::PictureMeans means(p);
     for (int k = 0; k < 20; ++k) {
         std::array<glm::dvec2, 3> uv;
         for (glm::dvec2& at : uv) at = {3 * unit(random) - 1, 3 * unit(random) - 1};
@@ -101,4 +101,4 @@ TEST(LuminancePicture, MeansAreThoseOfManyPoints) {
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

@@ -10,18 +10,18 @@
 namespace vesper::test {
 namespace {
 
-using Parse = std::function<Distribution(const std::string&)>;
+using Parse = std::function<photometry::Distribution(const std::string&)>;
 
-bool sound(const Distribution& d) {
+bool sound(const photometry::Distribution& d) {
     if (d.candela.size() != d.horizontal.size() * d.vertical.size() || d.vertical.size() < 2) return false;
     for (const double candela : d.candela)
         if (!(candela >= 0 && std::isfinite(candela))) return false;
     for (const auto* angles : {&d.horizontal, &d.vertical})
         for (size_t i = 1; i < angles->size(); ++i)
             if (!((*angles)[i] > (*angles)[i - 1])) return false;
-    if (d.goniometry == Goniometry::CGamma && d.horizontal.size() > 1)
+    if (d.goniometry == photometry::Goniometry::CGamma && d.horizontal.size() > 1)
         if (d.horizontal.front() != 0 || d.horizontal.back() != 360) return false;
-    return std::isfinite(luminous_flux(d)) && std::isfinite(intensity(d, {0.1, 0.2, -0.5}));
+    return std::isfinite(photometry::luminous_flux(d)) && std::isfinite(photometry::intensity(d, {0.1, 0.2, -0.5}));
 }
 
 void try_one(const Parse& parse, const std::string& text) {
@@ -62,7 +62,7 @@ void torment(const Parse& parse, const std::string& text) {
 }
 
 TEST(Malformed, Ies) {
-    const Parse parse = [](const std::string& text) { return parse_ies(bytes_of(text), "x.ies"); };
+    const Parse parse = [](const std::string& text) { return photometry::parse_ies(bytes_of(text), "x.ies"); };
     const std::string header = "IESNA:LM-63-1995\n[TEST] a\n[MORE] b\nTILT=INCLUDE\n1 2 0 90 1 0.5\n";
     torment(parse, header + "1 -1 1 3 3 1 2 0 0 0\n1 1 20\n0 45 90\n0 45 90\n1 2 3\n4 5 6\n7 8 9\n");
     torment(parse, header + "1 -1 1 2 2 3 1 0 0 0\n1 1 20\n-5 5\n0 10\n1 2 3,5 4\n");
@@ -70,7 +70,7 @@ TEST(Malformed, Ies) {
 }
 
 TEST(Malformed, Eulumdat) {
-    const Parse parse = [](const std::string& text) { return parse_eulumdat(bytes_of(text), "x.ldt"); };
+    const Parse parse = [](const std::string& text) { return photometry::parse_eulumdat(bytes_of(text), "x.ldt"); };
     for (const char* symmetry : {"0", "1", "2", "3", "4"})
         torment(parse, "C\n1\n" + std::string(symmetry) +
                            "\n4\n90\n2\n5\nr\nn\nl\nf\nd\n1\n1\n1\n1\n0\n0\n0\n0\n0\n100\n100\n1\n0\n1\n1\nL\n1000\nw\n"
@@ -78,7 +78,7 @@ TEST(Malformed, Eulumdat) {
 }
 
 TEST(Malformed, Grid) {
-    const Parse parse = [](const std::string& text) { return parse_grid_csv(bytes_of(text), "x.csv"); };
+    const Parse parse = [](const std::string& text) { return photometry::parse_grid_csv(bytes_of(text), "x.csv"); };
     torment(parse, "# goniometry: A\nA,-10,0,20\n5,4,5,6\n-5,1,2,3\n");
     torment(parse, "gamma\\C;0;45;90\n0;4;5;6\n90;1;2,5;3\n");
     torment(parse, "H_deg,V_deg,cd\n0,5,5\n-10,5,4\n-10,-5,1\n0,-5,2\n");
@@ -87,7 +87,8 @@ TEST(Malformed, Grid) {
 TEST(Malformed, NothingIsAllocatedForWhatIsOnlyStated) {
     const auto message = [](const std::string& counts) {
         return complaint_of([&] {
-            parse_ies(bytes_of("IESNA91\nTILT=NONE\n1 -1 1 " + counts + " 1 2 0 0 0 1 1 1\n0 45 90\n"), "x.ies");
+            photometry::parse_ies(bytes_of("IESNA91\nTILT=NONE\n1 -1 1 " + counts + " 1 2 0 0 0 1 1 1\n0 45 90\n"),
+                                  "x.ies");
         });
     };
     EXPECT_TRUE(contains(message("4096 4096"), "more than 8000000 intensities"));

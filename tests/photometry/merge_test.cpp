@@ -13,6 +13,9 @@
 namespace vesper::test {
 namespace {
 
+using io::HdrImage;
+using photometry::Exposure, photometry::gamma_response, photometry::merge_exposures;
+
 HdrImage every_fourth(const HdrImage& image) {
     HdrImage made{image.width / 4, image.height / 4};
     for (size_t y = 0; y < made.height; ++y)
@@ -36,7 +39,8 @@ TEST(Merge, RecoversRadianceWithinFivePercent) {
                  {"film, one stop", film_camera(), 2, 16}};
     for (const auto& c : cases) {
         const auto exposures = bracket(scene, c.camera, 0.005, c.ratio, c.count);
-        const MergedImage merged = merge_exposures(exposures, recover_response(exposures).response);
+        const photometry::MergedImage merged =
+            merge_exposures(exposures, photometry::recover_response(exposures).response);
         const RadianceError error = radiance_error(merged, scene, c.camera, exposures);
         EXPECT_GT(error.values, scene.rgb.size() * 95 / 100) << c.name;
         EXPECT_LT(error.worst, 0.05) << c.name;
@@ -51,7 +55,7 @@ TEST(Merge, RecoversRadianceThroughNoiseOfOneCode) {
     std::vector<HdrImage> scenes = {night(160, 120)};
     for (const char* name : {"hdr/polyhaven/dikhololo_night_1k.hdr", "hdr/polyhaven/potsdamer_platz_1k.hdr"})
         if (const std::filesystem::path file = shared_data(name); is_here(file))
-            scenes.push_back(every_fourth(read_hdr_image(file)));
+            scenes.push_back(every_fourth(io::read_hdr_image(file)));
     for (const HdrImage& scene : scenes)
         for (const KnownCamera& camera : {gamma_camera(1), srgb_camera(1), film_camera(1), filmic_camera(1)})
             for (const auto& [ratio, count] : {std::pair(2, 3), std::pair(2, 5), std::pair(2, 9), std::pair(4, 3),
@@ -63,7 +67,8 @@ TEST(Merge, RecoversRadianceThroughNoiseOfOneCode) {
                 const double middle = camera.exposure(128 / 255.0, 1) / double(greens[greens.size() / 2]);
                 const auto exposures =
                     bracket(scene, camera, middle * std::pow(ratio, -(count - 1) / 2.0), ratio, count);
-                const MergedImage merged = merge_exposures(exposures, recover_response(exposures).response);
+                const photometry::MergedImage merged =
+                    merge_exposures(exposures, photometry::recover_response(exposures).response);
                 const RadianceError error = radiance_error(merged, scene, camera, exposures);
                 const std::string name = std::to_string(&scene - scenes.data()) + ", " + std::to_string(count) +
                                          " by " + std::to_string(ratio);
@@ -76,10 +81,10 @@ TEST(Merge, RecoversRadianceThroughNoiseOfOneCode) {
 TEST(Merge, RecoversASharedPicture) {
     const std::filesystem::path file = shared_data("hdr/polyhaven/dikhololo_night_1k.hdr");
     if (!is_here(file)) GTEST_SKIP() << "the shared set is not here";
-    const HdrImage scene = read_hdr_image(file);
+    const HdrImage scene = io::read_hdr_image(file);
     for (const KnownCamera& camera : {gamma_camera(), film_camera()}) {
         const auto exposures = bracket(scene, camera, 0.01, 4, 10);
-        const RecoveredResponse recovered = recover_response(exposures);
+        const photometry::RecoveredResponse recovered = photometry::recover_response(exposures);
         for (size_t c = 0; c < 3; ++c) EXPECT_LT(response_error(recovered.response, camera, c, 16, 239), 0.05);
         const RadianceError error =
             radiance_error(merge_exposures(exposures, recovered.response), scene, camera, exposures);
@@ -94,7 +99,7 @@ TEST(Merge, WithAKnownResponseWeighsByPrecision) {
     const uint8_t codes[] = {20, 90, 250};
     const double t[] = {0.25, 1, 4};
     for (size_t i = 0; i < 3; ++i) exposures[i] = {Image{"", 1, 1, {codes[i], codes[i], codes[i], 255}}, t[i], {}};
-    const MergedImage merged = merge_exposures(exposures, gamma_response(1));
+    const photometry::MergedImage merged = merge_exposures(exposures, gamma_response(1));
     // 1 / slope^2, the slope over 8 codes; less within 32 of an end; 250 is no good code.
     const double weights[] = {20 / 32.0 * std::pow(8 / std::log(24 / 16.0), 2), std::pow(8 / std::log(94 / 86.0), 2)};
     const double wanted =
@@ -115,7 +120,7 @@ TEST(Merge, CountsWhatNoPictureHolds) {
         return made;
     };
     const std::vector<Exposure> exposures = {picture({50, 0, 255, 3, 7}, 1), picture({200, 0, 255, 255, 8}, 4)};
-    const MergedImage merged = merge_exposures(exposures, gamma_response(1));
+    const photometry::MergedImage merged = merge_exposures(exposures, gamma_response(1));
     EXPECT_EQ(merged.too_dark, 1u);
     EXPECT_EQ(merged.too_bright, 1u);
     EXPECT_EQ(merged.between, 1u);
@@ -130,7 +135,7 @@ TEST(Merge, CountsWhatNoPictureHolds) {
 TEST(Merge, ScalesToAKnownLuminance) {
     const HdrImage scene = night(64, 48);
     const auto exposures = bracket(scene, srgb_camera(), 0.005, 4, 8);
-    MergedImage merged = merge_exposures(exposures, srgb_response());
+    photometry::MergedImage merged = merge_exposures(exposures, photometry::srgb_response());
     const auto luminance_at = [&](const HdrImage& image, size_t x, size_t y) {
         const float* p = image.rgb.data() + 3 * (y * image.width + x);
         return 0.212639 * static_cast<double>(p[0]) + 0.715169 * static_cast<double>(p[1]) +
@@ -140,25 +145,25 @@ TEST(Merge, ScalesToAKnownLuminance) {
     for (size_t y = 20; y < 24; ++y)
         for (size_t x = 30; x < 35; ++x) mean += luminance_at(scene, x, y) / 20;
     const double range = merged.brightest / merged.darkest;
-    scale_to_luminance(merged, {30, 20, 5, 4}, mean);
+    photometry::scale_to_luminance(merged, {30, 20, 5, 4}, mean);
     EXPECT_EQ(merged.image.white_luminance, 1.0);
     EXPECT_NEAR(merged.brightest / merged.darkest, range, 1e-9 * range);
     for (size_t x = 5; x < 60; x += 9)
         EXPECT_NEAR(luminance_at(merged.image, x, 11) / luminance_at(scene, x, 11), 1, 0.05);
-    EXPECT_THROW(scale_to_luminance(merged, {60, 20, 5, 4}, 1), Error);
-    EXPECT_THROW(scale_to_luminance(merged, {-1, 20, 5, 4}, 1), Error);
-    EXPECT_THROW(scale_to_luminance(merged, {0, 0, INT64_MAX, 1}, 1), Error);
+    EXPECT_THROW(photometry::scale_to_luminance(merged, {60, 20, 5, 4}, 1), Error);
+    EXPECT_THROW(photometry::scale_to_luminance(merged, {-1, 20, 5, 4}, 1), Error);
+    EXPECT_THROW(photometry::scale_to_luminance(merged, {0, 0, INT64_MAX, 1}, 1), Error);
     merged.held[20 * 64 + 31] = 0;
-    EXPECT_THROW(scale_to_luminance(merged, {30, 20, 5, 4}, 1), Error);
-    EXPECT_THROW(scale(merged, 0), Error);
+    EXPECT_THROW(photometry::scale_to_luminance(merged, {30, 20, 5, 4}, 1), Error);
+    EXPECT_THROW(photometry::scale(merged, 0), Error);
 
     const TempFolder folder;
-    write_exr(folder / "x.exr", merged.image);
-    const HdrImage read = read_exr(folder / "x.exr");
+    io::write_exr(folder / "x.exr", merged.image);
+    const HdrImage read = io::read_exr(folder / "x.exr");
     EXPECT_EQ(read.rgb, merged.image.rgb);
     EXPECT_EQ(read.white_luminance, 1.0);
-    write_exr(folder / "x.exr", merge_exposures(exposures, srgb_response()).image);
-    EXPECT_EQ(read_exr(folder / "x.exr").white_luminance, 0.0);
+    io::write_exr(folder / "x.exr", merge_exposures(exposures, photometry::srgb_response()).image);
+    EXPECT_EQ(io::read_exr(folder / "x.exr").white_luminance, 0.0);
 }
 
 TEST(Merge, RefusesPicturesThatDoNotFit) {
@@ -184,13 +189,13 @@ TEST(Align, FindsKnownShifts) {
     for (size_t i = 0; i < shifts.size(); ++i)
         exposures.push_back(photograph(scene, gamma_camera(), 0.02 * std::pow(4, i), random, shifts[i], kMargin));
     std::swap(exposures[1], exposures[6]);  // the order of files is not that of exposures
-    estimate_shifts(exposures);
+    photometry::estimate_shifts(exposures);
     std::swap(exposures[1], exposures[6]);
     const glm::ivec2 reference = shifts[4];  // the middle exposure
     for (size_t i = 0; i < shifts.size(); ++i) EXPECT_EQ(exposures[i].shift, shifts[i] - reference) << i;
 
     // Aligned pictures merge as if they had never moved, away from the borders.
-    const auto inner_error = [&](const MergedImage& merged) {
+    const auto inner_error = [&](const photometry::MergedImage& merged) {
         double sum = 0;
         int count = 0;
         for (int y = 40; y < 200; ++y)
@@ -213,32 +218,33 @@ TEST(Align, FindsKnownShifts) {
 
 TEST(Align, LeavesStillPicturesAlone) {
     std::vector<Exposure> exposures = bracket(night(100, 75), film_camera(2), 0.005, 4, 8);
-    estimate_shifts(exposures);
+    photometry::estimate_shifts(exposures);
     for (const Exposure& exposure : exposures) EXPECT_EQ(exposure.shift, glm::ivec2(0));
     std::vector<Exposure> tiny = {{Image{"", 1, 1, {5, 5, 5, 255}}, 1, {}},
                                   {Image{"", 1, 1, {90, 90, 90, 255}}, 2, {}}};
-    estimate_shifts(tiny);
+    photometry::estimate_shifts(tiny);
     EXPECT_EQ(tiny[0].shift, glm::ivec2(0));
-    estimate_shifts({});
+    photometry::estimate_shifts({});
 }
 
 TEST(Align, UncoveredPixelsAreBlackOrOfTheReference) {
     std::vector<Exposure> exposures = {{Image{"", 2, 1, {100, 100, 100, 255, 50, 50, 50, 255}}, 1, {}}};
     exposures[0].shift = {1, 0};
-    const MergedImage merged = merge_exposures(exposures, gamma_response(1));
+    const photometry::MergedImage merged = merge_exposures(exposures, gamma_response(1));
     EXPECT_NEAR(merged.image.rgb[0], 50 / 128.0, 1e-6);
     EXPECT_EQ(merged.image.rgb[3], 0);
     EXPECT_EQ(merged.held, (std::vector<uint8_t>{1, 0}));
 }
 
 TEST(Merge, ExposuresFollowFromCameras) {
-    using Pictures = std::vector<std::pair<std::string, CameraExposure>>;
-    const std::vector<double> found = relative_exposures(Pictures{{"a", {0.1, 2.0, 100}}, {"b", {0.2, 4.0, 400}}});
+    using Pictures = std::vector<std::pair<std::string, io::CameraExposure>>;
+    const std::vector<double> found =
+        photometry::relative_exposures(Pictures{{"a", {0.1, 2.0, 100}}, {"b", {0.2, 4.0, 400}}});
     EXPECT_NEAR(found[1] / found[0], 2.0 * 4 / 4, 1e-12);
-    EXPECT_NEAR(relative_exposures(Pictures{{"a", {0.1, {}, {}}}, {"b", {0.4, {}, {}}}})[1], 0.4, 1e-12);
-    EXPECT_THROW(relative_exposures(Pictures{{"a", {0.1, 2.0, 100}}, {"b", {{}, 4.0, 400}}}), Error);
-    EXPECT_THROW(relative_exposures(Pictures{{"a", {0.1, 2.0, 100}}, {"b", {0.1, {}, 400}}}), Error);
-    EXPECT_THROW(relative_exposures(Pictures{{"a", {0.1, 2.0, 100}}, {"b", {0.1, 2.0, {}}}}), Error);
+    EXPECT_NEAR(photometry::relative_exposures(Pictures{{"a", {0.1, {}, {}}}, {"b", {0.4, {}, {}}}})[1], 0.4, 1e-12);
+    EXPECT_THROW(photometry::relative_exposures(Pictures{{"a", {0.1, 2.0, 100}}, {"b", {{}, 4.0, 400}}}), Error);
+    EXPECT_THROW(photometry::relative_exposures(Pictures{{"a", {0.1, 2.0, 100}}, {"b", {0.1, {}, 400}}}), Error);
+    EXPECT_THROW(photometry::relative_exposures(Pictures{{"a", {0.1, 2.0, 100}}, {"b", {0.1, 2.0, {}}}}), Error);
 }
 
 }  // namespace

@@ -13,8 +13,10 @@
 namespace vesper::test {
 namespace {
 
+using photometry::ReflectionTable, photometry::find_reflection_table, photometry::reduced_luminance_coefficient;
+
 ReflectionTable parse(std::string_view text) {
-    return parse_reflection_table({reinterpret_cast<const uint8_t*>(text.data()), text.size()}, "t.csv");
+    return photometry::parse_reflection_table({reinterpret_cast<const uint8_t*>(text.data()), text.size()}, "t.csv");
 }
 
 /// q the same in all directions.
@@ -36,18 +38,18 @@ TEST(ReflectionTable, StandardTablesHaveTheirPublishedFactors) {
     } published[] = {{"R1", 0.10, 0.25, 1.53}, {"R2", 0.07, 0.58, 1.80}, {"R3", 0.07, 1.11, 2.38},
                      {"R4", 0.08, 1.55, 3.03}, {"C1", 0.10, 0.24, 0},    {"C2", 0.07, 0.97, 0},
                      {"W3", 0.20, 8.65, 0},    {"W4", 0.25, 10.84, 0}};
-    EXPECT_EQ(standard_reflection_tables().size(), std::size(published));
+    EXPECT_EQ(photometry::standard_reflection_tables().size(), std::size(published));
     for (const auto& p : published) {
         const ReflectionTable table = find_reflection_table(p.name);
         EXPECT_EQ(table.tan_gamma.size(), 29u) << p.name;
         EXPECT_EQ(table.beta.size(), 20u) << p.name;
         EXPECT_EQ(table.stated_q0, p.q0) << p.name;
-        EXPECT_NEAR(average_luminance_coefficient(table) / p.q0, 1.015, 0.015) << p.name;
-        EXPECT_NEAR(specular_factor(table), p.s1, 0.006) << p.name;
+        EXPECT_NEAR(photometry::average_luminance_coefficient(table) / p.q0, 1.015, 0.015) << p.name;
+        EXPECT_NEAR(photometry::specular_factor(table), p.s1, 0.006) << p.name;
         if (p.s2 > 0) {
             EXPECT_NEAR(table.stated_q0 / table.r.front(), p.s2, 0.006) << p.name;
         }
-        EXPECT_EQ(rescaled(table, p.q0), table) << p.name;
+        EXPECT_EQ(photometry::rescaled(table, p.q0), table) << p.name;
     }
 }
 
@@ -58,7 +60,7 @@ TEST(ReflectionTable, R3HasTheNumbersOfTheStandard) {
     EXPECT_DOUBLE_EQ(reduced_luminance_coefficient(r3, 2, 30), 71e-4);
     EXPECT_DOUBLE_EQ(reduced_luminance_coefficient(r3, 12, 15), 1.8e-4);
     EXPECT_DOUBLE_EQ(reduced_luminance_coefficient(r3, 5, 180), 7.1e-4);
-    EXPECT_DOUBLE_EQ(luminance_coefficient(r3, 2, 0), 326e-4 * std::pow(5, 1.5));
+    EXPECT_DOUBLE_EQ(photometry::luminance_coefficient(r3, 2, 0), 326e-4 * std::pow(5, 1.5));
 }
 
 TEST(ReflectionTable, IsBilinear) {
@@ -68,24 +70,25 @@ TEST(ReflectionTable, IsBilinear) {
     EXPECT_NEAR(reduced_luminance_coefficient(table, 0.5, 315), 8e-4, 1e-15);
     EXPECT_NEAR(reduced_luminance_coefficient(table, 1, 135), 2e-4, 1e-15);  // towards the empty field
     EXPECT_EQ(reduced_luminance_coefficient(table, 1.0001, 0), 0);
-    EXPECT_NEAR(reduced_luminance_coefficient(extended(table), 1.0001, 0), 8e-4, 1e-6);
+    EXPECT_NEAR(reduced_luminance_coefficient(photometry::extended(table), 1.0001, 0), 8e-4, 1e-6);
 }
 
 TEST(ReflectionTable, AverageOfLambertIsItsCoefficient) {
-    EXPECT_NEAR(average_luminance_coefficient(lambert(0.05)), 0.05, 1e-5);
-    const ReflectionTable half = rescaled(lambert(0.05), 0.025);
-    EXPECT_NEAR(luminance_coefficient(half, 3, 10), 0.025, 1e-6);
+    EXPECT_NEAR(photometry::average_luminance_coefficient(lambert(0.05)), 0.05, 1e-5);
+    const ReflectionTable half = photometry::rescaled(lambert(0.05), 0.025);
+    EXPECT_NEAR(photometry::luminance_coefficient(half, 3, 10), 0.025, 1e-6);
     EXPECT_EQ(half.stated_q0, 0.025);
-    EXPECT_THROW(rescaled(lambert(0.05), 0), Error);
-    EXPECT_THROW(rescaled(lambert(0.05), std::numeric_limits<double>::quiet_NaN()), Error);
+    EXPECT_THROW(photometry::rescaled(lambert(0.05), 0), Error);
+    EXPECT_THROW(photometry::rescaled(lambert(0.05), std::numeric_limits<double>::quiet_NaN()), Error);
 }
 
 // A sum over directions of its own, 0.5 degrees apart.
 TEST(ReflectionTable, LightFromAllSidesIsReflectedByQd) {
-    EXPECT_NEAR(diffuse_luminance_coefficient(extended(lambert(0.05))), 0.05,
+    EXPECT_NEAR(photometry::diffuse_luminance_coefficient(photometry::extended(lambert(0.05))), 0.05,
                 2e-4);  // what is beyond tan 20 is not Lambert's
-    for (const std::string& name : standard_reflection_tables()) {
-        const ReflectionTable table = extended(find_reflection_table(name)), plain = without_sheen(table);
+    for (const std::string& name : photometry::standard_reflection_tables()) {
+        const ReflectionTable table = photometry::extended(find_reflection_table(name)),
+                              plain = photometry::without_sheen(table);
         EXPECT_EQ(reduced_luminance_coefficient(plain, 3.3, 17), reduced_luminance_coefficient(table, 3.3, 90)) << name;
         const double radian = std::numbers::pi / 180;
         for (const ReflectionTable& t : {table, plain}) {
@@ -94,20 +97,22 @@ TEST(ReflectionTable, LightFromAllSidesIsReflectedByQd) {
                 for (double beta = 0.25; beta < 360; beta += 0.5) {
                     const double solid = std::sin(gamma * radian) * 0.25 * radian * radian,
                                  horizontal = solid * std::cos(gamma * radian);
-                    luminance += horizontal * luminance_coefficient(t, std::tan(gamma * radian), beta);
+                    luminance += horizontal * photometry::luminance_coefficient(t, std::tan(gamma * radian), beta);
                     illuminance += horizontal;
                 }
-            EXPECT_NEAR(luminance / illuminance / diffuse_luminance_coefficient(t), 1, 2e-3) << name;
+            EXPECT_NEAR(luminance / illuminance / photometry::diffuse_luminance_coefficient(t), 1, 2e-3) << name;
         }
     }
     // Sheen is seen flat, where lamps that count for Q0 are: less of it comes from the whole sky.
-    EXPECT_NEAR(diffuse_luminance_coefficient(extended(find_reflection_table("R3"))), 0.0543, 1e-4);
-    EXPECT_NEAR(diffuse_luminance_coefficient(extended(find_reflection_table("W4"))), 0.1259, 1e-4);
+    EXPECT_NEAR(photometry::diffuse_luminance_coefficient(photometry::extended(find_reflection_table("R3"))), 0.0543,
+                1e-4);
+    EXPECT_NEAR(photometry::diffuse_luminance_coefficient(photometry::extended(find_reflection_table("W4"))), 0.1259,
+                1e-4);
 }
 
 TEST(ReflectionTable, ExtensionLeavesCoveredCellsAndFallsSmoothly) {
-    for (const std::string& name : standard_reflection_tables()) {
-        const ReflectionTable table = find_reflection_table(name), smooth = extended(table);
+    for (const std::string& name : photometry::standard_reflection_tables()) {
+        const ReflectionTable table = find_reflection_table(name), smooth = photometry::extended(table);
         size_t filled = 0;
         for (size_t i = 0; i < table.r.size(); ++i) {
             if (table.r[i] == 0) ++filled;
@@ -124,8 +129,8 @@ TEST(ReflectionTable, ExtensionLeavesCoveredCellsAndFallsSmoothly) {
             }
         EXPECT_LT(reduced_luminance_coefficient(smooth, 1000, 0), 1e-5);
         // L per illuminance facing the lamp stays beyond the table.
-        EXPECT_NEAR(luminance_coefficient(smooth, 30, 40) * std::sqrt(145.0),
-                    luminance_coefficient(smooth, 12, 40) * std::sqrt(901.0), 1e-9);
+        EXPECT_NEAR(photometry::luminance_coefficient(smooth, 30, 40) * std::sqrt(145.0),
+                    photometry::luminance_coefficient(smooth, 12, 40) * std::sqrt(901.0), 1e-9);
     }
 }
 
@@ -143,9 +148,9 @@ TEST(ReflectionTable, ReadsWhatSpreadsheetsWrite) {
     EXPECT_TRUE(parse("# Wet\nbeta\\tan(gamma),0,180\n0,3,3\n2,1,1\n").wet);
     EXPECT_TRUE(find_reflection_table("W3").wet);
     for (const char* start : {"tan_gamma,0,180\n", "\xef\xbb\xbf# x\r\"tan gamma\",0\r", "\n#\n TG ,0,180"})
-        EXPECT_TRUE(is_reflection_table(bytes_of(start))) << start;
+        EXPECT_TRUE(photometry::is_reflection_table(bytes_of(start))) << start;
     for (const char* start : {"", "# tan_gamma\n", "gamma,0,90\ntan_gamma\n", "A,0,1\n", "T,0,180\n"})
-        EXPECT_FALSE(is_reflection_table(bytes_of(start))) << start;
+        EXPECT_FALSE(photometry::is_reflection_table(bytes_of(start))) << start;
     const TempFolder folder;
     folder.write("mine.csv", "t,0,180\n0,3,3\n1,2,1");
     EXPECT_EQ(find_reflection_table("mine.csv", folder.path()).name, "mine");

@@ -7,8 +7,10 @@
 namespace vesper::test {
 namespace {
 
+using photometry::recover_response;
+
 TEST(Response, IsRecoveredWithinFivePercent) {
-    const HdrImage scene = night(320, 240);
+    const io::HdrImage scene = night(320, 240);
     struct {
         const char* name;
         KnownCamera camera;
@@ -19,7 +21,8 @@ TEST(Response, IsRecoveredWithinFivePercent) {
                  {"film, one stop", film_camera(), 2, 16},   {"film, two stops", film_camera(), 4, 8},
                  {"film, noise", film_camera(1), 2, 16},     {"film, more noise", film_camera(2.5), 2, 16}};
     for (const auto& c : cases) {
-        const RecoveredResponse recovered = recover_response(bracket(scene, c.camera, 0.005, c.ratio, c.count));
+        const photometry::RecoveredResponse recovered =
+            recover_response(bracket(scene, c.camera, 0.005, c.ratio, c.count));
         for (size_t channel = 0; channel < 3; ++channel) {
             EXPECT_LT(response_error(recovered.response, c.camera, channel, 16, 239), 0.05)
                 << c.name << ", channel " << channel;
@@ -33,15 +36,15 @@ TEST(Response, IsRecoveredWithinFivePercent) {
 }
 
 TEST(Response, DoesNotFitAnotherCamera) {
-    const HdrImage scene = night(160, 120);
-    const RecoveredResponse film = recover_response(bracket(scene, film_camera(), 0.005, 4, 8));
+    const io::HdrImage scene = night(160, 120);
+    const photometry::RecoveredResponse film = recover_response(bracket(scene, film_camera(), 0.005, 4, 8));
     EXPECT_GT(response_error(film.response, gamma_camera(), 0, 16, 239), 0.2);
     EXPECT_GT(response_error(film.response, film_camera(), 0, 0, 255), 0.02);  // the ends are not recovered
 }
 
 TEST(Response, NoticesPicturesThatDoNotAgree) {
-    const HdrImage scene = night(160, 120);
-    std::vector<Exposure> exposures = bracket(scene, gamma_camera(), 0.005, 4, 8);
+    const io::HdrImage scene = night(160, 120);
+    std::vector<photometry::Exposure> exposures = bracket(scene, gamma_camera(), 0.005, 4, 8);
     const double good = recover_response(exposures).error[1];
     CameraNoise random;
     exposures[4] = photograph(scene, gamma_camera(), exposures[4].exposure, random, {40, 0});
@@ -50,8 +53,8 @@ TEST(Response, NoticesPicturesThatDoNotAgree) {
 }
 
 TEST(Response, UsesShifts) {
-    const HdrImage scene = night(160, 120);
-    std::vector<Exposure> exposures = bracket(scene, gamma_camera(), 0.005, 4, 8);
+    const io::HdrImage scene = night(160, 120);
+    std::vector<photometry::Exposure> exposures = bracket(scene, gamma_camera(), 0.005, 4, 8);
     CameraNoise random;
     exposures[4] = photograph(scene, gamma_camera(), exposures[4].exposure, random, {7, -5});
     exposures[4].shift = {7, -5};
@@ -59,49 +62,50 @@ TEST(Response, UsesShifts) {
 }
 
 TEST(Response, IsRefusedWhereItIsNotDetermined) {
-    const HdrImage scene = night(64, 48);
-    const std::vector<Exposure> good = bracket(scene, gamma_camera(), 0.02, 4, 4);
+    const io::HdrImage scene = night(64, 48);
+    const std::vector<photometry::Exposure> good = bracket(scene, gamma_camera(), 0.02, 4, 4);
     EXPECT_NO_THROW(recover_response(good));
     EXPECT_THROW(recover_response(std::span(good).first(1)), Error);
-    EXPECT_THROW(recover_response(std::vector<Exposure>(3, good[2])), Error);
-    std::vector<Exposure> black = good;
-    for (Exposure& exposure : black) std::fill(exposure.image.rgba.begin(), exposure.image.rgba.end(), uint8_t{0});
+    EXPECT_THROW(recover_response(std::vector<photometry::Exposure>(3, good[2])), Error);
+    std::vector<photometry::Exposure> black = good;
+    for (photometry::Exposure& exposure : black)
+        std::fill(exposure.image.rgba.begin(), exposure.image.rgba.end(), uint8_t{0});
     EXPECT_THROW(recover_response(black), Error);
 }
 
 TEST(Response, KnownOnesAreTheirFormulas) {
-    const auto linear = gamma_response(1).ln_exposure[2];
+    const auto linear = photometry::gamma_response(1).ln_exposure[2];
     EXPECT_NEAR(std::exp(linear[255] - linear[51]), 5, 1e-9);
     EXPECT_EQ(linear[128], 0.0);
-    EXPECT_NEAR(std::exp(gamma_response(2.2).ln_exposure[0][255]), std::pow(255.0 / 128, 2.2), 1e-9);
-    const auto srgb = srgb_response().ln_exposure[1];
+    EXPECT_NEAR(std::exp(photometry::gamma_response(2.2).ln_exposure[0][255]), std::pow(255.0 / 128, 2.2), 1e-9);
+    const auto srgb = photometry::srgb_response().ln_exposure[1];
     EXPECT_NEAR(std::exp(srgb[128] - srgb[255]), 0.2158605, 1e-6);  // IEC 61966-2-1
     EXPECT_NEAR(std::exp(srgb[5] - srgb[255]), 5 / 255.0 / 12.92, 1e-9);
     EXPECT_TRUE(std::isfinite(srgb[0]) && srgb[0] < srgb[1]);
 }
 
 TEST(Response, CountsFalls) {
-    Response response = gamma_response(2.2);
-    EXPECT_EQ(count_falls(response), (std::array<int, 3>{0, 0, 0}));
+    photometry::Response response = photometry::gamma_response(2.2);
+    EXPECT_EQ(photometry::count_falls(response), (std::array<int, 3>{0, 0, 0}));
     std::swap(response.ln_exposure[1][100], response.ln_exposure[1][101]);
     std::swap(response.ln_exposure[2][0], response.ln_exposure[2][1]);  // the ends are extrapolated
-    EXPECT_EQ(count_falls(response), (std::array<int, 3>{0, 1, 0}));
+    EXPECT_EQ(photometry::count_falls(response), (std::array<int, 3>{0, 1, 0}));
 }
 
 TEST(Response, FilesComeBackOrSayWhyNot) {
     const TempFolder folder;
-    Response response = srgb_response();
+    photometry::Response response = photometry::srgb_response();
     response.ln_exposure[0][7] = -3.25;
     response.ln_exposure[2][255] = 2.5;
-    write_response(folder / "r.csv", response);
-    const Response read = read_response(folder / "r.csv");
+    photometry::write_response(folder / "r.csv", response);
+    const photometry::Response read = photometry::read_response(folder / "r.csv");
     for (size_t c = 0; c < 3; ++c)
         for (size_t z = 0; z < 256; ++z) EXPECT_NEAR(read.ln_exposure[c][z], response.ln_exposure[c][z], 1e-8);
     const std::string text = read_text(folder / "r.csv");
     const auto refused = [&](std::string changed, const std::string& reason) {
         folder.write("bad.csv", changed);
         try {
-            read_response(folder / "bad.csv");
+            photometry::read_response(folder / "bad.csv");
             ADD_FAILURE() << reason;
         } catch (const Error& error) {
             EXPECT_TRUE(contains(error.what(), "bad.csv: ") && contains(error.what(), reason)) << error.what();
@@ -123,14 +127,14 @@ TEST(Response, FilesComeBackOrSayWhyNot) {
     refused(replaced("-3.25", "nan"), "line 9");
     refused(replaced("-3.25", "-325"), "line 9");
     refused(replaced("-3.25,", "-3.25,1,"), "line 9");
-    EXPECT_THROW(read_response(folder / "none.csv"), Error);
+    EXPECT_THROW(photometry::read_response(folder / "none.csv"), Error);
     folder.write("crlf.csv", replaced("\n9,", "\r\n 9 , "));
-    EXPECT_NO_THROW(read_response(folder / "crlf.csv"));
+    EXPECT_NO_THROW(photometry::read_response(folder / "crlf.csv"));
     // Columns go by their names.
     for (const char* headings :
          {"code,ln_exposure_b,ln_exposure_g,ln_exposure_r", "code, B, G, R", "code,g(blue),g(green),g(red)"}) {
         folder.write("swapped.csv", replaced("code,ln_exposure_r,ln_exposure_g,ln_exposure_b", headings) + "\n\n");
-        const Response swapped = read_response(folder / "swapped.csv");
+        const photometry::Response swapped = photometry::read_response(folder / "swapped.csv");
         for (size_t c = 0; c < 3; ++c) EXPECT_EQ(swapped.ln_exposure[c], read.ln_exposure[2 - c]) << headings;
     }
 }

@@ -44,24 +44,25 @@ TEST(SharedPhotometry, FluxIsWhatIsStated) {
         {"lighting/0_CIE-2010-Table7.ldt", 1000 * 0.650, 265},
     };
     for (const auto& row : rows) {
-        const Distribution d = read_distribution(kFolder / row.file);
-        EXPECT_NEAR(luminous_flux(d), row.flux, 0.01 * row.flux) << row.file;
-        EXPECT_NEAR(largest_intensity(d), row.candela, 1e-3 * row.candela) << row.file;
+        const photometry::Distribution d = photometry::read_distribution(kFolder / row.file);
+        EXPECT_NEAR(photometry::luminous_flux(d), row.flux, 0.01 * row.flux) << row.file;
+        EXPECT_NEAR(photometry::largest_intensity(d), row.candela, 1e-3 * row.candela) << row.file;
     }
     size_t files = 0;
     for (const auto& entry : fs::recursive_directory_iterator(kFolder))
         files += entry.path().extension() == ".ies" || entry.path().extension() == ".ldt";
     EXPECT_EQ(files, std::size(rows));
-    EXPECT_NEAR(luminous_flux(read_eulumdat(kFolder / "photometric-viewer/ldt/multiple_lamp_sets.ldt", 1)),
+    EXPECT_NEAR(photometry::luminous_flux(
+                    photometry::read_eulumdat(kFolder / "photometric-viewer/ldt/multiple_lamp_sets.ldt", 1)),
                 1200 * 0.907, 0.01 * 1200);
 }
 
 TEST(SharedPhotometry, BothFormatsOfOneLuminaireAgree) {
     const fs::path folder = kFolder.parent_path().parent_path() / "reference/data";
     if (!is_here(folder / "synthetic_road.ies")) GTEST_SKIP() << "the shared set is not here";
-    const Distribution ies = read_distribution(folder / "synthetic_road.ies");
-    const Distribution ldt = read_distribution(folder / "synthetic_road.ldt");
-    EXPECT_NEAR(luminous_flux(ies), 8803.2, 0.01 * 8803.2);
+    const photometry::Distribution ies = photometry::read_distribution(folder / "synthetic_road.ies");
+    const photometry::Distribution ldt = photometry::read_distribution(folder / "synthetic_road.ldt");
+    EXPECT_NEAR(photometry::luminous_flux(ies), 8803.2, 0.01 * 8803.2);
     ASSERT_EQ(ies.candela.size(), ldt.candela.size());
     EXPECT_EQ(ies.horizontal, ldt.horizontal);
     for (size_t i = 0; i < ies.candela.size(); ++i) EXPECT_NEAR(ies.candela[i], ldt.candela[i], 1e-6);

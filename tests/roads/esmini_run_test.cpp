@@ -8,13 +8,14 @@
 #include "roads/run_texts.h"
 #include "scene/scene_files.h"
 
-namespace vesper {
-using namespace roads;
+namespace vesper::test {
+
+using roads::RunEntity, roads::RunLamp, roads::RunPose, roads::lamp_at, roads::read_esmini_run;
+
 namespace {
 
-using Mode = LampEvent::Mode;
+using Mode = roads::LampEvent::Mode;
 
-using namespace test;
 class EsminiRuns : public RunFiles {};
 
 TEST_F(EsminiRuns, PosesLieBetweenRows) {
@@ -26,7 +27,7 @@ TEST_F(EsminiRuns, PosesLieBetweenRows) {
     const RunEntity& car = run.entities[0];
     EXPECT_EQ(car.id, 7);
     EXPECT_EQ(run.duration, 0.5);
-    const RunPose pose = pose_at(car, 0.25);
+    const RunPose pose = roads::pose_at(car, 0.25);
     EXPECT_NEAR(pose.position.x, 2.5, 1e-12);
     EXPECT_NEAR(pose.position.z, 0.5, 1e-12);
     EXPECT_NEAR(std::abs(std::remainder(pose.heading, 2 * M_PI)), M_PI, 1e-9) << "the short way round";
@@ -34,9 +35,9 @@ TEST_F(EsminiRuns, PosesLieBetweenRows) {
     EXPECT_NEAR(pose.speed, 11, 1e-12);
     EXPECT_NEAR(pose.wheel_angle, 0.2, 1e-12);
     EXPECT_NEAR(pose.wheel_rotation, 6 + (0.2 + 2 * M_PI - 6) / 2, 1e-9) << "forwards";
-    EXPECT_EQ(pose_at(car, -1).position.x, 0);
-    EXPECT_EQ(pose_at(car, 9).position.x, 5);
-    EXPECT_FALSE(is_there(car, 0.6));
+    EXPECT_EQ(roads::pose_at(car, -1).position.x, 0);
+    EXPECT_EQ(roads::pose_at(car, 9).position.x, 5);
+    EXPECT_FALSE(roads::is_there(car, 0.6));
 }
 
 // The CSV logger has all entities in a row. One is gone after the first row, another comes later and is none of the
@@ -65,7 +66,7 @@ TEST_F(EsminiRuns, TheTableOfTheCsvLoggerIsReadToo) {
     const RunEntity &ego = run.entities[0], &late = run.entities[2], &later = run.entities[3];
     EXPECT_EQ(ego.name, "Ego");
     EXPECT_EQ(ego.poses.size(), 3u);
-    EXPECT_NEAR(pose_at(ego, 0.15).position.x, 11.5, 1e-12);
+    EXPECT_NEAR(roads::pose_at(ego, 0.15).position.x, 11.5, 1e-12);
     EXPECT_EQ(ego.poses[0].position, glm::dvec3(10, 2, 0.3));
     EXPECT_EQ(ego.poses[0].speed, 12.5);
     EXPECT_EQ(ego.poses[0].heading, 0.5);
@@ -76,7 +77,7 @@ TEST_F(EsminiRuns, TheTableOfTheCsvLoggerIsReadToo) {
     EXPECT_EQ(run.entities[1].poses.size(), 1u);
     EXPECT_EQ(late.name, "Late");
     EXPECT_EQ(late.id, 7);
-    EXPECT_FALSE(is_there(late, 0.1));
+    EXPECT_FALSE(roads::is_there(late, 0.1));
     EXPECT_EQ(later.poses[0].position.x, 80);
 }
 
@@ -118,8 +119,8 @@ TEST_F(EsminiRuns, SpeedsFollowFromPlacesWhereTheTableHasNone) {
         text += line;
     }
     const auto run = read_esmini_run(write("run.csv", text));
-    EXPECT_NEAR(pose_at(run.entities[0], 2).speed, 10, 0.01);
-    EXPECT_NEAR(pose_at(run.entities[0], 4.5).speed, 6, 0.1);
+    EXPECT_NEAR(roads::pose_at(run.entities[0], 2).speed, 10, 0.01);
+    EXPECT_NEAR(roads::pose_at(run.entities[0], 4.5).speed, 6, 0.1);
     EXPECT_EQ(lamp_at(run.entities[0], RunLamp::Brake, 2).level, 0);
     EXPECT_EQ(lamp_at(run.entities[0], RunLamp::Brake, 4.5).level, 1);
     // The same heading backwards.
@@ -286,7 +287,7 @@ TEST_F(EsminiRuns, WhatIsNotUnderstoodIsNoted) {
     EXPECT_NE(run.notes[0].find("CollisionCondition that cannot be judged"), std::string::npos) << run.notes[0];
 }
 
-EsminiRun shared_run(const std::string& name, const RoadNetwork* roads = nullptr) {
+roads::EsminiRun shared_run(const std::string& name, const roads::RoadNetwork* roads = nullptr) {
     return read_esmini_run(shared_data("scenario/esmini-output/" + name + ".csv"),
                            shared_data("scenario/esmini/xosc/" + name + ".xosc"), roads);
 }
@@ -301,7 +302,7 @@ double first_time(const RunEntity& entity, double from, const std::function<bool
 // The recorded motion says when esmini itself started the events that set lamps and speeds together.
 TEST(SharedRuns, LampsOfLightState) {
     if (!is_here(shared_data("scenario/esmini-output"))) GTEST_SKIP() << "no shared data";
-    const EsminiRun run = shared_run("light_state");
+    const roads::EsminiRun run = shared_run("light_state");
     // The scenario says 2 s.
     EXPECT_NEAR(events_of(run, RunLamp::FogFront)[1].time, 2, 0.11);
     EXPECT_EQ(events_of(run, RunLamp::FogFront)[1].intensity, 1500);
@@ -322,9 +323,9 @@ TEST(SharedRuns, LampsOfLightState) {
 // flash.
 TEST(SharedRuns, IndicatorsBeginWithTheLaneChange) {
     if (!is_here(shared_data("scenario/esmini-output"))) GTEST_SKIP() << "no shared data";
-    const EsminiRun run = shared_run("light_state");
-    const RoadNetwork roads = read_opendrive(shared_data("scenario/esmini/xodr/circle_300m.xodr"));
-    const PlanGeometry& circle = roads.roads[0].plan[0];
+    const roads::EsminiRun run = shared_run("light_state");
+    const roads::RoadNetwork roads = roads::read_opendrive(shared_data("scenario/esmini/xodr/circle_300m.xodr"));
+    const roads::PlanGeometry& circle = roads.roads[0].plan[0];
     const double radius = 1 / circle.curvature;
     const glm::dvec2 middle{circle.x - std::sin(circle.heading) * radius, circle.y + std::cos(circle.heading) * radius};
     const auto from_middle = [&](const RunPose& p) { return glm::distance(glm::dvec2(p.position), middle); };
@@ -336,8 +337,9 @@ TEST(SharedRuns, IndicatorsBeginWithTheLaneChange) {
 
 TEST(SharedRuns, TrafficLightsTurnWhereTheCarCounts) {
     if (!is_here(shared_data("scenario/esmini-output"))) GTEST_SKIP() << "no shared data";
-    const RoadNetwork roads = read_opendrive(shared_data("scenario/esmini/xodr/fabriksgatan_traffic_lights.xodr"));
-    const EsminiRun run = shared_run("traffic_lights", &roads);
+    const roads::RoadNetwork roads =
+        roads::read_opendrive(shared_data("scenario/esmini/xodr/fabriksgatan_traffic_lights.xodr"));
+    const roads::EsminiRun run = shared_run("traffic_lights", &roads);
     for (const std::string& note : run.notes)
         EXPECT_NE(note.find("a distance in the road is measured straight"), std::string::npos) << note;
     EXPECT_GT(run.signals.size(), 6u);
@@ -345,16 +347,16 @@ TEST(SharedRuns, TrafficLightsTurnWhereTheCarCounts) {
     // The car stops at the red light, and goes when it is green again.
     const RunEntity& car = run.entities[0];
     const double stands = first_time(car, 0, [](const RunPose& p) { return p.speed < 0.01; });
-    EXPECT_EQ(signal_at(run, "1", 0), "off;off;on");
-    EXPECT_EQ(signal_at(run, "1", stands), "on;off;off");
+    EXPECT_EQ(roads::signal_at(run, "1", 0), "off;off;on");
+    EXPECT_EQ(roads::signal_at(run, "1", stands), "on;off;off");
     const double goes = first_time(car, stands + 1, [](const RunPose& p) { return p.speed > 0.05; });
-    EXPECT_EQ(signal_at(run, "1", goes + 0.3), "off;off;on");
+    EXPECT_EQ(roads::signal_at(run, "1", goes + 0.3), "off;off;on");
 }
 
 TEST(SharedRuns, AllAreRead) {
     if (!is_here(shared_data("scenario/esmini-output"))) GTEST_SKIP() << "no shared data";
     for (const char* name : {"cut-in", "light_state", "pedestrian", "traffic_lights"}) {
-        const EsminiRun run = shared_run(name);
+        const roads::EsminiRun run = shared_run(name);
         EXPECT_GE(run.entities.size(), 2u);
         EXPECT_GT(run.duration, 10);
         for (const RunEntity& entity : run.entities)
@@ -363,4 +365,4 @@ TEST(SharedRuns, AllAreRead) {
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

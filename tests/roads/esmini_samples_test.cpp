@@ -12,8 +12,7 @@
 #include "roads/road_surface.h"
 #include "support/shared_data.h"
 
-namespace vesper {
-using namespace roads;
+namespace vesper::test {
 namespace {
 
 // esmini works in double too and writes six digits: what is left is its table of arc lengths along polynomials.
@@ -50,22 +49,22 @@ class EsminiSamples : public testing::TestWithParam<const char*> {};
 
 TEST_P(EsminiSamples, AreMetWithinACentimetre) {
     const std::string name = GetParam();
-    const auto csv = test::shared_data("scenario/esmini-output/" + name + ".track.csv");
-    if (!test::is_here(csv)) GTEST_SKIP() << "no shared data";
-    const RoadNetwork network = read_opendrive(test::shared_data("scenario/esmini/xodr/" + name + ".xodr"));
+    const auto csv = shared_data("scenario/esmini-output/" + name + ".track.csv");
+    if (!is_here(csv)) GTEST_SKIP() << "no shared data";
+    const roads::RoadNetwork network = roads::read_opendrive(shared_data("scenario/esmini/xodr/" + name + ".xodr"));
     const auto samples = read_samples(csv);
     ASSERT_FALSE(samples.empty());
     size_t points = 0;
     for (const Sampled& each : samples) {
-        const auto road =
-            std::find_if(network.roads.begin(), network.roads.end(), [&](const Road& r) { return r.id == each.road; });
+        const auto road = std::find_if(network.roads.begin(), network.roads.end(),
+                                       [&](const roads::Road& r) { return r.id == each.road; });
         ASSERT_NE(road, network.roads.end());
-        const LaneSection& section = road->sections.at(each.section);
+        const roads::LaneSection& section = road->sections.at(each.section);
         ASSERT_TRUE(section.find(each.lane)) << each.lane;
         for (size_t k = 0; k < each.points.size(); ++k) {
             const double s = section.s + (section.end - section.s) * static_cast<double>(k) /
                                              static_cast<double>(each.points.size() - 1);
-            const RoadPoint got = lane_point(*road, section, each.lane, s, 1);
+            const roads::RoadPoint got = roads::lane_point(*road, section, each.lane, s, 1);
             const double off = glm::distance(got.position, glm::dvec3(each.points[k]));
             ASSERT_LT(off, kTolerance) << "road " << each.road << " lane " << each.lane << " s " << s << ": "
                                        << got.position.x << " " << got.position.y << " " << got.position.z << " for "
@@ -80,4 +79,4 @@ TEST_P(EsminiSamples, AreMetWithinACentimetre) {
 INSTANTIATE_TEST_SUITE_P(Files, EsminiSamples, testing::Values("fabriksgatan", "e6mini", "curves_elevation"));
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

@@ -9,7 +9,9 @@
 #include "scene/scene_files.h"
 
 namespace vesper::test {
-using namespace roads;
+
+using roads::ConvertOptions, roads::RoadLayout;
+
 namespace {
 
 const std::filesystem::path kLayouts = std::filesystem::path(VESPER_SOURCE_DIR) / "data/road";
@@ -37,16 +39,16 @@ Caught caught(const std::function<void()>& call) {
 }
 
 TEST(RoadsInterface, CalculatesTheWorkedExample) {
-    const RoadLighting lighting = calculate_road_lighting(plain_example());
+    const roads::RoadLighting lighting = roads::calculate_road_lighting(plain_example());
     EXPECT_NEAR(lighting.average_luminance / 1.1637, 1, 1e-3);
     EXPECT_NEAR(lighting.threshold_increment_percent / 14.963, 1, 1e-3);
     EXPECT_EQ(lighting.points.size(), 60u);
-    ASSERT_TRUE(reached_class(lighting));
-    EXPECT_STREQ(reached_class(lighting)->name, "M5");
+    ASSERT_TRUE(roads::reached_class(lighting));
+    EXPECT_STREQ(roads::reached_class(lighting)->name, "M5");
 
     RoadLayout layout = plain_example();
     layout.q0 = 0.14;  // R3 has 0.07
-    const RoadLighting lighter = calculate_road_lighting(layout);
+    const roads::RoadLighting lighter = roads::calculate_road_lighting(layout);
     EXPECT_NEAR(lighter.average_luminance / lighting.average_luminance, 2, 1e-9);
     EXPECT_NEAR(lighter.average_illuminance / lighting.average_illuminance, 1, 1e-12);
 }
@@ -62,14 +64,14 @@ TEST(RoadsInterface, LayoutsOfFilesAreWhole) {
     for (const auto& file :
          {kLayouts / "worked-example.json", kLayouts / "boulevard.json", folder.write("road.json", json.dump())}) {
         SCOPED_TRACE(file.string());
-        const RoadLighting expected = calculate_lighting(read_layout(file));
-        const RoadLighting lighting = calculate_road_lighting(read_road_layout(file));
+        const roads::RoadLighting expected = roads::calculate_lighting(roads::read_layout(file));
+        const roads::RoadLighting lighting = roads::calculate_road_lighting(roads::read_road_layout(file));
         ASSERT_EQ(lighting.points.size(), expected.points.size());
         for (size_t i = 0; i < expected.points.size(); ++i)
             EXPECT_EQ(lighting.points[i].luminance, expected.points[i].luminance);
         EXPECT_EQ(lighting.threshold_increment_percent, expected.threshold_increment_percent);
     }
-    EXPECT_EQ(read_road_layout(folder / "road.json").wanted_class, "M2");
+    EXPECT_EQ(roads::read_road_layout(folder / "road.json").wanted_class, "M2");
 }
 
 TEST(RoadsInterface, ValuesAndFilesFailEachInItsWay) {
@@ -77,7 +79,7 @@ TEST(RoadsInterface, ValuesAndFilesFailEachInItsWay) {
         RoadLayout layout = plain_example();
         layout.name = "mine";
         change(layout);
-        return caught([&] { calculate_road_lighting(layout); });
+        return caught([&] { roads::calculate_road_lighting(layout); });
     };
     EXPECT_EQ(failure_of([](RoadLayout&) {}).result, VESPER_OK);
     const Caught narrow = failure_of([](RoadLayout& l) { l.spacing = 0; });
@@ -91,7 +93,7 @@ TEST(RoadsInterface, ValuesAndFilesFailEachInItsWay) {
     const Caught dark = failure_of([](RoadLayout& l) { l.flux_factor = 0; });
     EXPECT_EQ(dark.result, VESPER_FAILED);
     EXPECT_TRUE(contains(dark.message, "mine: no light"));
-    EXPECT_EQ(caught([] { read_road_layout("none.json"); }).result, VESPER_FAILED);
+    EXPECT_EQ(caught([] { roads::read_road_layout("none.json"); }).result, VESPER_FAILED);
 }
 
 TEST(RoadsInterface, ConvertsRoadsWithTheirOptions) {
@@ -101,16 +103,17 @@ TEST(RoadsInterface, ConvertsRoadsWithTheirOptions) {
                                               "<objects><object id=\"1\" type=\"streetLamp\" s=\"40\" t=\"6\" "
                                               "height=\"8\"/></objects>")));
     const auto street_lamps = [&](const ConvertOptions& options) {
-        const RoadConversion made = convert_opendrive(file, folder / "a.gltf", options);
+        const roads::RoadConversion made = roads::convert_opendrive(file, folder / "a.gltf", options);
         EXPECT_GT(made.parts.size(), 2u);
-        const Scene scene = read_gltf(folder / "a.gltf").scene;
+        const scene::Scene scene = scene::read_gltf(folder / "a.gltf").scene;
         size_t count = 0;
-        for (const Node& node : scene.nodes) count += node.lamp != kNone && node.name.starts_with("street_lamp_");
+        for (const scene::Node& node : scene.nodes)
+            count += node.lamp != scene::kNone && node.name.starts_with("street_lamp_");
         return count;
     };
     ConvertOptions options;
     EXPECT_EQ(street_lamps(options), 1u) << "that of the file";
-    options.lamps.side = LampSide::Both;
+    options.lamps.side = roads::LampSide::Both;
     EXPECT_EQ(street_lamps(options), 1u);
     options.lamps.spacing = 30;
     EXPECT_EQ(street_lamps(options), 1u + 6u);
@@ -120,7 +123,7 @@ TEST(RoadsInterface, ConvertsRoadsWithTheirOptions) {
     const auto failure_of = [&](auto&& change) {
         ConvertOptions changed;
         change(changed);
-        return caught([&] { convert_opendrive(file, folder / "b.gltf", changed); }).result;
+        return caught([&] { roads::convert_opendrive(file, folder / "b.gltf", changed); }).result;
     };
     EXPECT_EQ(failure_of([](ConvertOptions&) {}), VESPER_OK);
     EXPECT_EQ(failure_of([](ConvertOptions& o) { o.lamps.spacing = 1; }), VESPER_BAD_ARGUMENT);
@@ -128,10 +131,10 @@ TEST(RoadsInterface, ConvertsRoadsWithTheirOptions) {
     EXPECT_EQ(failure_of([](ConvertOptions& o) { o.lamps.height = 1; }), VESPER_BAD_ARGUMENT);
     EXPECT_EQ(failure_of([](ConvertOptions& o) { o.lamps.overhang = 0; }), VESPER_BAD_ARGUMENT);
     EXPECT_EQ(failure_of([](ConvertOptions& o) { o.luminaire = "none.ies"; }), VESPER_FAILED);
-    const Caught missing = caught([&] { convert_opendrive(folder / "none.xodr", folder / "c.gltf"); });
+    const Caught missing = caught([&] { roads::convert_opendrive(folder / "none.xodr", folder / "c.gltf"); });
     EXPECT_EQ(missing.result, VESPER_FAILED);
     EXPECT_TRUE(contains(missing.message, "none.xodr: "));
-    EXPECT_EQ(caught([&] { convert_opendrive(file, folder / "c.obj"); }).result, VESPER_FAILED);
+    EXPECT_EQ(caught([&] { roads::convert_opendrive(file, folder / "c.obj"); }).result, VESPER_FAILED);
 }
 
 }  // namespace

@@ -7,14 +7,11 @@
 #include "roads/lanes.h"
 #include "roads/road_texts.h"
 
-namespace vesper {
-using namespace roads;
-namespace {
+namespace vesper::test {
 
-using test::geometry;
-using test::network_of;
-using test::road;
-using test::two_way_section;
+using roads::LaneGraph;
+
+namespace {
 
 uint32_t find(const LaneGraph& graph, const std::string& name) {
     for (uint32_t i = 0; i < graph.lanes().size(); ++i)
@@ -24,7 +21,7 @@ uint32_t find(const LaneGraph& graph, const std::string& name) {
 }
 
 /// Road a 100 m to the north, then road b on a quarter circle of 50 m radius to the left.
-RoadNetwork bend(const std::string& attributes = "") {
+roads::RoadNetwork bend(const std::string& attributes = "") {
     const std::string links = "<link><successor id=\"1\"/></link>", back = "<link><predecessor id=\"1\"/></link>";
     const std::string right = "<link><successor id=\"-1\"/></link>",
                       right_back = "<link><predecessor id=\"-1\"/></link>";
@@ -42,7 +39,7 @@ TEST(Lanes, LieWhereTheRoadSays) {
     const LaneGraph graph(bend());
     const uint32_t right = find(graph, "road a, section 0, lane -1"), left = find(graph, "road a, section 0, lane 1");
     // x is X, y is -Z: north is -Z; right-hand traffic northwards is at x = 10 + 1.75.
-    const LanePose there = graph.pose(right, 30);
+    const roads::LanePose there = graph.pose(right, 30);
     EXPECT_NEAR(there.position.x, 11.75, 1e-9);
     EXPECT_NEAR(there.position.y, 0, 1e-9);
     EXPECT_NEAR(there.position.z, -50, 1e-9);
@@ -52,12 +49,12 @@ TEST(Lanes, LieWhereTheRoadSays) {
     EXPECT_NEAR(there.width, 3.5, 1e-9);
     EXPECT_NEAR(graph.lanes()[right].length, 100, 1e-9);
     EXPECT_NEAR(graph.lanes()[right].speed_limit, 50 / 3.6, 1e-9);
-    const LanePose back = graph.pose(left, 30);
+    const roads::LanePose back = graph.pose(left, 30);
     EXPECT_NEAR(back.position.x, 8.25, 1e-9);
     EXPECT_NEAR(back.position.z, -90, 1e-9);
     EXPECT_NEAR(back.forward.z, 1, 1e-9);
     EXPECT_EQ(graph.lanes()[right].oncoming, left);
-    EXPECT_EQ(graph.lanes()[right].left, kNoLane);
+    EXPECT_EQ(graph.lanes()[right].left, roads::kNoLane);
     // Beyond the ends: straight on.
     EXPECT_NEAR(graph.pose(right, -5).position.z, -15, 1e-9);
     EXPECT_NEAR(graph.pose_beside(right, 105, 1).position.z, -125, 1e-9);
@@ -70,7 +67,7 @@ TEST(Lanes, CurveAsTheRoadDoes) {
     const double radius = 51.75;
     EXPECT_NEAR(graph.lanes()[bent].length, radius * M_PI / 2, 0.01);
     for (double along = 0; along < radius * M_PI / 2; along += 0.37) {
-        const LanePose pose = graph.pose(bent, along);
+        const roads::LanePose pose = graph.pose(bent, along);
         const double angle = along / radius;
         const glm::dvec3 want{-40 + radius * std::cos(angle), 0, -120 - radius * std::sin(angle)};
         EXPECT_LT(glm::distance(pose.position, want), 0.01) << along;
@@ -90,7 +87,7 @@ TEST(Lanes, FollowEachOther) {
     EXPECT_EQ(graph.route(a, b), (std::vector<uint32_t>{a, b}));
     EXPECT_TRUE(graph.route(b, a).empty());
     EXPECT_EQ(graph.long_route(a), (std::vector<uint32_t>{a, b}));
-    const LanePlace on = graph.advance({a, 90, 0.5}, 20);
+    const roads::LanePlace on = graph.advance({a, 90, 0.5}, 20);
     EXPECT_EQ(on.lane, b);
     EXPECT_NEAR(on.along, 10, 1e-6);
     EXPECT_EQ(on.offset, 0.5);
@@ -131,13 +128,13 @@ TEST(Lanes, ThatMeetInOnePointAreLinkedToSome) {
         roads += road(std::to_string(i), 100, geometry(0, 0, 0, 0, 100, "<arc curvature=\"0.06283185307179587\"/>"),
                       two_way_section());
     const LaneGraph graph(network_of(roads));
-    for (const Lane& lane : graph.lanes()) ASSERT_LE(lane.successors.size(), 64u);
+    for (const roads::Lane& lane : graph.lanes()) ASSERT_LE(lane.successors.size(), 64u);
     EXPECT_GT(graph.long_route(find(graph, "road 0, section 0, lane -1")).size(), 60u);
 }
 
 TEST(Lanes, LimitsChangeAlongTheWay) {
     const auto type = [](double s, const std::string& speed) {
-        return "<type" + test::quantity("s", s) + " type=\"town\">" + speed + "</type>";
+        return "<type" + quantity("s", s) + " type=\"town\">" + speed + "</type>";
     };
     const std::string types = type(0, "<speed max=\"no limit\"/>") + type(33.3, "<speed max=\"100\" unit=\"km/h\"/>") +
                               type(66.6, "<speed max=\"30\" unit=\"mph\"/>") + type(90, "");
@@ -146,7 +143,7 @@ TEST(Lanes, LimitsChangeAlongTheWay) {
         two_way_section(0, "", "<speed sOffset=\"70\" max=\"undefined\"/><speed sOffset=\"50\" max=\"8\"/>"), types)));
     const uint32_t right = find(graph, "road a, section 0, lane -1"), left = find(graph, "road a, section 0, lane 1");
     const auto limit = [&](uint32_t lane, double along) {
-        return allowed_speed(graph.lanes()[lane], graph.pose(lane, along)) * 3.6;
+        return roads::allowed_speed(graph.lanes()[lane], graph.pose(lane, along)) * 3.6;
     };
     EXPECT_TRUE(std::isinf(graph.lanes()[right].speed_limit));
     for (const auto& [s, of_road, of_lane] : {std::tuple{0.0, 130.0, 130.0},
@@ -164,12 +161,12 @@ TEST(Lanes, LimitsChangeAlongTheWay) {
         EXPECT_NEAR(limit(left, 100 - s), of_road, 0.01) << s;
     }
     // In junctions what was allowed before goes on.
-    Lane crossing;
+    roads::Lane crossing;
     crossing.in_junction = true;
-    EXPECT_EQ(allowed_speed(crossing, {}, 25), 25);
-    EXPECT_NEAR(allowed_speed(crossing, {}), 50 / 3.6, 1e-9);
+    EXPECT_EQ(roads::allowed_speed(crossing, {}, 25), 25);
+    EXPECT_NEAR(roads::allowed_speed(crossing, {}), 50 / 3.6, 1e-9);
     crossing.in_junction = false;
-    EXPECT_NEAR(allowed_speed(crossing, {}, 25), 50 / 3.6, 1e-9);
+    EXPECT_NEAR(roads::allowed_speed(crossing, {}, 25), 50 / 3.6, 1e-9);
 }
 
 TEST(Lanes, NearestKnowsOffsetsAndDirections) {
@@ -186,12 +183,13 @@ TEST(Lanes, NearestKnowsOffsetsAndDirections) {
     EXPECT_EQ(graph.nearest({9.6, 0, -60})->lane, left);
     EXPECT_EQ(graph.nearest_along({9.6, 0, -60}, {0, 0, -1})->lane, right);
     EXPECT_EQ(graph.nearest_along({9.6, 0, -60}, {0, 0, 1})->lane, left);
-    EXPECT_EQ(
-        graph
-            .lanes()[graph.nearest({15, 0, -60}, 5, [](const Lane& lane) { return lane.type == LaneType::Sidewalk; })
-                         ->lane]
-            .id,
-        -2);
+    EXPECT_EQ(graph
+                  .lanes()[graph
+                               .nearest({15, 0, -60}, 5,
+                                        [](const roads::Lane& lane) { return lane.type == roads::LaneType::Sidewalk; })
+                               ->lane]
+                  .id,
+              -2);
 }
 
 TEST(Lanes, KerbsLieBetweenRoadAndPavement) {
@@ -199,7 +197,7 @@ TEST(Lanes, KerbsLieBetweenRoadAndPavement) {
     const auto near = graph.kerbs_near({11.75, 0, -60}, 2);
     ASSERT_FALSE(near.empty());
     for (const uint32_t index : near) {
-        const Kerb& kerb = graph.kerbs()[index];
+        const roads::Kerb& kerb = graph.kerbs()[index];
         EXPECT_NEAR(kerb.from.x, 13.5, 1e-9);
         EXPECT_NEAR(kerb.height, 0.12, 1e-9);
         EXPECT_NEAR(kerb.inside.x, -1, 1e-9);
@@ -207,12 +205,13 @@ TEST(Lanes, KerbsLieBetweenRoadAndPavement) {
     }
     EXPECT_TRUE(graph.kerbs_near({11.75, 0, -60}, 1.7).empty());
     double length = 0;
-    for (const Kerb& kerb : graph.kerbs()) length += glm::distance(kerb.from, kerb.to);
+    for (const roads::Kerb& kerb : graph.kerbs()) length += glm::distance(kerb.from, kerb.to);
     EXPECT_NEAR(length, 200 + (46.5 + 53.5) * M_PI / 2, 0.1);
 }
 
 TEST(Lanes, OfTheRivoliStreet) {
-    const RoadNetwork network = read_opendrive(std::string(VESPER_SOURCE_DIR) + "/data/rivoli/rivoli.xodr");
+    const roads::RoadNetwork network =
+        roads::read_opendrive(std::string(VESPER_SOURCE_DIR) + "/data/rivoli/rivoli.xodr");
     EXPECT_TRUE(network.notes.empty());
     const LaneGraph graph(network);
     // The driver's lane of data/rivoli: x = 1.55 or 4.65, towards -Z from +120 to -320.
@@ -234,4 +233,4 @@ TEST(Lanes, OfTheRivoliStreet) {
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

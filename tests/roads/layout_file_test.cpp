@@ -11,7 +11,6 @@
 #include "scene/scene_files.h"
 
 namespace vesper::test {
-using namespace roads;
 namespace {
 
 using nlohmann::json;
@@ -39,45 +38,45 @@ json layout_json() {
               {"maintenance_factor", 0.8}}}};
 }
 
-LoadedLayout layout_of(const json& file, const LayoutOverrides& overrides = {}) {
+roads::LoadedLayout layout_of(const json& file, const roads::LayoutOverrides& overrides = {}) {
     const TempFolder folder;
-    return read_layout(folder.write("road.json", file.dump()), overrides);
+    return roads::read_layout(folder.write("road.json", file.dump()), overrides);
 }
 
 TEST(LayoutFile, ReadsEverything) {
-    const LoadedLayout layout = layout_of(layout_json());
+    const roads::LoadedLayout layout = layout_of(layout_json());
     EXPECT_EQ(layout.wanted_class, "M4");
     EXPECT_EQ(layout.name, "test road");
     EXPECT_EQ(layout.width, 7.5);
     EXPECT_EQ(layout.lanes, 3);
     EXPECT_TRUE(layout.left_hand_traffic && layout.c0_street_side);
-    EXPECT_EQ(layout.arrangement, Arrangement::Staggered);
+    EXPECT_EQ(layout.arrangement, roads::Arrangement::Staggered);
     EXPECT_EQ((std::vector{layout.spacing, layout.height, layout.overhang, layout.tilt_deg, layout.orientation_deg,
                            layout.roll_deg}),
               (std::vector<double>{33, 9, -0.5, 5, 2, 1}));
     EXPECT_EQ(
         (std::vector{layout.flux_factor, layout.maintenance_factor, layout.observer_age, layout.colour_temperature}),
         (std::vector<double>{0.7, 0.8, 60, 2700}));
-    EXPECT_EQ(layout.surface, rescaled(find_reflection_table("R2"), 0.09));
-    EXPECT_NEAR(luminous_flux(layout.distribution), 8803, 1);
+    EXPECT_EQ(layout.surface, photometry::rescaled(photometry::find_reflection_table("R2"), 0.09));
+    EXPECT_NEAR(photometry::luminous_flux(layout.distribution), 8803, 1);
 }
 
 TEST(LayoutFile, OverridesTakeThePlaceOfTheFile) {
-    const LoadedLayout layout = layout_of(layout_json(), {.reflection_table = "C1",
-                                                          .q0 = 0.11,
-                                                          .spacing = 20,
-                                                          .height = 7,
-                                                          .overhang = 1,
-                                                          .tilt = 0,
-                                                          .maintenance_factor = 0.9});
-    EXPECT_EQ(layout.surface, rescaled(find_reflection_table("C1"), 0.11));
+    const roads::LoadedLayout layout = layout_of(layout_json(), {.reflection_table = "C1",
+                                                                 .q0 = 0.11,
+                                                                 .spacing = 20,
+                                                                 .height = 7,
+                                                                 .overhang = 1,
+                                                                 .tilt = 0,
+                                                                 .maintenance_factor = 0.9});
+    EXPECT_EQ(layout.surface, photometry::rescaled(photometry::find_reflection_table("C1"), 0.11));
     EXPECT_EQ(layout.spacing, 20);
     EXPECT_EQ(layout.height, 7);
     EXPECT_EQ(layout.overhang, 1);
     EXPECT_EQ(layout.tilt_deg, 0);
     EXPECT_EQ(layout.maintenance_factor, 0.9);
     // The file's Q0 belongs to the file's surface.
-    EXPECT_EQ(layout_of(layout_json(), {.reflection_table = "C1"}).surface, find_reflection_table("C1"));
+    EXPECT_EQ(layout_of(layout_json(), {.reflection_table = "C1"}).surface, photometry::find_reflection_table("C1"));
     EXPECT_THROW(layout_of(layout_json(), {.luminaire = "missing.ldt"}), Error);
     EXPECT_THROW(layout_of(layout_json(), {.spacing = -3}), Error);
 }
@@ -89,11 +88,11 @@ TEST(LayoutFile, ListsOfPositions) {
     luminaires["arrangement"] = "list";
     luminaires["positions"] = {
         {{"y_m", 1}}, {{"x_m", 4}, {"y_m", 7}, {"height_m", 6}}, {{"y_m", 7}, {"facing_deg", 45}}};
-    const LoadedLayout layout = layout_of(file);
+    const roads::LoadedLayout layout = layout_of(file);
     ASSERT_EQ(layout.mounts.size(), 3u);
-    EXPECT_EQ(vector_of(layout.mounts[0].position), glm::dvec3(0, 1, 9));
+    EXPECT_EQ(roads::vector_of(layout.mounts[0].position), glm::dvec3(0, 1, 9));
     EXPECT_EQ(layout.mounts[0].facing_deg, 90);
-    EXPECT_EQ(vector_of(layout.mounts[1].position), glm::dvec3(4, 7, 6));
+    EXPECT_EQ(roads::vector_of(layout.mounts[1].position), glm::dvec3(4, 7, 6));
     EXPECT_EQ(layout.mounts[1].facing_deg, -90);
     EXPECT_EQ(layout.mounts[2].facing_deg, 45);
 }
@@ -128,12 +127,12 @@ TEST(LayoutFile, NamesThePlaceOfWhatIsWrong) {
         EXPECT_THROW(layout_of(file), Error) << key;
     }
     const TempFolder folder;
-    EXPECT_THROW(read_layout(folder.write("road.json", "{\"version\": 1")), Error);
+    EXPECT_THROW(roads::read_layout(folder.write("road.json", "{\"version\": 1")), Error);
     json dark = layout_json();
     dark["luminaires"]["file"] =
         folder.write("dark.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 1\n0 90\n0\n0 0\n").string();
     EXPECT_TRUE(contains(complaint_of([&] { layout_of(dark); }), "dark.ies: the luminaire gives no light"));
-    LayoutOverrides narrow;
+    roads::LayoutOverrides narrow;
     narrow.spacing = 1;
     EXPECT_TRUE(
         contains(complaint_of([&] { layout_of(layout_json(), narrow); }), "road.json: test road: the spacing must be"));
@@ -143,9 +142,9 @@ TEST(LayoutFile, EveryExampleIsCalculated) {
     size_t count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(kRoads)) {
         if (entry.path().extension() != ".json") continue;
-        const LoadedLayout layout = read_layout(entry.path());
-        const LightingClass* wanted = find_lighting_class(layout.wanted_class);
-        const RoadLighting result = calculate_lighting(layout);
+        const roads::LoadedLayout layout = roads::read_layout(entry.path());
+        const roads::LightingClass* wanted = roads::find_lighting_class(layout.wanted_class);
+        const roads::RoadLighting result = roads::calculate_lighting(layout);
         EXPECT_GT(result.average_luminance, 0.3) << entry.path();
         EXPECT_TRUE(!wanted || result.average_luminance >= wanted->average_luminance) << entry.path();
         ++count;
@@ -154,40 +153,40 @@ TEST(LayoutFile, EveryExampleIsCalculated) {
 }
 
 /// What a renderer will do with the lamps of a scene, in its own frame.
-double rendered_illuminance(const Scene& scene, glm::dvec3 point, double reach) {
-    const auto world = world_transforms(scene, 0);
+double rendered_illuminance(const scene::Scene& scene, glm::dvec3 point, double reach) {
+    const auto world = scene::world_transforms(scene, 0);
     double sum = 0;
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
-        if (scene.nodes[i].lamp == kNone) continue;
-        const Lamp& lamp = scene.lamps[scene.nodes[i].lamp];
+        if (scene.nodes[i].lamp == scene::kNone) continue;
+        const scene::Lamp& lamp = scene.lamps[scene.nodes[i].lamp];
         const glm::dmat4 node = world[i];
         const glm::dvec3 away = point - glm::dvec3(node[3]);
         if (std::hypot(away.x, away.z) > reach) continue;
         const double d = glm::length(away);
         sum += lamp.intensity *
-               intensity(scene.distributions[lamp.distribution], glm::transpose(glm::dmat3(node)) * away) * -away.y /
-               (d * d * d);
+               photometry::intensity(scene.distributions[lamp.distribution], glm::transpose(glm::dmat3(node)) * away) *
+               -away.y / (d * d * d);
     }
     return sum;
 }
 
 TEST(LayoutScene, HasTheLightOfTheCalculation) {
-    LoadedLayout layout = layout_of(layout_json());
+    roads::LoadedLayout layout = layout_of(layout_json());
     for (const bool street_side : {false, true}) {
         layout.c0_street_side = street_side;
-        const Scene scene = layout_scene(layout);
-        const RoadLighting result = calculate_lighting(layout);
+        const scene::Scene scene = roads::layout_scene(layout);
+        const roads::RoadLighting result = roads::calculate_lighting(layout);
         for (size_t i = 0; i < result.points.size(); i += 5) {
-            const FieldPoint& p = result.points[i];
-            const double e = rendered_illuminance(scene, layout_to_world({p.x, p.y, 0}), 5 * layout.height);
+            const roads::FieldPoint& p = result.points[i];
+            const double e = rendered_illuminance(scene, roads::layout_to_world({p.x, p.y, 0}), 5 * layout.height);
             EXPECT_NEAR(e / p.illuminance, 1, 1e-4) << p.x << " " << p.y;
         }
     }
 }
 
 TEST(LayoutScene, LooksAlongTheRoad) {
-    const LoadedLayout layout = read_layout(kRoads / "worked-example.json");
-    const Scene scene = layout_scene(layout);
+    const roads::LoadedLayout layout = roads::read_layout(kRoads / "worked-example.json");
+    const scene::Scene scene = roads::layout_scene(layout);
     ASSERT_EQ(scene.reflection_tables.size(), 1u);
     EXPECT_EQ(scene.reflection_tables[0], layout.surface);
     EXPECT_EQ(scene.materials.at(0).reflection_table, 0u);
@@ -196,11 +195,11 @@ TEST(LayoutScene, LooksAlongTheRoad) {
     ASSERT_EQ(scene.cameras.size(), 2u);
     EXPECT_EQ(scene.cameras[1].name, "observer lane 2");
 
-    const auto world = world_transforms(scene, 0);
+    const auto world = scene::world_transforms(scene, 0);
     size_t lamps = 0, cameras = 0;
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
-        lamps += scene.nodes[i].lamp != kNone;
-        if (scene.nodes[i].camera == kNone) continue;
+        lamps += scene.nodes[i].lamp != scene::kNone;
+        if (scene.nodes[i].camera == scene::kNone) continue;
         const glm::vec3 eye = world[i][3], sight = -glm::normalize(glm::vec3(world[i][2]));
         const glm::vec3 expected(-1.75f - 3.5f * static_cast<float>(scene.nodes[i].camera), 1.5f, 60.0f);
         EXPECT_LT(glm::length(eye - expected), 1e-5f);
@@ -211,7 +210,7 @@ TEST(LayoutScene, LooksAlongTheRoad) {
     EXPECT_EQ(cameras, 2u);
     EXPECT_EQ(lamps, 8u);  // x = -90, -60, ..., 120: from -60 - 5H to S + 12H = 126 m
     // The surface faces up, wherever the observers look at it.
-    const Primitive& plane = scene.meshes.at(0).primitives.at(0);
+    const scene::Primitive& plane = scene.meshes.at(0).primitives.at(0);
     for (size_t i = 0; i < plane.indices.size(); i += 3) {
         const glm::vec3 a = plane.vertices[plane.indices[i]].position,
                         b = plane.vertices[plane.indices[i + 1]].position,

@@ -14,26 +14,20 @@
 #include "scene/lamp.h"
 #include "support/shared_data.h"
 
-namespace vesper {
-using namespace roads;
+namespace vesper::test {
+
+using roads::LitRoads, roads::lit_roads;
+
 namespace {
 
-using test::area_of;
-using test::geometry;
-using test::lamps_of;
-using test::network_of;
-using test::road;
-using test::Triangle;
-using test::triangles_of;
-using test::two_way_section;
-
-RoadNetwork straight(const std::string& rest = "", double length = 90, const std::string& lanes = two_way_section()) {
+roads::RoadNetwork straight(const std::string& rest = "", double length = 90,
+                            const std::string& lanes = two_way_section()) {
     return network_of(road("1", length, geometry(0, 0, 0, 0, length, "<line/>"), lanes, rest));
 }
 
 /// What holds of every scene: finite, unit normals on the side that is seen, indices that exist.
 void expect_sound(const LitRoads& lit) {
-    const Scene& scene = lit.scene;
+    const scene::Scene& scene = lit.scene;
     size_t flipped = 0, count = 0;
     for (const Triangle& triangle : triangles_of(scene, "")) {
         const glm::dvec3 across = triangle.across();
@@ -46,7 +40,7 @@ void expect_sound(const LitRoads& lit) {
     }
     EXPECT_GT(count, 10u);
     EXPECT_EQ(flipped, 0u);
-    EXPECT_LE(scene.retroreflectors.size(), kMaxRetroreflectors);
+    EXPECT_LE(scene.retroreflectors.size(), scene::kMaxRetroreflectors);
     for (const char* material : {"asphalt", "asphalt shoulder", "marking white", "grass"})
         for (const Triangle& triangle : triangles_of(scene, material))
             if (std::abs(glm::normalize(triangle.across()).y) > 0.05 || material != std::string("grass")) {
@@ -79,25 +73,24 @@ TEST(LitRoads, PaintHasTheAreaOfItsDashes) {
         "<laneSection s=\"0\"><center><lane id=\"0\"><roadMark sOffset=\"0\" type=\"broken\" width=\"0.12\"><type "
         "name=\"broken\"><line length=\"3\" space=\"6\" sOffset=\"1\"/></type></roadMark></lane>"
         "</center><right>" +
-        test::lane(-1, 3.5, "driving", "<roadMark sOffset=\"10\" type=\"solid\" width=\"0.2\"/>") +
-        "</right></laneSection>";
+        lane(-1, 3.5, "driving", "<roadMark sOffset=\"10\" type=\"solid\" width=\"0.2\"/>") + "</right></laneSection>";
     const LitRoads lit = lit_roads(straight("", 90, lanes));
     expect_sound(lit);
     EXPECT_NEAR(area_of(triangles_of(lit.scene, "marking white")), 10 * 3 * 0.12 + 80 * 0.2, 1e-3);
     for (const Triangle& triangle : triangles_of(lit.scene, "marking white"))
         for (const glm::dvec3& corner : triangle.corners) EXPECT_NEAR(corner.y, 0.006, 1e-6);
     const uint32_t retro = [&] {
-        for (const Material& material : lit.scene.materials)
+        for (const scene::Material& material : lit.scene.materials)
             if (material.name == "marking white") return material.retroreflector;
-        return kNone;
+        return scene::kNone;
     }();
-    ASSERT_NE(retro, kNone);
+    ASSERT_NE(retro, scene::kNone);
     EXPECT_TRUE(lit.scene.retroreflectors[retro].marking);
 }
 
 // Chords of the outer borders of an arc of 50 m: the sagitta of each stays within the bound.
 TEST(LitRoads, SurfacesKeepToTheChord) {
-    LitRoadOptions options;
+    roads::LitRoadOptions options;
     for (const double chord : {0.05, 0.01}) {
         options.chord = chord;
         const LitRoads lit = lit_roads(
@@ -119,14 +112,14 @@ TEST(LitRoads, SurfacesKeepToTheChord) {
 }
 
 TEST(LitRoads, StreetLampsStandEverySoMuchAndLightTheRoad) {
-    LitRoadOptions options;
-    options.lamps = {.spacing = 30, .height = 9, .side = LampSide::Both, .overhang = 1};
+    roads::LitRoadOptions options;
+    options.lamps = {.spacing = 30, .height = 9, .side = roads::LampSide::Both, .overhang = 1};
     options.headlamps = false;
     const LitRoads lit = lit_roads(straight(), options);
     const auto lamps = lamps_of(lit.scene, "street_lamp_");
     ASSERT_EQ(lamps.size(), 6u);
-    for (const Node& node : lamps) {
-        const Lamp& lamp = lit.scene.lamps[node.lamp];
+    for (const scene::Node& node : lamps) {
+        const scene::Lamp& lamp = lit.scene.lamps[node.lamp];
         EXPECT_NEAR(std::fmod(node.translation.x, 30), 15, 1e-3);
         EXPECT_NEAR(std::abs(node.translation.z), 3.5 + 0.7 - 1, 1e-4) << "behind the kerb, over the road";
         EXPECT_NEAR(node.translation.y, 9, 0.35);
@@ -134,8 +127,8 @@ TEST(LitRoads, StreetLampsStandEverySoMuchAndLightTheRoad) {
         EXPECT_NEAR(down.y, -1, 1e-6);
         // To the road and along it, more than to the other side.
         const auto towards = [&](glm::dvec3 world) {
-            return luminous_intensity(lamp, lit.scene.distributions,
-                                      glm::dvec3(glm::inverse(node.rotation) * glm::vec3(world)));
+            return scene::luminous_intensity(lamp, lit.scene.distributions,
+                                             glm::dvec3(glm::inverse(node.rotation) * glm::vec3(world)));
         };
         const double road_side = node.translation.z > 0 ? -1 : 1;
         EXPECT_GT(towards({0.5, -1, road_side}), 1.5 * towards({0.5, -1, -road_side}));
@@ -152,17 +145,17 @@ TEST(LitRoads, StreetLampsStandEverySoMuchAndLightTheRoad) {
 TEST(LitRoads, TheDriverFollowsTheLaneAtTheLimit) {
     const LitRoads lit =
         lit_roads(straight("<type s=\"0\" type=\"town\"><speed max=\"36\" unit=\"km/h\"/></type>", 100));
-    const Scene& scene = lit.scene;
-    uint32_t driver = kNone;
+    const scene::Scene& scene = lit.scene;
+    uint32_t driver = scene::kNone;
     for (uint32_t i = 0; i < scene.nodes.size(); ++i)
         if (scene.nodes[i].name == "driver") driver = i;
-    ASSERT_NE(driver, kNone);
+    ASSERT_NE(driver, scene::kNone);
     EXPECT_EQ(scene.cameras[scene.nodes[driver].camera].name, "driver");
-    const auto at = [&](double seconds) { return world_transforms(scene, seconds)[driver]; };
+    const auto at = [&](double seconds) { return scene::world_transforms(scene, seconds)[driver]; };
     EXPECT_NEAR(at(0)[3].y, 1.2, 1e-5);
     EXPECT_NEAR(std::abs(at(0)[3].z), 1.75 - 0.37, 1e-5) << "left of the lane's middle";
     EXPECT_NEAR(std::abs(at(5)[3].x - at(1)[3].x), 40, 0.05);
-    EXPECT_NEAR(animation_length(scene), 10, 0.3);
+    EXPECT_NEAR(scene::animation_length(scene), 10, 0.3);
     EXPECT_NEAR(std::abs(at(5)[2].x), 1, 1e-5) << "looks along the road";
     EXPECT_GT((at(5)[3].x - at(1)[3].x) * -at(5)[2].x, 0);
     EXPECT_EQ(lamps_of(scene, "car_ego/headlamp_").size(), 2u);
@@ -171,13 +164,13 @@ TEST(LitRoads, TheDriverFollowsTheLaneAtTheLimit) {
 // 100 km/h, from s = 400 on 30 km/h: who drives there is as slow where that begins, and brakes no harder than
 // comfortably.
 TEST(LitRoads, TheDriverSlowsDownForALowerLimit) {
-    const Scene scene =
+    const scene::Scene scene =
         lit_roads(straight("<type s=\"0\" type=\"rural\"><speed max=\"100\" unit=\"km/h\"/></type><type s=\"400\" "
                            "type=\"town\"><speed max=\"30\" unit=\"km/h\"/></type>",
-                           600, "<laneSection s=\"0\"><right>" + test::lane(-1, 3.5) + "</right></laneSection>"))
+                           600, "<laneSection s=\"0\"><right>" + lane(-1, 3.5) + "</right></laneSection>"))
             .scene;
-    const auto way = std::find_if(scene.channels.begin(), scene.channels.end(), [&](const Channel& channel) {
-        return channel.path == Channel::Path::Translation && scene.nodes[channel.node].name == "car_ego";
+    const auto way = std::find_if(scene.channels.begin(), scene.channels.end(), [&](const scene::Channel& channel) {
+        return channel.path == scene::Channel::Path::Translation && scene.nodes[channel.node].name == "car_ego";
     });
     ASSERT_NE(way, scene.channels.end());
     double fastest = 0, before = 0;
@@ -198,7 +191,7 @@ TEST(LitRoads, TheDriverSlowsDownForALowerLimit) {
 
 TEST(LitRoads, GroundLiesBelowRoads) {
     // A slope of a quarter and a bank: nowhere above any point it was told of.
-    Ground ground({-50, -50}, {50, 50}, 3);
+    roads::Ground ground({-50, -50}, {50, 50}, 3);
     const auto surface = [](double x, double y) { return glm::dvec3(x, y, 0.25 * x + 0.1 * y); };
     for (double x = -30; x <= 30; x += 1)
         for (double y = -4; y <= 4; y += 1) ground.stay_below(surface(x, y));
@@ -242,7 +235,7 @@ TEST(LitRoads, ObjectsStandWhereTheFileSays) {
         "zOffsetStart=\"0\" zOffsetEnd=\"0\" widthStart=\"0.2\" widthEnd=\"0.2\"/></object>"
         "<object id=\"3\" type=\"crosswalk\" name=\"zebra\" s=\"70\" t=\"0\" length=\"4\" width=\"7\" "
         "height=\"3\"/></objects>";
-    LitRoadOptions options;
+    roads::LitRoadOptions options;
     options.lamps.spacing = 0;
     const LitRoads lit = lit_roads(straight(objects), options);
     expect_sound(lit);
@@ -252,24 +245,24 @@ TEST(LitRoads, ObjectsStandWhereTheFileSays) {
 }
 
 TEST(LitRoads, TooMuchIsRefused) {
-    RoadNetwork network = straight();
+    roads::RoadNetwork network = straight();
     network.roads[0].length = 4e5;
     EXPECT_THROW(lit_roads(network), Error);
-    LitRoadOptions options;
+    roads::LitRoadOptions options;
     options.chord = 0;
     EXPECT_THROW(lit_roads(straight(), options), Error);
     EXPECT_THROW(lit_roads({}), Error);
 }
 
 TEST(LitRoads, OfSharedFilesAreSound) {
-    const auto folder = test::shared_data("scenario");
-    if (!test::is_here(folder)) GTEST_SKIP() << "no shared data";
+    const auto folder = shared_data("scenario");
+    if (!is_here(folder)) GTEST_SKIP() << "no shared data";
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         if (entry.path().extension() != ".xodr") continue;
         SCOPED_TRACE(entry.path().string());
-        std::optional<RoadNetwork> network;
+        std::optional<roads::RoadNetwork> network;
         try {
-            network = read_opendrive(entry.path());
+            network = roads::read_opendrive(entry.path());
         } catch (const Error&) {
             continue;
         }
@@ -278,4 +271,4 @@ TEST(LitRoads, OfSharedFilesAreSound) {
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

@@ -10,15 +10,11 @@
 #include "roads/road_surface.h"
 #include "roads/road_texts.h"
 
-namespace vesper {
-using namespace roads;
-namespace {
+namespace vesper::test {
 
-using test::geometry;
-using test::lane;
-using test::network_of;
-using test::road;
-using test::two_way_section;
+using roads::RoadNetwork;
+
+namespace {
 
 bool noted(const RoadNetwork& network, const std::string& what) {
     for (const std::string& note : network.notes)
@@ -26,7 +22,7 @@ bool noted(const RoadNetwork& network, const std::string& what) {
     return false;
 }
 
-uint32_t lane_named(const LaneGraph& graph, const std::string& name) {
+uint32_t lane_named(const roads::LaneGraph& graph, const std::string& name) {
     for (uint32_t i = 0; i < graph.lanes().size(); ++i)
         if (graph.lanes()[i].name == name) return i;
     ADD_FAILURE() << name;
@@ -35,8 +31,9 @@ uint32_t lane_named(const LaneGraph& graph, const std::string& name) {
 
 size_t street_lamps(const RoadNetwork& network) {
     size_t count = 0;
-    const LitRoads lit = lit_roads(network);
-    for (const Node& node : lit.scene.nodes) count += node.lamp != kNone && node.name.starts_with("street_lamp_");
+    const roads::LitRoads lit = roads::lit_roads(network);
+    for (const scene::Node& node : lit.scene.nodes)
+        count += node.lamp != scene::kNone && node.name.starts_with("street_lamp_");
     return count;
 }
 
@@ -67,7 +64,7 @@ TEST(OthersOpenDrive, RoadsWithoutLengthLeadOn) {
                        "<connection incomingRoad=\"a\" connectingRoad=\"bend\" contactPoint=\"start\"><laneLink "
                        "from=\"-1\" to=\"-1\"/></connection></junction>");
         EXPECT_TRUE(noted(network, "road 'point' has no length"));
-        const LaneGraph graph(network);
+        const roads::LaneGraph graph(network);
         const uint32_t a = lane_named(graph, "road a, section 0, lane -1"),
                        b = lane_named(graph, "road b, section 0, lane -1");
         EXPECT_EQ(graph.route(a, b).size(), 3u);
@@ -101,7 +98,7 @@ TEST(OthersOpenDrive, LanesLieBesideEachOtherAcrossGapsOfTheirNumbers) {
     };
     const RoadNetwork dense = with(section(-1, -2, -3)), sparse = with(section(-2, -5, -9));
     EXPECT_TRUE(noted(sparse, "lane ids have a gap"));
-    const LaneGraph whole(dense), graph(sparse);
+    const roads::LaneGraph whole(dense), graph(sparse);
     ASSERT_EQ(graph.lanes().size(), whole.lanes().size());
     for (uint32_t i = 0; i < graph.lanes().size(); ++i) {
         EXPECT_EQ(graph.lanes()[i].poses[0].position, whole.lanes()[i].poses[0].position);
@@ -121,24 +118,24 @@ TEST(OthersOpenDrive, LanesLieBesideEachOtherAcrossGapsOfTheirNumbers) {
 // Borders count from the reference line, whatever lanes are left out between.
 TEST(OthersOpenDrive, GapsBetweenBordersHaveNoWidth) {
     const auto bordered = [](int id, double t) {
-        return "<lane id=\"" + std::to_string(id) + "\" type=\"driving\"><border sOffset=\"0\"" +
-               test::quantity("a", t) + "/></lane>";
+        return "<lane id=\"" + std::to_string(id) + "\" type=\"driving\"><border sOffset=\"0\"" + quantity("a", t) +
+               "/></lane>";
     };
     const RoadNetwork network = network_of(
         road("1", 50, geometry(0, 0, 0, 0, 50, "<line/>"),
              "<laneSection s=\"0\"><right>" + bordered(-1, -3) + bordered(-3, -7) + "</right></laneSection>"));
-    const LaneGraph graph(network);
+    const roads::LaneGraph graph(network);
     ASSERT_EQ(graph.lanes().size(), 2u);
     EXPECT_NEAR(graph.lanes()[1].poses[0].width, 4, 1e-9);
     EXPECT_NEAR(graph.lanes()[1].poses[0].position.z, 5, 1e-9);
-    EXPECT_EQ(stated_width(network.roads[0].sections[0], *network.roads[0].sections[0].find(-3), 10), 4);
+    EXPECT_EQ(roads::stated_width(network.roads[0].sections[0], *network.roads[0].sections[0].find(-3), 10), 4);
 }
 
 // Where they are cut shorter than can be built, lanes lead over it; the ids change there, so that places alone do not
 // tell.
 TEST(OthersOpenDrive, SectionsWithoutLengthAreLinkedAcross) {
     const auto section = [](double s, int id, int before, int after) {
-        return "<laneSection" + test::quantity("s", s) + "><right>" + (id == -2 ? lane(-1, 0.5, "none") : "") +
+        return "<laneSection" + quantity("s", s) + "><right>" + (id == -2 ? lane(-1, 0.5, "none") : "") +
                lane(id, 3.5, "driving",
                     "<link><predecessor id=\"" + std::to_string(before) + "\"/><successor id=\"" +
                         std::to_string(after) + "\"/></link>") +
@@ -152,7 +149,7 @@ TEST(OthersOpenDrive, SectionsWithoutLengthAreLinkedAcross) {
     EXPECT_EQ(network.roads[0].sections[0].end, 50);
     EXPECT_EQ(network.roads[0].sections[0].find(-1)->successors, std::vector<int>{-1});
     EXPECT_EQ(network.roads[0].sections[1].find(-1)->predecessors, std::vector<int>{-1});
-    const LaneGraph graph(network);
+    const roads::LaneGraph graph(network);
     ASSERT_EQ(graph.lanes().size(), 2u);
     EXPECT_EQ(graph.lanes()[0].successors, std::vector<uint32_t>{1});
 }
@@ -168,7 +165,7 @@ TEST(OthersOpenDrive, ManySectionsWithoutLengthAreNoMatter) {
     const RoadNetwork network = network_of(road("1", 100, geometry(0, 0, 0, 0, 100, "<line/>"), sections));
     ASSERT_EQ(network.roads[0].sections.size(), 2u);
     EXPECT_EQ(network.roads[0].sections[0].find(-1)->successors.size(), 2u);
-    EXPECT_EQ(LaneGraph(network).lanes()[0].successors.size(), 2u);
+    EXPECT_EQ(roads::LaneGraph(network).lanes()[0].successors.size(), 2u);
 }
 
 // A bridge that rises from the ground: no lamp of the road below it stands in its way.
@@ -179,8 +176,8 @@ TEST(OthersOpenDrive, NoLampStandsInABridge) {
     const std::string below = road("2", 90, geometry(0, 150, -45, M_PI / 2, 90, "<line/>"), two_way_section());
     const auto in_the_way = [](const RoadNetwork& network) {
         size_t count = 0;
-        for (const Node& node : lit_roads(network).scene.nodes)
-            count += node.lamp != kNone && node.name.starts_with("street_lamp_") &&
+        for (const scene::Node& node : roads::lit_roads(network).scene.nodes)
+            count += node.lamp != scene::kNone && node.name.starts_with("street_lamp_") &&
                      std::abs(node.translation.x - 150) < 8 && std::abs(node.translation.z) < 5;
         return count;
     };
@@ -197,7 +194,7 @@ TEST(OthersOpenDrive, PlacesAreTheSameInUtf16) {
         for (int i = 0; i < times; ++i) text += of;
         return text;
     };
-    const std::string text = test::opendrive(
+    const std::string text = opendrive(
         "<!-- " + many("\u65e5\u672c", 100) + many("\U0001F697", 100) + many("\u00fc", 100) +
         " -->\n<road id=\"1\" length=\"10\">\n" +
         std::string(
@@ -205,7 +202,7 @@ TEST(OthersOpenDrive, PlacesAreTheSameInUtf16) {
     const std::u16string wide = std::filesystem::path(text).u16string();
     const auto complaint = [](const std::string& of) {
         try {
-            parse_opendrive(of, "file.xodr");
+            roads::parse_opendrive(of, "file.xodr");
         } catch (const Error& error) {
             return std::string(error.what());
         }
@@ -282,4 +279,4 @@ TEST(OthersOpenDrive, ValuesThatNobodyKnowsAreSaid) {
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

@@ -5,21 +5,14 @@
 #include "roads/lanes.h"
 #include "roads/road_texts.h"
 
-namespace vesper {
-using namespace roads;
+namespace vesper::test {
 namespace {
-
-using test::geometry;
-using test::network_of;
-using test::opendrive;
-using test::road;
-using test::two_way_section;
 
 const std::string kLine = geometry(0, 0, 0, 0, 100, "<line/>");
 
-std::string complaint(const std::string& text, const RoadLimits& limits = {}) {
+std::string complaint(const std::string& text, const roads::RoadLimits& limits = {}) {
     try {
-        parse_opendrive(text, "file.xodr", limits);
+        roads::parse_opendrive(text, "file.xodr", limits);
     } catch (const Error& error) {
         return error.what();
     }
@@ -30,7 +23,7 @@ std::string complaint_of_plan(const std::string& plan) {
     return complaint(opendrive(road("1", 100, plan, two_way_section())));
 }
 
-bool has_note(const RoadNetwork& network, const std::string& what) {
+bool has_note(const roads::RoadNetwork& network, const std::string& what) {
     for (const std::string& note : network.notes)
         if (note.find(what) != note.npos) return true;
     return false;
@@ -107,7 +100,7 @@ TEST(OpenDrive, LimitsHold) {
                   .find("reaches from t ="),
               std::string::npos);
     EXPECT_NE(complaint(opendrive(road("1", 100, kLine,
-                                       "<laneSection s=\"0\"><left>" + test::lane(1, 5000) + "</left></laneSection>")))
+                                       "<laneSection s=\"0\"><left>" + lane(1, 5000) + "</left></laneSection>")))
                   .find("reaches from t ="),
               std::string::npos);
     EXPECT_NE(
@@ -117,7 +110,7 @@ TEST(OpenDrive, LimitsHold) {
         std::string::npos);
     // For a tenth of a metre between those places that are looked at anyway.
     const std::string wide =
-        test::lane(-1, 3, "driving", "<width sOffset=\"0\" a=\"3\"/><width sOffset=\"10.1\" a=\"3\" c=\"1e8\"/>");
+        lane(-1, 3, "driving", "<width sOffset=\"0\" a=\"3\"/><width sOffset=\"10.1\" a=\"3\" c=\"1e8\"/>");
     const std::string back = "<width sOffset=\"10.2\" a=\"3\"/></lane>";
     EXPECT_NE(complaint(opendrive(road("1", 100, kLine,
                                        "<laneSection s=\"0\"><right>" + wide.substr(0, wide.rfind("<width")) + back +
@@ -132,7 +125,7 @@ TEST(OpenDrive, LimitsHold) {
                          two_way_section())))
             .find("has a lane offset of 100000"),
         std::string::npos);
-    RoadLimits limits;
+    roads::RoadLimits limits;
     limits.elements = 5;
     EXPECT_NE(complaint(opendrive(road("1", 100, kLine, two_way_section())), limits).find("more than 5 elements"),
               std::string::npos);
@@ -151,7 +144,7 @@ TEST(OpenDrive, LimitsHold) {
 }
 
 TEST(OpenDrive, PrefixesAndMissingAttributesAreFine) {
-    const RoadNetwork network = parse_opendrive(
+    const roads::RoadNetwork network = roads::parse_opendrive(
         "<odr:OpenDRIVE xmlns:odr=\"x\"><odr:road odr:id=\"1\" length=\"10\"><odr:planView><odr:geometry s=\"0\" "
         "x=\"+1.5\" y=\" 2 \" length=\"10\"><odr:line/></odr:geometry>"
         "</odr:planView><odr:lanes><odr:laneSection s=\"0\"><odr:right><odr:lane id=\"-1\" type=\"driving\"><odr:width "
@@ -161,7 +154,7 @@ TEST(OpenDrive, PrefixesAndMissingAttributesAreFine) {
     EXPECT_EQ(network.roads[0].plan[0].x, 1.5);
     EXPECT_EQ(network.roads[0].plan[0].y, 2);
     EXPECT_TRUE(has_note(network, "has no header"));
-    EXPECT_EQ(LaneGraph(network).lanes().size(), 1u);
+    EXPECT_EQ(roads::LaneGraph(network).lanes().size(), 1u);
 }
 
 TEST(OpenDrive, WhatBreaksARuleIsReadAndNoted) {
@@ -208,7 +201,7 @@ TEST(OpenDrive, LinksThatGoRoundInCirclesDoNotHang) {
         "<link><predecessor elementType=\"road\" elementId=\"1\" contactPoint=\"end\"/><successor elementType=\"road\" "
         "elementId=\"1\" contactPoint=\"start\"/></link>";
     const std::string lane_links = "<link><predecessor id=\"-1\"/><successor id=\"-1\"/></link>";
-    const LaneGraph graph(
+    const roads::LaneGraph graph(
         network_of(road("1", 100, geometry(0, 0, 0, 0, 100, "<arc curvature=\"0.06283185307179587\"/>"),
                         two_way_section(0, "", lane_links), links)));
     uint32_t lane = 0;
@@ -226,14 +219,14 @@ TEST(OpenDrive, MarksMeanWhatTheirNamesSay) {
                         "weight=\"bold\" color=\"yellow\"/><roadMark sOffset=\"50\" type=\"broken\" "
                         "width=\"0.2\"><type name=\"broken\"><line length=\"4\" space=\"8\" tOffset=\"0.1\" "
                         "sOffset=\"2\"/></type></roadMark></lane></center><right>" +
-                            test::lane(-1, 3) + "</right></laneSection>"));
+                            lane(-1, 3) + "</right></laneSection>"));
     const auto& marks = network.roads[0].sections[0].find(0)->marks;
     ASSERT_EQ(marks.size(), 2u);
     ASSERT_EQ(marks[0].lines.size(), 2u);
     EXPECT_EQ(marks[0].lines[0].length, 0);
     EXPECT_GT(marks[0].lines[0].t_offset, 0);
     EXPECT_GT(marks[0].lines[1].space, 0);
-    EXPECT_EQ(marks[0].lines[0].colour, MarkColour::Yellow);
+    EXPECT_EQ(marks[0].lines[0].colour, roads::MarkColour::Yellow);
     EXPECT_EQ(marks[0].lines[0].width, 0.25);
     EXPECT_EQ(marks[1].lines[0].length, 4);
     EXPECT_EQ(marks[1].lines[0].width, 0.2);
@@ -245,13 +238,13 @@ TEST(OpenDrive, DoubleLinesKnowTheirSides) {
     for (const std::string& type : {std::string("solid broken"), std::string("broken solid")}) {
         const std::string mark = "<roadMark sOffset=\"0\" type=\"" + type + "\"/>";
         const auto network = network_of(road("1", 100, kLine,
-                                             "<laneSection s=\"0\"><left>" + test::lane(1, 3, "driving", mark) +
+                                             "<laneSection s=\"0\"><left>" + lane(1, 3, "driving", mark) +
                                                  "</left><center><lane id=\"0\">" + mark + "</lane></center><right>" +
-                                                 test::lane(-1, 3, "driving", mark) + "</right></laneSection>"));
+                                                 lane(-1, 3, "driving", mark) + "</right></laneSection>"));
         for (const int id : {1, 0, -1}) {
             const auto& lines = network.roads[0].sections[0].find(id)->marks.at(0).lines;
             ASSERT_EQ(lines.size(), 2u);
-            const MarkLine& solid = lines[lines[0].length > 0 ? 1 : 0];
+            const roads::MarkLine& solid = lines[lines[0].length > 0 ? 1 : 0];
             EXPECT_EQ(solid.length, 0);
             EXPECT_EQ(solid.t_offset > 0, (type == "solid broken") != (id > 0)) << type << " of " << id;
         }
@@ -267,4 +260,4 @@ TEST(OpenDrive, FarAwayRoadsGetAnOriginNearThem) {
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

@@ -5,8 +5,10 @@
 
 #include "roads/plan_curve.h"
 
-namespace vesper {
-using namespace roads;
+namespace vesper::test {
+
+using roads::PlanGeometry, roads::plan_point;
+
 namespace {
 
 /// Fresnel's integrals of cos and sin(pi u^2 / 2) by their power series (Abramowitz and Stegun 7.3.11, 7.3.13): another
@@ -33,7 +35,7 @@ TEST(PlanCurve, ClothoidsAreFresnelsIntegrals) {
         const PlanGeometry g = spiral(0, 0.025, length);
         const double rate = 0.025 / length, scale = std::sqrt(M_PI / rate);
         for (double d = 0; d <= length; d += length / 7) {
-            const PlanPoint p = plan_point(g, d);
+            const roads::PlanPoint p = plan_point(g, d);
             const auto [c, s] = fresnel(d / scale);
             EXPECT_NEAR(p.x, scale * c, 1e-9) << length << " " << d;
             EXPECT_NEAR(p.y, scale * s, 1e-9) << length << " " << d;
@@ -45,10 +47,10 @@ TEST(PlanCurve, ClothoidsAreFresnelsIntegrals) {
 
 TEST(PlanCurve, ClothoidsEndWhereTheirMirrorImageBegins) {
     const PlanGeometry in = spiral(0.02, -0.01, 80);
-    const PlanPoint end = plan_point(in, 80);
+    const roads::PlanPoint end = plan_point(in, 80);
     PlanGeometry back = spiral(0.01, -0.02, 80);
     back.x = end.x, back.y = end.y, back.heading = end.heading + M_PI;
-    const PlanPoint home = plan_point(back, 80);
+    const roads::PlanPoint home = plan_point(back, 80);
     EXPECT_NEAR(home.x, 0, 1e-9);
     EXPECT_NEAR(home.y, 0, 1e-9);
     EXPECT_NEAR(std::remainder(home.heading - M_PI, 2 * M_PI), 0, 1e-12);
@@ -61,13 +63,13 @@ TEST(PlanCurve, ClothoidsOfOneCurvatureAreArcsAndArcsOfNoneAreLines) {
     same.x = 3, same.y = -2, same.heading = 0.7;
     const double radius = 1 / 0.03;
     for (double d = 0; d <= 200; d += 13) {
-        const PlanPoint a = plan_point(arc, d), b = plan_point(same, d);
+        const roads::PlanPoint a = plan_point(arc, d), b = plan_point(same, d);
         EXPECT_NEAR(a.x, b.x, 1e-9);
         EXPECT_NEAR(a.y, b.y, 1e-9);
         EXPECT_NEAR(std::hypot(a.x - (3 + radius * std::sin(0.7)), a.y - (-2 - radius * std::cos(0.7))), radius, 1e-9);
     }
     for (const double tiny : {0.0, 1e-15, 1e-9}) {
-        const PlanPoint p = plan_point({.kind = PlanGeometry::Kind::Arc, .length = 100, .curvature = tiny}, 100);
+        const roads::PlanPoint p = plan_point({.kind = PlanGeometry::Kind::Arc, .length = 100, .curvature = tiny}, 100);
         EXPECT_NEAR(p.x, 100, 1e-9);
         EXPECT_NEAR(p.y, tiny * 5000, 1e-9);
     }
@@ -91,16 +93,16 @@ TEST(PlanCurve, PolynomialsRunByArcLength) {
     const double length = parabola(kEnd, kRadius);
     PlanGeometry graph{.kind = PlanGeometry::Kind::Poly3, .length = length};
     graph.v = {0, 0, 1 / (2 * kRadius), 0};
-    EXPECT_NEAR(measure(graph), length, 1e-9);
+    EXPECT_NEAR(roads::measure(graph), length, 1e-9);
     PlanGeometry by_length{.kind = PlanGeometry::Kind::ParamPoly3, .length = length};
     by_length.u = {0, 1, 0, 0}, by_length.v = graph.v, by_length.p_end = kEnd;
-    EXPECT_NEAR(measure(by_length), length, 1e-9);
+    EXPECT_NEAR(roads::measure(by_length), length, 1e-9);
     PlanGeometry normalized = by_length;
     normalized.u = {0, kEnd, 0, 0}, normalized.v = {0, 0, kEnd * kEnd / (2 * kRadius), 0}, normalized.p_end = 1;
-    EXPECT_NEAR(measure(normalized), length, 1e-9);
+    EXPECT_NEAR(roads::measure(normalized), length, 1e-9);
     for (double u = 0; u <= kEnd; u += 5)
         for (const PlanGeometry& g : {graph, by_length, normalized}) {
-            const PlanPoint p = plan_point(g, parabola(u, kRadius));
+            const roads::PlanPoint p = plan_point(g, parabola(u, kRadius));
             EXPECT_NEAR(p.x, u, 1e-8);
             EXPECT_NEAR(p.y, u * u / (2 * kRadius), 1e-8);
             EXPECT_NEAR(p.heading, std::atan(u / kRadius), 1e-9);
@@ -111,10 +113,10 @@ TEST(PlanCurve, PolynomialsRunByArcLength) {
 TEST(PlanCurve, StatedLengthsStretchPolynomials) {
     PlanGeometry g{.kind = PlanGeometry::Kind::ParamPoly3, .heading = M_PI, .length = 20};
     g.u = {0, 10, 0, 0}, g.p_end = 1;  // 10 m long
-    EXPECT_NEAR(measure(g), 10, 1e-12);
+    EXPECT_NEAR(roads::measure(g), 10, 1e-12);
     EXPECT_NEAR(plan_point(g, 10).x, -5, 1e-9);
     EXPECT_NEAR(plan_point(g, 20).x, -10, 1e-9);
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

@@ -11,17 +11,19 @@
 #include "vision/glare.h"
 
 namespace vesper::test {
-using namespace roads;
+
+using roads::Arrangement, roads::LoadedLayout, roads::RoadLighting, roads::calculate_lighting, roads::vector_of;
+
 namespace {
 
 /// The same intensity in all directions, cd.
-Distribution isotropic(double candela) {
+photometry::Distribution isotropic(double candela) {
     return {.name = "isotropic", .horizontal = {0}, .vertical = {0, 180}, .candela = {candela, candela}};
 }
 
 /// r = q0 cos^3(gamma) at close nodes: straight lines between them keep q within 1e-5 of q0.
-ReflectionTable matt_road(double q0) {
-    ReflectionTable table{.name = "lambert", .beta = {0, 180}};
+photometry::ReflectionTable matt_road(double q0) {
+    photometry::ReflectionTable table{.name = "lambert", .beta = {0, 180}};
     for (int i = 0; i <= 500; ++i) {
         const double t = i < 400 ? i * 0.01 : 4 + (i - 400) * 0.09;
         table.tan_gamma.push_back(t);
@@ -33,8 +35,9 @@ ReflectionTable matt_road(double q0) {
 /// The worked example of docs/road.md: 10 klm lamps on 8 m poles every 30 m along the right edge of 7 m of road.
 LoadedLayout worked_example(const char* surface) {
     LoadedLayout layout{{.name = "example", .width = 7, .lanes = 2, .spacing = 30, .height = 8, .overhang = 0.5}};
-    layout.distribution = read_distribution(std::filesystem::path(VESPER_SOURCE_DIR) / "data/road/luminaire.ldt");
-    layout.surface = find_reflection_table(surface);
+    layout.distribution =
+        photometry::read_distribution(std::filesystem::path(VESPER_SOURCE_DIR) / "data/road/luminaire.ldt");
+    layout.surface = photometry::find_reflection_table(surface);
     return layout;
 }
 
@@ -47,20 +50,22 @@ LoadedLayout isotropic_road() {
 
 TEST(RoadLighting, OneIsotropicLampOverLambert) {
     const LoadedLayout layout = isotropic_road();
-    const PlacedLuminaire lamp{{5, 2, 8}, glm::dmat3(1)};
+    const roads::PlacedLuminaire lamp{{5, 2, 8}, glm::dmat3(1)};
     for (const glm::dvec2 p : {glm::dvec2(5, 2), glm::dvec2(0, 0), glm::dvec2(11, 5), glm::dvec2(-20, 6)}) {
         const double d2 = (p.x - 5) * (p.x - 5) + (p.y - 2) * (p.y - 2) + 64;
         const double e = 1000 * 8 / std::pow(d2, 1.5);  // I cos(gamma) / d^2
-        EXPECT_NEAR(horizontal_illuminance(layout, {&lamp, 1}, p), e, 1e-12);
-        EXPECT_NEAR(luminance_towards(layout, {&lamp, 1}, p, {-60, 1.75}) / (0.05 * e), 1, 2e-4);
+        EXPECT_NEAR(roads::horizontal_illuminance(layout, {&lamp, 1}, p), e, 1e-12);
+        EXPECT_NEAR(roads::luminance_towards(layout, {&lamp, 1}, p, {-60, 1.75}) / (0.05 * e), 1, 2e-4);
     }
 }
 
 TEST(RoadLighting, LuminairesCountWithinTheirReach) {
     const LoadedLayout layout = isotropic_road();
-    const PlacedLuminaire lamp{{0, 0, 8}, glm::dmat3(1)};
-    const auto e = [&](double x, double y) { return horizontal_illuminance(layout, {&lamp, 1}, {x, y}); };
-    const auto l = [&](double x, double y) { return luminance_towards(layout, {&lamp, 1}, {x, y}, {x - 60, y}); };
+    const roads::PlacedLuminaire lamp{{0, 0, 8}, glm::dmat3(1)};
+    const auto e = [&](double x, double y) { return roads::horizontal_illuminance(layout, {&lamp, 1}, {x, y}); };
+    const auto l = [&](double x, double y) {
+        return roads::luminance_towards(layout, {&lamp, 1}, {x, y}, {x - 60, y});
+    };
     EXPECT_GT(e(39.9, 0), 0);
     EXPECT_EQ(e(40.1, 0), 0);
     EXPECT_EQ(e(30, 30), 0);   // 5H in plan
@@ -74,13 +79,14 @@ TEST(RoadLighting, LuminairesCountWithinTheirReach) {
 
 TEST(RoadLighting, TheLampBeyondThePointIsTheSpecularOne) {
     LoadedLayout layout = isotropic_road();
-    layout.surface = find_reflection_table("R3");
-    const PlacedLuminaire lamp{{0, 1.75, 8}, glm::dmat3(1)};
-    const auto l = [&](double x) { return luminance_towards(layout, {&lamp, 1}, {x, 1.75}, {-80, 1.75}); };
+    layout.surface = photometry::find_reflection_table("R3");
+    const roads::PlacedLuminaire lamp{{0, 1.75, 8}, glm::dmat3(1)};
+    const auto l = [&](double x) { return roads::luminance_towards(layout, {&lamp, 1}, {x, 1.75}, {-80, 1.75}); };
     EXPECT_NEAR(l(-16), 326e-4 * 1000 / 64, 1e-9);  // tan gamma 2, beta 0
     EXPECT_NEAR(l(16), 38e-4 * 1000 / 64, 1e-9);    // beta 180
     // A quarter turn: the observer looks along x, the lamp is across.
-    EXPECT_NEAR(luminance_towards(layout, {&lamp, 1}, {0, 1.75 - 16}, {-80, 1.75 - 16}), 34e-4 * 1000 / 64, 1e-9);
+    EXPECT_NEAR(roads::luminance_towards(layout, {&lamp, 1}, {0, 1.75 - 16}, {-80, 1.75 - 16}), 34e-4 * 1000 / 64,
+                1e-9);
 }
 
 TEST(RoadLighting, GridFollowsTheSpacing) {
@@ -93,7 +99,7 @@ TEST(RoadLighting, GridFollowsTheSpacing) {
         layout.spacing = c.spacing;
         layout.lanes = 3;
         layout.width = 10.5;
-        const CalculationField field = calculation_field(layout);
+        const roads::CalculationField field = roads::calculation_field(layout);
         ASSERT_EQ(field.x.size(), c.count) << c.spacing;
         EXPECT_DOUBLE_EQ(field.step, c.spacing / static_cast<double>(c.count));
         EXPECT_DOUBLE_EQ(field.x.front(), field.step / 2);
@@ -110,7 +116,7 @@ TEST(RoadLighting, ArrangementsStandWhereTheySay) {
     layout.reservation = 4;
     const auto mounts = [&](Arrangement arrangement) {
         layout.arrangement = arrangement;
-        return luminaire_mounts(layout);
+        return roads::luminaire_mounts(layout);
     };
     EXPECT_EQ(vector_of(mounts(Arrangement::Right)[0].position), glm::dvec3(0, 1, 8));
     EXPECT_EQ(vector_of(mounts(Arrangement::Left)[0].position), glm::dvec3(0, 6, 8));
@@ -124,13 +130,13 @@ TEST(RoadLighting, ArrangementsStandWhereTheySay) {
     EXPECT_EQ(vector_of(mounts(Arrangement::Central)[0].position), glm::dvec3(0, 1, 8));
     EXPECT_EQ(vector_of(mounts(Arrangement::Central)[1].position), glm::dvec3(0, -5, 8));
     EXPECT_EQ(mounts(Arrangement::Central)[1].facing_deg, -90);
-    EXPECT_EQ(placed_luminaires(layout, -60, 60).size(), 10u);
+    EXPECT_EQ(roads::placed_luminaires(layout, -60, 60).size(), 10u);
 }
 
 TEST(RoadLighting, LuminairesFaceTheCarriageway) {
     LoadedLayout layout = isotropic_road();
     layout.arrangement = Arrangement::Opposite;
-    const auto axes = [&](size_t i) { return placed_luminaires(layout, 0, 0)[i].axes; };
+    const auto axes = [&](size_t i) { return roads::placed_luminaires(layout, 0, 0)[i].axes; };
     const auto near = [](glm::dvec3 a, glm::dvec3 b) { return glm::length(a - b) < 1e-12; };
     EXPECT_TRUE(near(axes(0)[0], {1, 0, 0}) && near(axes(0)[1], {0, 1, 0}) && near(axes(0)[2], {0, 0, 1}));
     EXPECT_TRUE(near(axes(1)[0], {-1, 0, 0}) && near(axes(1)[1], {0, -1, 0}) && near(axes(1)[2], {0, 0, 1}));
@@ -200,9 +206,11 @@ TEST(RoadLighting, VeilOfOneLamp) {
     // 10 degrees above the line of sight, itself 1 degree down.
     const auto lamp_at = [](double degrees, double distance) {
         const double a = (degrees - 1) * std::numbers::pi / 180;
-        return PlacedLuminaire{{distance * std::cos(a), 1, 1.5 + distance * std::sin(a)}, glm::dmat3(1)};
+        return roads::PlacedLuminaire{{distance * std::cos(a), 1, 1.5 + distance * std::sin(a)}, glm::dmat3(1)};
     };
-    const auto veil = [&](const PlacedLuminaire& lamp) { return veiling_luminance(layout, {&lamp, 1}, {0, 1, 1.5}); };
+    const auto veil = [&](const roads::PlacedLuminaire& lamp) {
+        return roads::veiling_luminance(layout, {&lamp, 1}, {0, 1, 1.5});
+    };
     const double cos10 = std::cos(10 * std::numbers::pi / 180);
     const double k = 9.86 * (1 + std::pow(23 / 66.4, 4));
     EXPECT_NEAR(k, 10, 0.005);
@@ -215,26 +223,27 @@ TEST(RoadLighting, VeilOfOneLamp) {
     EXPECT_EQ(veil(lamp_at(170, 20)), 0);
     layout.observer_age = 66.4;
     EXPECT_NEAR(veil(lamp_at(10, 40)), 2 * 9.86 * 1000 * cos10 / 1600 / 100, 1e-9);
-    const PlacedLuminaire aside{{10, 1 + 10 * std::sqrt(3.0) + 0.5, 1.5}, glm::dmat3(1)};  // more than 60 degrees off
+    const roads::PlacedLuminaire aside{{10, 1 + 10 * std::sqrt(3.0) + 0.5, 1.5},
+                                       glm::dmat3(1)};  // more than 60 degrees off
     EXPECT_EQ(veil(aside), 0);
-    EXPECT_NEAR(threshold_increment(0.3, 1), 19.5, 1e-12);
-    EXPECT_NEAR(threshold_increment(0.3, 10), 95 * 0.3 / std::pow(10, 1.05), 1e-12);
+    EXPECT_NEAR(vision::threshold_increment(0.3, 1), 19.5, 1e-12);
+    EXPECT_NEAR(vision::threshold_increment(0.3, 10), 95 * 0.3 / std::pow(10, 1.05), 1e-12);
 }
 
 TEST(RoadLighting, ClassesHaveTheirLimits) {
     RoadLighting result;
     result.average_luminance = 1.0, result.overall_uniformity = 0.40, result.longitudinal_uniformity = 0.60;
     result.threshold_increment_percent = 15, result.edge_ratio = 0.30;
-    ASSERT_TRUE(reached_class(result));
-    EXPECT_STREQ(reached_class(result)->name, "M3");
+    ASSERT_TRUE(roads::reached_class(result));
+    EXPECT_STREQ(roads::reached_class(result)->name, "M3");
     result.average_luminance = 0.99;
-    EXPECT_STREQ(reached_class(result)->name, "M4");
+    EXPECT_STREQ(roads::reached_class(result)->name, "M4");
     result.threshold_increment_percent = 15.1;
-    EXPECT_STREQ(reached_class(result)->name, "M6");
+    EXPECT_STREQ(roads::reached_class(result)->name, "M6");
     result.edge_ratio = 0.29;
-    EXPECT_EQ(reached_class(result), nullptr);
-    EXPECT_EQ(find_lighting_class("M7"), nullptr);
-    EXPECT_EQ(find_lighting_class("M1")->average_luminance, 2.0);
+    EXPECT_EQ(roads::reached_class(result), nullptr);
+    EXPECT_EQ(roads::find_lighting_class("M7"), nullptr);
+    EXPECT_EQ(roads::find_lighting_class("M1")->average_luminance, 2.0);
 }
 
 /// Independent calculation (another program, double precision; its luminances agree with a Radiance simulation to
@@ -276,7 +285,7 @@ TEST(RoadLighting, WorkedExampleAgreesPointByPoint) {
     const RoadLighting r = calculate_lighting(worked_example("R3"));
     ASSERT_EQ(r.points.size(), 60u);
     for (const auto& e : expected) {
-        const auto found = std::find_if(r.points.begin(), r.points.end(), [&](const FieldPoint& p) {
+        const auto found = std::find_if(r.points.begin(), r.points.end(), [&](const roads::FieldPoint& p) {
             return std::abs(p.x - e.x) < 1e-3 && std::abs(p.y - e.y) < 1e-3;
         });
         ASSERT_NE(found, r.points.end()) << e.x << " " << e.y;

@@ -10,7 +10,9 @@
 #include "roads/scene_parts.h"
 
 namespace vesper::test {
-using namespace roads;
+
+using roads::ObjectKind, roads::RoadNetwork;
+
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -20,16 +22,16 @@ RoadNetwork with(const std::string& rest, const std::string& attributes = "") {
                       road("2", 90, geometry(0, 0, 100, 0, 90, "<line/>"), two_way_section()));
 }
 
-Scene built(const RoadNetwork& network, StreetLampOptions lamps = {.spacing = 0}) {
-    LitRoadOptions options;
+scene::Scene built(const RoadNetwork& network, roads::StreetLampOptions lamps = {.spacing = 0}) {
+    roads::LitRoadOptions options;
     options.lamps = lamps;
-    return lit_roads(network, options).scene;
+    return roads::lit_roads(network, options).scene;
 }
 
 ObjectKind kind(const std::string& type, const std::string& subtype, const std::string& name) {
-    RoadObject object;
+    roads::RoadObject object;
     object.type = type, object.subtype = subtype, object.name = name;
-    return kind_of(object);
+    return roads::kind_of(object);
 }
 
 bool object_noted(const RoadNetwork& network, const std::string& what) {
@@ -39,7 +41,7 @@ bool object_noted(const RoadNetwork& network, const std::string& what) {
 }
 
 /// Bounds in the file's frame (x, y, z) of what a material is on.
-std::pair<glm::dvec3, glm::dvec3> bounds_of(const Scene& scene, const std::string& material) {
+std::pair<glm::dvec3, glm::dvec3> bounds_of(const scene::Scene& scene, const std::string& material) {
     glm::dvec3 low(kInfinite), high(-kInfinite);
     for (const Triangle& triangle : triangles_of(scene, material))
         for (const glm::dvec3& c : triangle.corners)
@@ -101,10 +103,10 @@ TEST(RoadObjects, OpenOutlinesAreWallsAlone) {
 TEST(RoadObjects, RowsOfLampsStandBesideOwnOnesIfAsked) {
     const RoadNetwork network =
         with("<objects><object id=\"1\" type=\"streetLamp\" s=\"40\" t=\"6\" height=\"8\"/></objects>");
-    const auto lamps = [&](const LitRoadOptions& options) {
-        return lamps_of(lit_roads(network, options).scene, "street_lamp_").size();
+    const auto lamps = [&](const roads::LitRoadOptions& options) {
+        return lamps_of(roads::lit_roads(network, options).scene, "street_lamp_").size();
     };
-    LitRoadOptions options;
+    roads::LitRoadOptions options;
     EXPECT_EQ(lamps(options), 1u);
     options.lamps.overhang = 2;
     EXPECT_EQ(lamps(options), 1u);

@@ -7,21 +7,18 @@
 #include "roads/road_surface.h"
 #include "roads/road_texts.h"
 
-namespace vesper {
-using namespace roads;
+namespace vesper::test {
+
+using roads::surface_point;
+
 namespace {
 
-using test::geometry;
-using test::network_of;
-using test::road;
-using test::two_way_section;
-
-RoadNetwork profiled(const std::string& profiles, const std::string& lanes = two_way_section()) {
+roads::RoadNetwork profiled(const std::string& profiles, const std::string& lanes = two_way_section()) {
     return network_of("<road id=\"1\" length=\"100\"><planView>" + geometry(0, 0, 0, 0, 100, "<line/>") +
                       "</planView>" + profiles + "<lanes>" + lanes + "</lanes></road>");
 }
 
-void expect_at(const RoadPoint& got, double x, double y, double z) {
+void expect_at(const roads::RoadPoint& got, double x, double y, double z) {
     EXPECT_NEAR(got.position.x, x, 1e-9);
     EXPECT_NEAR(got.position.y, y, 1e-9);
     EXPECT_NEAR(got.position.z, z, 1e-9);
@@ -29,7 +26,7 @@ void expect_at(const RoadPoint& got, double x, double y, double z) {
 
 TEST(RoadPoints, SuperelevationTurnsTheCrossSection) {
     const auto network = profiled("<lateralProfile><superelevation s=\"0\" a=\"0.1\"/></lateralProfile>");
-    const RoadPoint left = surface_point(network.roads[0], 40, 5);
+    const roads::RoadPoint left = surface_point(network.roads[0], 40, 5);
     expect_at(left, 40, 5 * std::cos(0.1), 5 * std::sin(0.1));
     EXPECT_NEAR(left.up.y, -std::sin(0.1), 1e-12);
     EXPECT_NEAR(left.up.z, std::cos(0.1), 1e-12);
@@ -43,8 +40,9 @@ TEST(RoadPoints, ElevationIsACubicOfS) {
     expect_at(surface_point(network.roads[0], 30, -2), 30, -2, 1.6);
     expect_at(surface_point(network.roads[0], 80, 0), 80, 0, 2 + 0.6 + 0.9 - 0.27);
     const double slope = 0.02 + 0.06 - 0.027;
-    EXPECT_NEAR(reference_point(network.roads[0], 80).forward.z / reference_point(network.roads[0], 80).forward.x,
-                slope, 1e-12);
+    EXPECT_NEAR(
+        roads::reference_point(network.roads[0], 80).forward.z / roads::reference_point(network.roads[0], 80).forward.x,
+        slope, 1e-12);
 }
 
 TEST(RoadPoints, ShapesLieBetweenTheirStations) {
@@ -77,12 +75,12 @@ TEST(RoadPoints, StripsOfACrossSectionFollowEachOther) {
 
 TEST(RoadPoints, LanesAddUpFromTheLaneOffset) {
     const auto network = profiled("", "<laneOffset s=\"0\" a=\"1\" b=\"0.01\"/>" + two_way_section());
-    const Road& r = network.roads[0];
-    EXPECT_NEAR(lane_border(r, r.sections[0], 0, 50), 1.5, 1e-12);
-    EXPECT_NEAR(lane_border(r, r.sections[0], 2, 50), 7, 1e-12);
-    EXPECT_NEAR(lane_border(r, r.sections[0], -2, 50), -4, 1e-12);
-    expect_at(lane_point(r, r.sections[0], -1, 50, 0.5), 50, 1.5 - 1.75, 0);
-    expect_at(lane_point(r, r.sections[0], 2, 50, 1), 50, 7, 0.12);
+    const roads::Road& r = network.roads[0];
+    EXPECT_NEAR(roads::lane_border(r, r.sections[0], 0, 50), 1.5, 1e-12);
+    EXPECT_NEAR(roads::lane_border(r, r.sections[0], 2, 50), 7, 1e-12);
+    EXPECT_NEAR(roads::lane_border(r, r.sections[0], -2, 50), -4, 1e-12);
+    expect_at(roads::lane_point(r, r.sections[0], -1, 50, 0.5), 50, 1.5 - 1.75, 0);
+    expect_at(roads::lane_point(r, r.sections[0], 2, 50, 1), 50, 7, 0.12);
 }
 
 TEST(RoadPoints, BordersAreWhereTheyAreUnlessAnInnerOneIsFurtherOut) {
@@ -90,9 +88,9 @@ TEST(RoadPoints, BordersAreWhereTheyAreUnlessAnInnerOneIsFurtherOut) {
                                   "<laneSection s=\"0\"><left><lane id=\"2\" type=\"driving\"><border sOffset=\"0\" "
                                   "a=\"5\" b=\"-0.04\"/></lane><lane id=\"1\" type=\"driving\"><border sOffset=\"0\" "
                                   "a=\"4\"/></lane></left><center><lane id=\"0\"/></center></laneSection>");
-    const Road& r = network.roads[0];
-    EXPECT_NEAR(lane_border(r, r.sections[0], 2, 10), 4.6, 1e-12);
-    EXPECT_NEAR(lane_border(r, r.sections[0], 2, 75), 4, 1e-12) << "not inside lane 1";
+    const roads::Road& r = network.roads[0];
+    EXPECT_NEAR(roads::lane_border(r, r.sections[0], 2, 10), 4.6, 1e-12);
+    EXPECT_NEAR(roads::lane_border(r, r.sections[0], 2, 75), 4, 1e-12) << "not inside lane 1";
     ASSERT_EQ(network.notes.size(), 1u);
     EXPECT_NE(network.notes[0].find("lane 2 is as little as -3"), std::string::npos) << network.notes[0];
 }
@@ -102,49 +100,49 @@ TEST(RoadPoints, LevelLanesDoNotFollowTheSuperelevation) {
                                   "<laneSection s=\"0\"><left><lane id=\"2\" type=\"sidewalk\" level=\"true\"><width "
                                   "sOffset=\"0\" a=\"2\"/></lane><lane id=\"1\" type=\"driving\"><width sOffset=\"0\" "
                                   "a=\"3\"/></lane></left><center><lane id=\"0\"/></center></laneSection>");
-    const Road& r = network.roads[0];
-    expect_at(lane_point(r, r.sections[0], 2, 0, 1), 0, 3 * std::cos(0.1) + 2, 3 * std::sin(0.1));
+    const roads::Road& r = network.roads[0];
+    expect_at(roads::lane_point(r, r.sections[0], 2, 0, 1), 0, 3 * std::cos(0.1) + 2, 3 * std::sin(0.1));
 }
 
 // The offset takes a step of a lane's width where lane 1 goes on as lane -1.
 TEST(RoadPoints, AStepOfTheOffsetBelongsToTheNextSection) {
     const auto lanes = [](int first, const std::string& side, int to, int from) {
         return "<" + side + ">" +
-               test::lane(first, 3.5, "driving",
-                          "<link>" + (to ? "<successor id=\"" + std::to_string(to) + "\"/>" : "") +
-                              (from ? "<predecessor id=\"" + std::to_string(from) + "\"/>" : "") + "</link>") +
+               lane(first, 3.5, "driving",
+                    "<link>" + (to ? "<successor id=\"" + std::to_string(to) + "\"/>" : "") +
+                        (from ? "<predecessor id=\"" + std::to_string(from) + "\"/>" : "") + "</link>") +
                "</" + side + ">";
     };
-    const auto network = profiled(
-        "", "<laneOffset s=\"0\" a=\"0\"/><laneOffset s=\"50\" a=\"3.5\"/><laneSection s=\"0\">" +
-                lanes(-1, "right", -2, 0) + "</laneSection><laneSection s=\"50\"><right>" + test::lane(-1, 3.5) +
-                test::lane(-2, 3.5, "driving", "<link><predecessor id=\"-1\"/></link>") + "</right></laneSection>");
-    const Road& r = network.roads[0];
-    expect_at(lane_point(r, r.sections[0], -1, 50, 1), 50, -3.5, 0);
-    expect_at(lane_point(r, r.sections[0], 0, 50, 0), 50, 0, 0);
-    expect_at(lane_point(r, r.sections[1], 0, 50, 0), 50, 3.5, 0);
-    expect_at(lane_point(r, r.sections[1], -2, 50, 1), 50, -3.5, 0);
-    const LaneGraph graph(network);
+    const auto network =
+        profiled("", "<laneOffset s=\"0\" a=\"0\"/><laneOffset s=\"50\" a=\"3.5\"/><laneSection s=\"0\">" +
+                         lanes(-1, "right", -2, 0) + "</laneSection><laneSection s=\"50\"><right>" + lane(-1, 3.5) +
+                         lane(-2, 3.5, "driving", "<link><predecessor id=\"-1\"/></link>") + "</right></laneSection>");
+    const roads::Road& r = network.roads[0];
+    expect_at(roads::lane_point(r, r.sections[0], -1, 50, 1), 50, -3.5, 0);
+    expect_at(roads::lane_point(r, r.sections[0], 0, 50, 0), 50, 0, 0);
+    expect_at(roads::lane_point(r, r.sections[1], 0, 50, 0), 50, 3.5, 0);
+    expect_at(roads::lane_point(r, r.sections[1], -2, 50, 1), 50, -3.5, 0);
+    const roads::LaneGraph graph(network);
     ASSERT_EQ(graph.lanes().size(), 3u);
     EXPECT_EQ(graph.lanes()[0].successors.size(), 1u);
-    for (const LanePose& pose : graph.lanes()[0].poses) EXPECT_NEAR(pose.position.z, 1.75, 1e-9);
+    for (const roads::LanePose& pose : graph.lanes()[0].poses) EXPECT_NEAR(pose.position.z, 1.75, 1e-9);
 }
 
 // Lane -1 grows by what lane -2 gets narrower: no border but the one between them bends.
 TEST(RoadPoints, StationsFollowInnerBorders) {
     const auto wide = [](int id, double a, double c, double d, double last) {
-        return "<lane id=\"" + std::to_string(id) + "\" type=\"driving\"><width sOffset=\"0\"" +
-               test::quantity("a", a) + "/><width sOffset=\"40\"" + test::quantity("a", a) + test::quantity("c", c) +
-               test::quantity("d", d) + "/><width sOffset=\"60\"" + test::quantity("a", last) + "/></lane>";
+        return "<lane id=\"" + std::to_string(id) + "\" type=\"driving\"><width sOffset=\"0\"" + quantity("a", a) +
+               "/><width sOffset=\"40\"" + quantity("a", a) + quantity("c", c) + quantity("d", d) +
+               "/><width sOffset=\"60\"" + quantity("a", last) + "/></lane>";
     };
     const auto network = profiled("", "<laneSection s=\"0\"><right>" + wide(-1, 3.5, 0.02625, -0.000875, 7) +
                                           wide(-2, 7, -0.02625, 0.000875, 3.5) + "</right></laneSection>");
-    const LaneSection& section = network.roads[0].sections[0];
-    const auto stations = road_stations(network.roads[0], section, 0.01, 20);
+    const roads::LaneSection& section = network.roads[0].sections[0];
+    const auto stations = roads::road_stations(network.roads[0], section, 0.01, 20);
     EXPECT_LT(stations.size(), 60u);
     for (size_t i = 1; i < stations.size(); ++i)
         for (double f = 0.05; f < 1; f += 0.05) {
-            const auto at = [&](double s) { return lane_border(network.roads[0], section, -1, s); };
+            const auto at = [&](double s) { return roads::lane_border(network.roads[0], section, -1, s); };
             EXPECT_NEAR(at(glm::mix(stations[i - 1], stations[i], f)),
                         glm::mix(at(stations[i - 1]), at(stations[i]), f), 0.011);
         }
@@ -157,10 +155,10 @@ TEST(RoadPoints, StationsKeepToTheChord) {
                    "</planView><elevationProfile><elevation s=\"0\" a=\"0\"/><elevation s=\"40\" a=\"0\" c=\"0.01\" "
                    "d=\"-0.0005\"/><elevation s=\"60\" a=\"0\"/></elevationProfile><lanes>" +
                    two_way_section() + "</lanes></road>");
-    const Road& r = network.roads[0];
-    const LaneSection& section = r.sections[0];
+    const roads::Road& r = network.roads[0];
+    const roads::LaneSection& section = r.sections[0];
     for (const double chord : {0.1, 0.01}) {
-        const auto stations = road_stations(r, section, chord, 20);
+        const auto stations = roads::road_stations(r, section, chord, 20);
         EXPECT_EQ(stations.front(), 0);
         EXPECT_EQ(stations.back(), 100);
         EXPECT_LT(stations.size(), 300u);
@@ -168,7 +166,9 @@ TEST(RoadPoints, StationsKeepToTheChord) {
             EXPECT_GT(stations[i], stations[i - 1]);
             EXPECT_LE(stations[i] - stations[i - 1], 20);
             for (const int id : {0, 2, -2}) {
-                const auto at = [&](double s) { return surface_point(r, s, lane_border(r, section, id, s)).position; };
+                const auto at = [&](double s) {
+                    return surface_point(r, s, roads::lane_border(r, section, id, s)).position;
+                };
                 const glm::dvec3 a = at(stations[i - 1]), b = at(stations[i]), along = glm::normalize(b - a);
                 for (double f = 0.05; f < 1; f += 0.05) {
                     const glm::dvec3 p = at(glm::mix(stations[i - 1], stations[i], f)) - a;
@@ -180,4 +180,4 @@ TEST(RoadPoints, StationsKeepToTheChord) {
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

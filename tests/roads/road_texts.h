@@ -7,8 +7,6 @@
 #include "roads/opendrive.h"
 
 namespace vesper::test {
-using namespace roads;
-
 inline std::string quantity(const char* name, double value) {
     char text[64];
     std::snprintf(text, sizeof text, " %s=\"%.17g\"", name, value);
@@ -46,6 +44,8 @@ inline std::string opendrive(const std::string& inside) {
            "</OpenDRIVE>\n";
 }
 
-inline RoadNetwork network_of(const std::string& inside) { return parse_opendrive(opendrive(inside), "test.xodr"); }
+inline roads::RoadNetwork network_of(const std::string& inside) {
+    return roads::parse_opendrive(opendrive(inside), "test.xodr");
+}
 
 }  // namespace vesper::test

@@ -13,8 +13,6 @@
 #include "support/shared_data.h"
 
 namespace vesper::test {
-using namespace roads;
-
 class RunFiles : public testing::Test {
 protected:
     std::filesystem::path write(const std::string& name, const std::string& text) const {
@@ -24,7 +22,7 @@ protected:
     std::string complaint(const std::string& table, const std::string& scenario = "") const {
         const auto csv = write("run.csv", table);
         try {
-            read_esmini_run(csv, scenario.empty() ? std::nullopt : std::optional(write("run.xosc", scenario)));
+            roads::read_esmini_run(csv, scenario.empty() ? std::nullopt : std::optional(write("run.xosc", scenario)));
         } catch (const Error& error) {
             return error.what();
         }
@@ -81,7 +79,8 @@ inline std::string scenario(const std::string& events, const std::string& parame
            events + "</Maneuver></ManeuverGroup></Act></Story></Storyboard></OpenSCENARIO>";
 }
 
-inline const std::vector<LampEvent>& events_of(const EsminiRun& run, RunLamp lamp, size_t entity = 0) {
+inline const std::vector<roads::LampEvent>& events_of(const roads::EsminiRun& run, roads::RunLamp lamp,
+                                                      size_t entity = 0) {
     return run.entities[entity].lamps[static_cast<size_t>(lamp)];
 }
 

@@ -6,14 +6,13 @@
 
 #include "roads/esmini_parts.h"
 
-namespace vesper {
-using namespace roads;
+namespace vesper::test {
 namespace {
 
 // Ranks of operators, functions and their arguments, numbers with exponents: values by hand.
 TEST(ScenarioExpressions, HaveTheirValues) {
-    const Parameters scope{{"v", "3"}, {"yes", "true"}, {"word", "fast"}};
-    const auto value = [&](const char* text) { return expression_value(text, scope).value_or(NAN); };
+    const roads::Parameters scope{{"v", "3"}, {"yes", "true"}, {"word", "fast"}};
+    const auto value = [&](const char* text) { return roads::expression_value(text, scope).value_or(NAN); };
     EXPECT_EQ(value("1 + 2 * $v"), 7);
     EXPECT_EQ(value("(1 + 2) * -$v"), -9);
     EXPECT_EQ(value("10 - 4 - 3"), 3);
@@ -29,13 +28,13 @@ TEST(ScenarioExpressions, HaveTheirValues) {
 }
 
 TEST(ScenarioExpressions, OthersAreNone) {
-    const Parameters scope{{"word", "fast"}};
+    const roads::Parameters scope{{"word", "fast"}};
     for (const char* text : {"", "1 +", "1 2", "$none", "$word", "2 * (1", "round()", "round(1, 2)", "pow(2)",
                              "pow(2,)", "noSuch(1)", "1/0", "sqrt(-1)", "notx", "5 and", "1e400"})
-        EXPECT_FALSE(expression_value(text, scope)) << text;
-    EXPECT_FALSE(expression_value(std::string(500, '(') + "1" + std::string(500, ')'), scope));
-    EXPECT_FALSE(expression_value(std::string(5000, '-') + "1", scope));
+        EXPECT_FALSE(roads::expression_value(text, scope)) << text;
+    EXPECT_FALSE(roads::expression_value(std::string(500, '(') + "1" + std::string(500, ')'), scope));
+    EXPECT_FALSE(roads::expression_value(std::string(5000, '-') + "1", scope));
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

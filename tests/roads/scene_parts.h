@@ -8,8 +8,6 @@
 #include "scene/scene.h"
 
 namespace vesper::test {
-using namespace roads;
-
 struct Triangle {
     std::array<glm::dvec3, 3> corners;
     std::array<glm::dvec3, 3> normals;
@@ -17,16 +15,16 @@ struct Triangle {
 };
 
 /// All triangles of a material, by its name; of all materials where that is empty.
-inline std::vector<Triangle> triangles_of(const Scene& scene, const std::string& material) {
+inline std::vector<Triangle> triangles_of(const scene::Scene& scene, const std::string& material) {
     std::vector<Triangle> found;
-    for (const Node& node : scene.nodes) {
-        if (node.mesh == kNone) continue;
-        for (const Primitive& primitive : scene.meshes[node.mesh].primitives) {
+    for (const scene::Node& node : scene.nodes) {
+        if (node.mesh == scene::kNone) continue;
+        for (const scene::Primitive& primitive : scene.meshes[node.mesh].primitives) {
             if (!material.empty() && scene.materials[primitive.material].name != material) continue;
             for (size_t i = 0; i < primitive.indices.size(); i += 3) {
                 Triangle triangle;
                 for (size_t c = 0; c < 3; ++c) {
-                    const Vertex& vertex = primitive.vertices.at(primitive.indices[i + c]);
+                    const scene::Vertex& vertex = primitive.vertices.at(primitive.indices[i + c]);
                     triangle.corners[c] = vertex.position, triangle.normals[c] = vertex.normal;
                 }
                 found.push_back(triangle);
@@ -42,10 +40,10 @@ inline double area_of(const std::vector<Triangle>& triangles) {
     return sum;
 }
 
-inline std::vector<Node> lamps_of(const Scene& scene, const std::string& prefix) {
-    std::vector<Node> found;
-    for (const Node& node : scene.nodes)
-        if (node.lamp != kNone && node.name.starts_with(prefix)) found.push_back(node);
+inline std::vector<scene::Node> lamps_of(const scene::Scene& scene, const std::string& prefix) {
+    std::vector<scene::Node> found;
+    for (const scene::Node& node : scene.nodes)
+        if (node.lamp != scene::kNone && node.name.starts_with(prefix)) found.push_back(node);
     return found;
 }
 

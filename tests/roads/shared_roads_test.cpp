@@ -9,14 +9,13 @@
 #include "roads/opendrive.h"
 #include "support/shared_data.h"
 
-namespace vesper {
-using namespace roads;
+namespace vesper::test {
 namespace {
 
 std::vector<std::filesystem::path> shared_roads() {
     std::vector<std::filesystem::path> files;
-    const auto folder = test::shared_data("scenario");
-    if (!test::is_here(folder)) return files;
+    const auto folder = shared_data("scenario");
+    if (!is_here(folder)) return files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
         if (entry.path().extension() == ".xodr") files.push_back(entry.path());
     std::sort(files.begin(), files.end());
@@ -34,9 +33,9 @@ TEST(SharedRoads, LoadOrSayWhyNot) {
         SCOPED_TRACE(file.string());
         const std::string name = file.parent_path().filename().string() + "/" + file.filename().string();
         try {
-            const RoadNetwork network = read_opendrive(file);
+            const roads::RoadNetwork network = roads::read_opendrive(file);
             EXPECT_FALSE(hopeless.contains(name));
-            const LaneGraph graph(network);
+            const roads::LaneGraph graph(network);
             EXPECT_FALSE(graph.lanes().empty());
         } catch (const Error& error) {
             EXPECT_TRUE(hopeless.contains(name)) << error.what();
@@ -46,4 +45,4 @@ TEST(SharedRoads, LoadOrSayWhyNot) {
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

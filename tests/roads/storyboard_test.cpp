@@ -8,11 +8,8 @@
 #include "roads/road_texts.h"
 #include "roads/run_texts.h"
 
-namespace vesper {
-using namespace roads;
+namespace vesper::test {
 namespace {
-
-using namespace test;
 
 /// Where an entity is, and how fast, at a time.
 struct Motion {
@@ -104,14 +101,14 @@ protected:
                "\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/></lane>";
     }
 
-    EsminiRun play(const std::string& text) const {
-        const RoadNetwork roads = read_opendrive(write("r.xodr", roads_));
-        return read_esmini_run(write("run.csv", table_), write("run.xosc", text), &roads);
+    roads::EsminiRun play(const std::string& text) const {
+        const roads::RoadNetwork roads = roads::read_opendrive(write("r.xodr", roads_));
+        return roads::read_esmini_run(write("run.csv", table_), write("run.xosc", text), &roads);
     }
     /// When an entity's high beam is set first, NaN: never.
-    static double lit(const EsminiRun& run, const std::string& who = "Ego") {
-        for (const RunEntity& entity : run.entities) {
-            const auto& events = entity.lamps[static_cast<size_t>(RunLamp::HighBeam)];
+    static double lit(const roads::EsminiRun& run, const std::string& who = "Ego") {
+        for (const roads::RunEntity& entity : run.entities) {
+            const auto& events = entity.lamps[static_cast<size_t>(roads::RunLamp::HighBeam)];
             if (entity.name == who && !events.empty()) return events[0].time;
         }
         return NAN;
@@ -440,4 +437,4 @@ TEST_F(Storyboards, NamesHaveAnEnd) {
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace vesper {
+namespace vesper::test {
 namespace {
 
 glm::dvec2 chromaticity(glm::dvec3 c) {
@@ -24,7 +24,7 @@ TEST(Colour, FollowsThePlanckianLocus) {
     } published[] = {{2500, 0.4770, 0.4137}, {2856, 0.4476, 0.4074}, {4000, 0.3805, 0.3768},
                      {5000, 0.3451, 0.3516}, {6500, 0.3135, 0.3237}, {10000, 0.2807, 0.2884}};
     for (const auto& p : published) {
-        const glm::dvec2 xy = chromaticity(colour_of_temperature(p.kelvin));
+        const glm::dvec2 xy = chromaticity(scene::colour_of_temperature(p.kelvin));
         EXPECT_NEAR(xy.x, p.x, 5e-4) << p.kelvin;  // the observer is tabulated in steps of 10 nm
         EXPECT_NEAR(xy.y, p.y, 5e-4) << p.kelvin;
     }
@@ -32,23 +32,24 @@ TEST(Colour, FollowsThePlanckianLocus) {
 
 TEST(Colour, HasLuminanceOneAndNoNegativePart) {
     for (double kelvin = 1000; kelvin <= 25000; kelvin += 500) {
-        const glm::vec3 colour = colour_of_temperature(kelvin);
+        const glm::vec3 colour = scene::colour_of_temperature(kelvin);
         EXPECT_NEAR(luminance(colour), 1, 1e-6);
         EXPECT_GE(std::min({colour.r, colour.g, colour.b}), 0);
     }
-    EXPECT_THROW(colour_of_temperature(999), Error);
-    EXPECT_THROW(colour_of_temperature(25001), Error);
+    EXPECT_THROW(scene::colour_of_temperature(999), Error);
+    EXPECT_THROW(scene::colour_of_temperature(25001), Error);
 }
 
 TEST(Colour, TemperatureOfABlackBodyIsFoundAgain) {
     for (const double kelvin : {2000.0, 2700.0, 4000.0, 6500.0, 9000.0})
-        EXPECT_NEAR(temperature_of(glm::dvec3(colour_of_temperature(kelvin))) / kelvin, 1, 0.02) << kelvin;
-    EXPECT_EQ(temperature_of({1, 0, 0}), 0);
-    EXPECT_EQ(temperature_of({0, 1, 0}), 0);
-    EXPECT_NEAR(vesper::chromaticity({1, 1, 1}).x, 0.3127, 1e-12);  // D65
-    EXPECT_NEAR(vesper::chromaticity({1, 1, 1}).y, 0.3290, 1e-12);
-    EXPECT_EQ(vesper::chromaticity({0, 0, 0}), glm::dvec2(0));
+        EXPECT_NEAR(scene::temperature_of(glm::dvec3(scene::colour_of_temperature(kelvin))) / kelvin, 1, 0.02)
+            << kelvin;
+    EXPECT_EQ(scene::temperature_of({1, 0, 0}), 0);
+    EXPECT_EQ(scene::temperature_of({0, 1, 0}), 0);
+    EXPECT_NEAR(scene::chromaticity({1, 1, 1}).x, 0.3127, 1e-12);  // D65
+    EXPECT_NEAR(scene::chromaticity({1, 1, 1}).y, 0.3290, 1e-12);
+    EXPECT_EQ(scene::chromaticity({0, 0, 0}), glm::dvec2(0));
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

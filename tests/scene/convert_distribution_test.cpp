@@ -22,7 +22,7 @@ protected:
         nodes.push_back({{"name", "street_lamp"}, {"translation", {0, 8, 0}}});
         for (const char* name : {"car_0/headlamp", "car_1/headlamp"}) nodes.push_back({{"name", name}});
 
-        lamp_.goniometry = Goniometry::CGamma;  // brightest at C30, gamma 60
+        lamp_.goniometry = photometry::Goniometry::CGamma;  // brightest at C30, gamma 60
         for (double c = 0; c <= 360; c += 15) lamp_.horizontal.push_back(c);
         for (double g = 0; g <= 90; g += 10) lamp_.vertical.push_back(g);
         for (const double c : lamp_.horizontal)
@@ -31,7 +31,7 @@ protected:
                                         : g == 0           ? 100
                                         : g < 90           ? 100 + c * (360 - c) / 1000
                                                            : 0);
-        folder_.write("lamp.ies", write_ies(lamp_));
+        folder_.write("lamp.ies", photometry::write_ies(lamp_));
         // Brightest at H = 10, V = -5.
         folder_.write("beam.csv", ",-20,0,10,20\n-10,1,100,200,1\n-5,1,500,30000,1\n0,1,100,200,1\n10,1,1,1,1\n");
     }
@@ -42,8 +42,8 @@ protected:
     json beam_rule() const {
         return {{"name", "beam"}, {"nodes", "car_*"}, {"type", "distribution"}, {"file", "beam.csv"}};
     }
-    ConversionReport convert_with(const std::vector<json>& lamps, const std::string& output = "out.gltf",
-                                  bool keep = false) {
+    scene::ConversionReport convert_with(const std::vector<json>& lamps, const std::string& output = "out.gltf",
+                                         bool keep = false) {
         return ConversionTest::convert_with({{"lamps", lamps}, {"lights", {{"keep", keep}}}}, output);
     }
     std::string complaint_with(const json& rule) {
@@ -51,18 +51,19 @@ protected:
     }
     /// Intensity of the first measured lamp of the result in a direction of the world, cd.
     double seen(glm::dvec3 direction, const std::string& output = "out.gltf") const {
-        const Scene scene = converted(output);
-        const auto world = world_transforms(scene, 0);
+        const scene::Scene scene = converted(output);
+        const auto world = scene::world_transforms(scene, 0);
         for (size_t i = 0; i < scene.nodes.size(); ++i) {
-            if (scene.nodes[i].lamp == kNone) continue;
-            const Lamp& lamp = scene.lamps[scene.nodes[i].lamp];
+            if (scene.nodes[i].lamp == scene::kNone) continue;
+            const scene::Lamp& lamp = scene.lamps[scene.nodes[i].lamp];
             const glm::dmat3 frame(world[i]);
-            return lamp.intensity * intensity(scene.distributions[lamp.distribution], glm::inverse(frame) * direction);
+            return lamp.intensity *
+                   photometry::intensity(scene.distributions[lamp.distribution], glm::inverse(frame) * direction);
         }
         return -1;
     }
 
-    Distribution lamp_;
+    photometry::Distribution lamp_;
 };
 
 const double kDegree = std::acos(-1.0) / 180;
@@ -72,9 +73,9 @@ TEST_F(ConvertDistributionTest, LampsHaveTheNamesOfTheirRules) {
     const auto names = [&](const json& rule) {
         convert_with({rule});
         std::vector<std::string> found;
-        const Scene scene = converted();
-        for (const Node& node : scene.nodes)
-            if (node.lamp != kNone) found.push_back(node.name);
+        const scene::Scene scene = converted();
+        for (const scene::Node& node : scene.nodes)
+            if (node.lamp != scene::kNone) found.push_back(node.name);
         return found;
     };
     json turned = beam_rule(), named = street_rule();
@@ -110,23 +111,24 @@ TEST_F(ConvertDistributionTest, EmbedsEachFileOnce) {
         street["colour_temperature_K"] = 3000;
         again["nodes"] = "car_1/*";
         again["flux_scale"] = 0.5;
-        const ConversionReport report = convert_with({street, beam_rule(), again}, output);
+        const scene::ConversionReport report = convert_with({street, beam_rule(), again}, output);
         const TempFolder elsewhere;  // nothing beside it
         std::filesystem::copy(folder_ / output, elsewhere / output);
-        const LoadedScene loaded = read_gltf(elsewhere / output);
-        const Scene& scene = loaded.scene;
+        const scene::LoadedScene loaded = scene::read_gltf(elsewhere / output);
+        const scene::Scene& scene = loaded.scene;
         for (const std::string& note : loaded.notes) EXPECT_TRUE(contains(note, "without material")) << note;
         ASSERT_EQ(scene.distributions.size(), 2u) << output;
         EXPECT_EQ(scene.lamps.size(), 3u);
-        EXPECT_EQ(std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.lamp != kNone; }),
+        EXPECT_EQ(std::count_if(scene.nodes.begin(), scene.nodes.end(),
+                                [](const scene::Node& n) { return n.lamp != scene::kNone; }),
                   4);  // the second car has two
-        const Lamp& lamp = scene.lamps[0];
-        EXPECT_EQ(lamp.kind, Lamp::Kind::Measured);
+        const scene::Lamp& lamp = scene.lamps[0];
+        EXPECT_EQ(lamp.kind, scene::Lamp::Kind::Measured);
         EXPECT_NEAR(lamp.intensity, 1, 1e-6);
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(lamp.colour[c], colour_of_temperature(3000)[c], 1e-5);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(lamp.colour[c], scene::colour_of_temperature(3000)[c], 1e-5);
         for (size_t i = 0; i < lamp_.candela.size(); ++i)
             EXPECT_EQ(static_cast<float>(scene.distributions[0].candela[i]), static_cast<float>(lamp_.candela[i]));
-        EXPECT_EQ(scene.distributions[1].goniometry, Goniometry::TypeA);
+        EXPECT_EQ(scene.distributions[1].goniometry, photometry::Goniometry::TypeA);
         EXPECT_TRUE(mentions(report.changes, "lamp 'street': 1 node, 'lamp.ies', 5000 cd at most, 3000 K, "));
         EXPECT_TRUE(mentions(report.changes, "lamp 'beam': 2 nodes, 'beam.csv', 3e+04 cd at most, "));
         EXPECT_TRUE(mentions(report.changes, "lm each"));
@@ -134,12 +136,12 @@ TEST_F(ConvertDistributionTest, EmbedsEachFileOnce) {
 }
 
 TEST_F(ConvertDistributionTest, ScalesFlux) {
-    const double measured = luminous_flux(lamp_);
+    const double measured = photometry::luminous_flux(lamp_);
     json rule = street_rule();
     rule["flux_lm"] = 9000;
     rule["maintenance_factor"] = 0.8;
     rule["dimming"] = 0.5;
-    const ConversionReport report = convert_with({rule});
+    const scene::ConversionReport report = convert_with({rule});
     EXPECT_NEAR(converted().lamps[0].intensity, 9000 / measured * 0.4, 1e-4);
     EXPECT_TRUE(mentions(report.changes, "3600 lm each"));
     rule.erase("flux_lm");
@@ -166,7 +168,7 @@ TEST_F(ConvertDistributionTest, TurnsAStreetLampToTheRoad) {
     EXPECT_NEAR(seen(way({1, 0, 0}, {0, 0, -1})), 5000, 1);
     rule.erase("rotation_deg");
     rule["mirror"] = true;  // C0 and C180 exchanged, C90 kept
-    const ConversionReport report = convert_with({rule});
+    const scene::ConversionReport report = convert_with({rule});
     EXPECT_NEAR(seen(way({0, 0, -1}, {1, 0, 0})), 5000, 1);
     EXPECT_TRUE(mentions(report.changes, "'lamp.ies' mirrored, "));
 }
@@ -201,21 +203,22 @@ TEST_F(ConvertDistributionTest, AimsAHeadlamp) {
 }
 
 TEST_F(ConvertDistributionTest, KeepsOrRemovesThoseOfTheOriginal) {
-    folder_.write("old.ies", write_ies(lamp_));
+    folder_.write("old.ies", photometry::write_ies(lamp_));
     street_.root["extensionsUsed"] = {"EXT_lights_ies"};
     street_.root["extensions"]["EXT_lights_ies"]["lights"] = {{{"uri", "old.ies"}}};
     street_.root["nodes"][1]["extensions"]["EXT_lights_ies"] = {{"light", 0}, {"multiplier", 7}};
     for (const char* output : {"out.gltf", "out.glb"}) {
-        const ConversionReport removing = convert_with({beam_rule()}, output);
+        const scene::ConversionReport removing = convert_with({beam_rule()}, output);
         EXPECT_TRUE(mentions(removing.changes, "removed 1 light"));
         EXPECT_EQ(converted(output).distributions.size(), 1u);
         convert_with({beam_rule(), street_rule()}, output, true);
         const TempFolder elsewhere;
         std::filesystem::copy(folder_ / output, elsewhere / output);
-        const Scene scene = read_gltf(elsewhere / output).scene;
+        const scene::Scene scene = scene::read_gltf(elsewhere / output).scene;
         ASSERT_EQ(scene.distributions.size(), 3u);
         EXPECT_EQ(scene.lamps[scene.nodes[1].lamp].intensity, 7);  // the new lamp sits on a child
-        EXPECT_EQ(std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.lamp != kNone; }),
+        EXPECT_EQ(std::count_if(scene.nodes.begin(), scene.nodes.end(),
+                                [](const scene::Node& n) { return n.lamp != scene::kNone; }),
                   4);
     }
 }

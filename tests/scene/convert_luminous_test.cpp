@@ -36,15 +36,15 @@ protected:
         write("lit.exr", 1);
     }
     /// 3 x 2 texels: 0, 1, 2 with more red, 0.01, 50000, 1e8.
-    HdrImage picture(double white) const {
-        HdrImage image{.width = 3, .height = 2, .white_luminance = white};
+    io::HdrImage picture(double white) const {
+        io::HdrImage image{.width = 3, .height = 2, .white_luminance = white};
         for (const float value : {0.0f, 1.0f, 2.0f, 0.01f, 5e4f, 1e8f}) image.rgb.insert(image.rgb.end(), 3, value);
         image.rgb[6] = 4;
         return image;
     }
-    void write(const std::string& name, double white) const { write_exr(folder_ / name, picture(white)); }
+    void write(const std::string& name, double white) const { io::write_exr(folder_ / name, picture(white)); }
 
-    ConversionReport convert_with(json emitter, const std::string& output = "out.gltf") {
+    scene::ConversionReport convert_with(json emitter, const std::string& output = "out.gltf") {
         return ConversionTest::convert_with({{"emitters", emitter.is_array() ? emitter : json::array({emitter})}},
                                             output);
     }
@@ -54,10 +54,10 @@ protected:
 };
 
 TEST_F(ConvertLuminous, APictureGoesIntoTheFile) {
-    const std::vector<uint8_t> bytes = read_file(folder_ / "lit.exr", 1 << 20);
+    const std::vector<uint8_t> bytes = io::read_file(folder_ / "lit.exr", 1 << 20);
     for (const char* output : {"out.gltf", "out.glb"}) {
         SCOPED_TRACE(output);
-        const ConversionReport report =
+        const scene::ConversionReport report =
             convert_with({{"name", "shop"}, {"materials", "window"}, {"image", "lit.exr"}}, output);
         EXPECT_TRUE(mentions(
             report.changes,
@@ -65,19 +65,21 @@ TEST_F(ConvertLuminous, APictureGoesIntoTheFile) {
         EXPECT_FALSE(mentions(report.warnings, "picture"));
         const TempFolder elsewhere;  // nothing beside it
         std::filesystem::copy(folder_ / output, elsewhere / output);
-        const Scene scene = read_gltf(elsewhere / output).scene;
+        const scene::Scene scene = scene::read_gltf(elsewhere / output).scene;
         ASSERT_EQ(scene.luminance_pictures.size(), 1u);
         EXPECT_EQ(scene.luminance_pictures[0].name, "lit.exr");
         EXPECT_EQ(scene.luminance_pictures[0].rgb, picture(1).rgb) << "every number as it was";
-        const Material& window = scene.materials[0];
+        const scene::Material& window = scene.materials[0];
         EXPECT_EQ(window.emission, glm::vec3(1));
-        EXPECT_EQ(window.emission_picture, (TextureUse{0, Wrap::Clamp, Wrap::Mirror, true})) << "as the base colour's";
-        EXPECT_EQ(window.emission_texture.image, kNone);
-        for (int other : {1, 2}) EXPECT_EQ(scene.materials[size_t(other)].emission_picture.image, kNone);
+        EXPECT_EQ(window.emission_picture, (scene::TextureUse{0, scene::Wrap::Clamp, scene::Wrap::Mirror, true}))
+            << "as the base colour's";
+        EXPECT_EQ(window.emission_texture.image, scene::kNone);
+        for (int other : {1, 2}) EXPECT_EQ(scene.materials[size_t(other)].emission_picture.image, scene::kNone);
         const std::string file = read_text(folder_ / output);
         const std::string found(bytes.begin(), bytes.end());
         EXPECT_NE(
-            file.find(std::string(output) == "out.glb" ? found : encode_data_uri("application/octet-stream", bytes)),
+            file.find(std::string(output) == "out.glb" ? found
+                                                       : scene::encode_data_uri("application/octet-stream", bytes)),
             std::string::npos)
             << "the file, byte for byte";
     }
@@ -116,22 +118,23 @@ TEST_F(ConvertLuminous, IsAbsoluteOrScaled) {
 TEST_F(ConvertLuminous, LiesAsTheTextureBefore) {
     convert_with(
         json::array({{{"materials", "sign"}, {"image", "lit.exr"}}, {{"materials", "bare"}, {"image", "lit.exr"}}}));
-    const Scene scene = converted();
+    const scene::Scene scene = converted();
     EXPECT_EQ(scene.luminance_pictures.size(), 1u) << "stored once";
     const auto uv = [&](size_t mesh, size_t vertex) { return scene.meshes[mesh].primitives[0].vertices[vertex].uv; };
     EXPECT_EQ(uv(1, 0), glm::vec2(1, 1)) << "the second set, doubled";
     EXPECT_EQ(uv(1, 1), glm::vec2(0, 1));
     EXPECT_EQ(uv(2, 1), glm::vec2(1, 0)) << "TEXCOORD_0";
-    EXPECT_EQ(scene.materials[2].emission_picture, (TextureUse{0, Wrap::Repeat, Wrap::Repeat, false}));
+    EXPECT_EQ(scene.materials[2].emission_picture,
+              (scene::TextureUse{0, scene::Wrap::Repeat, scene::Wrap::Repeat, false}));
 }
 
 TEST_F(ConvertLuminous, NegativeColoursAreSaid) {
-    HdrImage image = picture(1);
+    io::HdrImage image = picture(1);
     image.rgb[4] = -0.1f;
-    write_exr(folder_ / "wide.exr", image);
+    io::write_exr(folder_ / "wide.exr", image);
     const json rule = {{"materials", "bare"}, {"image", "wide.exr"}};
     EXPECT_TRUE(mentions(convert_with(rule).warnings, "picture 'wide.exr': 1 pixels with negative components"));
-    const Scene scene = converted();
+    const scene::Scene scene = converted();
     for (const float value : scene.luminance_pictures.at(0).rgb) EXPECT_GE(value, 0);
 }
 
@@ -151,9 +154,9 @@ TEST_F(ConvertLuminous, RefusesWithPlaceAndReason) {
     const std::string whole = read_text(folder_ / "lit.exr");
     folder_.write("cut.exr", whole.substr(0, whole.size() - 20));
     EXPECT_TRUE(contains(rule({{"image", "cut.exr"}}), place));
-    HdrImage odd = picture(1);
+    io::HdrImage odd = picture(1);
     odd.rgb[3 * 4 + 2] = std::numeric_limits<float>::quiet_NaN();
-    write_exr(folder_ / "nan.exr", odd);
+    io::write_exr(folder_ / "nan.exr", odd);
     EXPECT_TRUE(contains(rule({{"image", "nan.exr"}}), "nan.exr: pixel (1, 1) is not finite"));
     folder_.write("huge.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 20000 +X 20000\n");
     EXPECT_TRUE(contains(rule({{"image", "huge.hdr"}}), "20000 x 20000 px is larger than the limit"));
@@ -168,9 +171,9 @@ TEST_F(ConvertLuminous, RefusesWithPlaceAndReason) {
                              std::string("/emitters/0/") + key + ": is given beside image"));
     EXPECT_TRUE(contains(rule({{"scale", 2}, {"luminance_cd_m2", 5}}),
                          "/emitters/0/scale: has a meaning only beside an image"));
-    HdrImage black = picture(1);
+    io::HdrImage black = picture(1);
     std::fill(black.rgb.begin(), black.rgb.end(), 0.0f);
-    write_exr(folder_ / "black.exr", black);
+    io::write_exr(folder_ / "black.exr", black);
     EXPECT_TRUE(
         contains(rule({{"image", "black.exr"}, {"luminance_cd_m2", 5}}), "cannot scale a picture that is black"));
     EXPECT_EQ(rule({{"image", "black.exr"}}), "");
@@ -192,10 +195,10 @@ TEST_F(ConvertLuminous, NeedsTextureCoordinates) {
 TEST_F(ConvertLuminous, TheReaderChecks) {
     convert_with({{"materials", "bare"}, {"image", "lit.exr"}});
     const json good = json::parse(read_text(folder_ / "out.gltf"));
-    const auto complaint = [&](const char* pointer, const json& value, const SceneLimits& limits = {}) {
+    const auto complaint = [&](const char* pointer, const json& value, const scene::SceneLimits& limits = {}) {
         json bad = good;
         bad[json::json_pointer(std::string("/extras/vesper/") + pointer)] = value;
-        return complaint_of([&] { read_gltf(folder_.write("bad.gltf", bad.dump()), limits); });
+        return complaint_of([&] { scene::read_gltf(folder_.write("bad.gltf", bad.dump()), limits); });
     };
     EXPECT_EQ(complaint("luminous/0/scale", 2), "");
     EXPECT_TRUE(contains(complaint("luminance_pictures/0/bufferView", 99), "luminance_pictures/0/bufferView"));
@@ -211,7 +214,7 @@ TEST_F(ConvertLuminous, TheReaderChecks) {
     EXPECT_TRUE(contains(complaint("luminous/0/texCoord", 1.5), "luminous/0/texCoord"));
     EXPECT_TRUE(
         contains(complaint("luminous/1", good["extras"]["vesper"]["luminous"][0]), "a luminance picture already"));
-    SceneLimits small;
+    scene::SceneLimits small;
     small.texels = 20;  // 2 of a PNG, and 6 that count four times
     EXPECT_TRUE(contains(complaint("luminous/0/scale", 1, small), "more pixels than the limit"));
     small.image_side = 2, small.texels = 1000;
@@ -220,8 +223,8 @@ TEST_F(ConvertLuminous, TheReaderChecks) {
 
 TEST_F(ConvertLuminous, IsReported) {
     convert_with({{"materials", "bare"}, {"image", "lit.exr"}, {"luminance_cd_m2", 6000}});
-    const SceneReport report = report_scene(converted());
-    const MaterialReport& bare = report.materials.at(2);
+    const scene::SceneReport report = scene::report_scene(converted());
+    const scene::MaterialReport& bare = report.materials.at(2);
     EXPECT_EQ(bare.picture, "lit.exr");
     EXPECT_NEAR(bare.emission, 6000, 0.1);
     EXPECT_NEAR(bare.mean_emission, 6000 / 1e8 * (1e8 + 5e4 + 3.4352) / 6, 0.1);

@@ -13,7 +13,7 @@ namespace {
 
 using nlohmann::json;
 
-HdrImage picture(uint32_t width, uint32_t height, float value, double white = 0) {
+io::HdrImage picture(uint32_t width, uint32_t height, float value, double white = 0) {
     return {.width = width,
             .height = height,
             .rgb = std::vector<float>(size_t(3) * width * height, value),
@@ -28,14 +28,14 @@ protected:
         const size_t position = street_.vec3({0, 0, 0, 20, 0, 0, 0, 20, 0});
         for (int material : {0, 1, 2}) street_.show({{"attributes", {{"POSITION", position}}}, {"material", material}});
         // A sky that is brighter to the right of the centre, with one lamp.
-        HdrImage image = picture(64, 32, 0.5f);
+        io::HdrImage image = picture(64, 32, 0.5f);
         for (size_t i = 0; i < image.rgb.size(); ++i)
             if (i / 3 % 64 >= 32) image.rgb[i] = 1;
         image.rgb[3 * (5 * 64 + 7)] = 4000;
-        write_exr(folder_ / "night.exr", image);
+        io::write_exr(folder_ / "night.exr", image);
     }
 
-    Environment sky() const { return converted().environment.value(); }
+    photometry::Environment sky() const { return converted().environment.value(); }
     std::string complaint_with(const json& photometry) {
         return complaint_of([&] { convert_with(photometry); });
     }
@@ -43,9 +43,9 @@ protected:
 
 // 0.018 to 0.024 cd/m^2 over a big city, 0.1 to 1 lx in towns.
 TEST_F(ConvertSky, WhatIsNotStatedIsANightInTown) {
-    const ConversionReport report = convert_with(json::object());
+    const scene::ConversionReport report = convert_with(json::object());
     EXPECT_TRUE(mentions(report.changes, "not stated"));
-    const Scene scene = converted();
+    const scene::Scene scene = converted();
     EXPECT_FLOAT_EQ(scene.sky_luminance, 0.02f);
     EXPECT_FLOAT_EQ(scene.ambient_illuminance, 0.1f);
     EXPECT_FALSE(scene.environment);
@@ -58,35 +58,36 @@ TEST_F(ConvertSky, WhatIsNotStatedIsANightInTown) {
 TEST_F(ConvertSky, APictureGoesIntoTheFile) {
     for (const char* output : {"out.gltf", "out.glb"}) {
         SCOPED_TRACE(output);
-        const ConversionReport report =
+        const scene::ConversionReport report =
             convert_with({{"sky", {{"image", "night.exr"}, {"scale", 0.02}, {"rotation_deg", 90}}}}, output);
         EXPECT_TRUE(mentions(report.changes, "night.exr"));
         std::filesystem::rename(folder_ / "night.exr", folder_ / "away.exr");
-        const Scene scene = converted(output);
+        const scene::Scene scene = converted(output);
         std::filesystem::rename(folder_ / "away.exr", folder_ / "night.exr");
         ASSERT_TRUE(scene.environment);
-        const Environment& e = *scene.environment;
+        const photometry::Environment& e = *scene.environment;
         EXPECT_EQ(e.width, 64u);
         EXPECT_NEAR(e.rotation, std::numbers::pi / 2, 1e-6);
         EXPECT_EQ(scene.ambient_illuminance, 0) << "the picture lights";
         // Half floats: 5e-4. The lamp reaches 80 cd/m^2, the dim half 0.01.
         EXPECT_NEAR(e.rgb[3 * (5 * 64 + 7)] / 80, 1, 5e-4);
-        EXPECT_NEAR(luminance_of(e, {0.1, 0, 1}).g / 0.02, 1, 2e-3) << "azimuth 180 is 90 to the right of the centre";
-        EXPECT_NEAR(luminance_of(e, {0.1, 0, -1}).g / 0.01, 1, 2e-3);
+        EXPECT_NEAR(photometry::luminance_of(e, {0.1, 0, 1}).g / 0.02, 1, 2e-3)
+            << "azimuth 180 is 90 to the right of the centre";
+        EXPECT_NEAR(photometry::luminance_of(e, {0.1, 0, -1}).g / 0.01, 1, 2e-3);
     }
 }
 
 TEST_F(ConvertSky, IsScaledToWhatIsStated) {
     convert_with({{"sky", {{"image", "night.exr"}, {"luminance_cd_m2", 0.3}}}});
-    EXPECT_NEAR(sky_luminance(sky()), 0.3, 1e-3 * 0.3);
+    EXPECT_NEAR(photometry::sky_luminance(sky()), 0.3, 1e-3 * 0.3);
     convert_with({{"sky", {{"image", "night.exr"}, {"illuminance_lx", 0.25}}}});
-    EXPECT_NEAR(horizontal_illuminance(sky()), 0.25, 1e-3 * 0.25);
+    EXPECT_NEAR(photometry::horizontal_illuminance(sky()), 0.25, 1e-3 * 0.25);
     convert_with({{"sky", {{"image", "night.exr"}, {"luminance_cd_m2", 0}}}});
-    EXPECT_EQ(sky_luminance(sky()), 0);
+    EXPECT_EQ(photometry::sky_luminance(sky()), 0);
     // A picture that says how bright its white is needs nothing.
-    write_exr(folder_ / "white.exr", picture(4, 2, 0.5f, 3));
+    io::write_exr(folder_ / "white.exr", picture(4, 2, 0.5f, 3));
     convert_with({{"sky", {{"image", "white.exr"}}}});
-    EXPECT_NEAR(sky_luminance(sky()), 1.5, 1e-3);
+    EXPECT_NEAR(photometry::sky_luminance(sky()), 1.5, 1e-3);
 }
 
 TEST_F(ConvertSky, TheMoon) {
@@ -99,15 +100,15 @@ TEST_F(ConvertSky, TheMoon) {
                        {"colour_temperature_K", 4100}};
     const json dusk = {{"illuminance_lx", 3}, {"direction", {0, -2, 0}}};
     convert_with({{"directional", {moon, dusk}}});
-    const Scene scene = converted();
+    const scene::Scene scene = converted();
     ASSERT_EQ(scene.lamps.size(), 2u);
-    EXPECT_EQ(scene.lamps[0].kind, Lamp::Kind::Directional);
+    EXPECT_EQ(scene.lamps[0].kind, scene::Lamp::Kind::Directional);
     EXPECT_NEAR(scene.lamps[0].intensity, 0.25, 1e-6);
-    EXPECT_NEAR(scene.lamps[0].colour.b, colour_of_temperature(4100).b, 1e-5);
-    const std::vector<glm::dmat4> world = world_transforms(scene, 0);
+    EXPECT_NEAR(scene.lamps[0].colour.b, scene::colour_of_temperature(4100).b, 1e-5);
+    const std::vector<glm::dmat4> world = scene::world_transforms(scene, 0);
     std::vector<glm::vec3> ways;
     for (size_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].lamp != kNone) ways.push_back(-glm::vec3(world[i][2]));
+        if (scene.nodes[i].lamp != scene::kNone) ways.push_back(-glm::vec3(world[i][2]));
     ASSERT_EQ(ways.size(), 2u);
     EXPECT_NEAR(glm::distance(ways[0], glm::vec3(-std::sqrt(0.75f), -0.5f, 0)), 0, 1e-6) << "from +X, 30 degrees up";
     EXPECT_NEAR(glm::distance(ways[1], glm::vec3(0, -1, 0)), 0, 1e-6);
@@ -121,13 +122,13 @@ TEST_F(ConvertSky, Retroreflection) {
     const auto report = convert_with({{"surfaces", rules}});
     EXPECT_TRUE(mentions(report.changes, "retroreflection RA2"));
     EXPECT_FALSE(mentions(report.warnings, "R_L is"));
-    const Scene scene = converted();
+    const scene::Scene scene = converted();
     ASSERT_EQ(scene.retroreflectors.size(), 3u);
     const auto of = [&](size_t material) { return scene.retroreflectors.at(scene.materials[material].retroreflector); };
-    EXPECT_NEAR(retroreflection(of(0), 0.33, 5), 270, 1e-9);
+    EXPECT_NEAR(photometry::retroreflection(of(0), 0.33, 5), 270, 1e-9);
     EXPECT_TRUE(of(1).marking);
-    EXPECT_NEAR(retroreflection(of(1), 1.05, 88), 0.15, 1e-9);
-    EXPECT_NEAR(retroreflection(of(2), 0.1, 5), 90, 1e-9);
+    EXPECT_NEAR(photometry::retroreflection(of(1), 1.05, 88), 0.15, 1e-9);
+    EXPECT_NEAR(photometry::retroreflection(of(2), 0.1, 5), 90, 1e-9);
     const json grey = {
         {"materials", "marking"}, {"reflectance_scale", 0.55}, {"retroreflection", {{"r_l_mcd", 150}, {"scale", 2}}}};
     EXPECT_TRUE(mentions(convert_with({{"surfaces", json::array({grey})}}).warnings,
@@ -135,8 +136,8 @@ TEST_F(ConvertSky, Retroreflection) {
 }
 
 TEST_F(ConvertSky, RefusesWithPlaceAndReason) {
-    write_exr(folder_ / "square.exr", picture(4, 4, 1));
-    write_exr(folder_ / "black.exr", picture(4, 2, 0));
+    io::write_exr(folder_ / "square.exr", picture(4, 4, 1));
+    io::write_exr(folder_ / "black.exr", picture(4, 2, 0));
     const auto sky_rule = [&](json s) { return complaint_with({{"sky", std::move(s)}}); };
     EXPECT_TRUE(contains(sky_rule({{"image", "missing.exr"}}), "p.json: /sky/image: "));
     EXPECT_TRUE(contains(sky_rule({{"image", "square.exr"}}), "twice as wide"));
@@ -178,7 +179,7 @@ TEST_F(ConvertSky, TheReaderChecks) {
     const auto complaint = [&](const char* pointer, const json& value) -> std::string {
         json bad = good;
         bad[json::json_pointer(std::string("/extras/vesper/") + pointer)] = value;
-        return complaint_of([&] { read_gltf(folder_.write("bad.gltf", bad.dump())); });
+        return complaint_of([&] { scene::read_gltf(folder_.write("bad.gltf", bad.dump())); });
     };
     EXPECT_EQ(complaint("environment/scale", 2), "");
     EXPECT_TRUE(contains(complaint("environment/width", 66), "twice the height"));

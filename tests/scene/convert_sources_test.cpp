@@ -40,10 +40,10 @@ protected:
                 {"intensity_cd", candela}, {"exponent", 9},       {"aim", {1, 0, 0}}};
     }
     static json opening() { return {{"width_m", 0.3}, {"height_m", 0.2}}; }
-    ConversionReport convert_with(const json& lamp_rule, const json& emitter) {
+    scene::ConversionReport convert_with(const json& lamp_rule, const json& emitter) {
         return ConversionTest::convert_with({{"lamps", {lamp_rule}}, {"emitters", {emitter}}});
     }
-    static size_t given(const ConversionReport& report) {
+    static size_t given(const scene::ConversionReport& report) {
         size_t count = 0;
         for (const std::string& line : report.warnings) count += line.find(" cd/m^2 given") != std::string::npos;
         return count;
@@ -54,12 +54,12 @@ TEST_F(ConvertSourcesTest, OpeningsAreStored) {
     json rule = lamp(600);
     rule["opening"] = opening();
     convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}});
-    const Scene scene = converted();
+    const scene::Scene scene = converted();
     ASSERT_EQ(scene.lamps.size(), 1u);
     EXPECT_EQ(scene.lamps[0].opening.length, 0.3);
     EXPECT_EQ(scene.lamps[0].opening.width, 0.2);
     EXPECT_FALSE(scene.lamps[0].opening.round);
-    EXPECT_NEAR(axis_luminance(scene.lamps[0], scene.distributions), 10000, 0.1);
+    EXPECT_NEAR(scene::axis_luminance(scene.lamps[0], scene.distributions), 10000, 0.1);
 
     rule["opening"] = {{"width_m", 0.2}, {"round", true}};
     convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}});
@@ -70,25 +70,25 @@ TEST_F(ConvertSourcesTest, OpeningsAreStored) {
 }
 
 TEST_F(ConvertSourcesTest, OpeningsOfMeasuredLampsAreStored) {
-    Distribution beam;
-    beam.goniometry = Goniometry::CGamma;
+    photometry::Distribution beam;
+    beam.goniometry = photometry::Goniometry::CGamma;
     beam.horizontal = {0}, beam.vertical = {0, 90}, beam.candela = {500, 0};
     beam.opening = {.length = 0.6, .width = 0.25, .height = 0, .round = false};
-    folder_.write("beam.ies", write_ies(beam));
+    folder_.write("beam.ies", photometry::write_ies(beam));
     json rule = {
         {"name", "beam"}, {"nodes", "headlamp"}, {"type", "distribution"}, {"file", "beam.ies"}, {"opening", "file"}};
     json second = rule;
     second["opening"] = opening(), second["name"] = "other";
     ConversionTest::convert_with({{"lamps", {rule, second}}});
-    const Scene scene = converted();
+    const scene::Scene scene = converted();
     ASSERT_EQ(scene.lamps.size(), 2u) << "one file, two openings";
     EXPECT_NEAR(scene.lamps[0].opening.length, 0.6, 1e-12);
     EXPECT_NEAR(scene.lamps[0].opening.width, 0.25, 1e-12);
     EXPECT_NEAR(scene.lamps[1].opening.length, 0.3, 1e-12);
-    EXPECT_NEAR(axis_luminance(scene.lamps[0], scene.distributions), 500 / 0.15, 1);
+    EXPECT_NEAR(scene::axis_luminance(scene.lamps[0], scene.distributions), 500 / 0.15, 1);
 
     beam.opening = {};
-    folder_.write("beam.ies", write_ies(beam));
+    folder_.write("beam.ies", photometry::write_ies(beam));
     try {
         convert_with(rule, {{"materials", "glass"}, {"luminance_cd_m2", 1}});
         ADD_FAILURE() << "a file without luminous area was accepted";
@@ -99,9 +99,9 @@ TEST_F(ConvertSourcesTest, OpeningsOfMeasuredLampsAreStored) {
 
 // 600 cd over 0.06 m^2 are 10,000 cd/m^2 in the mean, whatever the picture.
 TEST_F(ConvertSourcesTest, PicturesAreComparedByTheirMean) {
-    HdrImage image{.width = 4, .height = 1, .white_luminance = 1};
+    io::HdrImage image{.width = 4, .height = 1, .white_luminance = 1};
     for (const float value : {39997.0f, 1.0f, 1.0f, 1.0f}) image.rgb.insert(image.rgb.end(), 3, value);
-    write_exr(folder_ / "lamp.exr", image);
+    io::write_exr(folder_ / "lamp.exr", image);
     json& attributes = street_.root["meshes"][0]["primitives"][0]["attributes"];
     attributes["TEXCOORD_0"] = street_.vec2({0, 1, 1, 1, 1, 0, 0, 0});
     const json emitter = {{"materials", "glass"}, {"image", "lamp.exr"}};
@@ -118,11 +118,11 @@ TEST_F(ConvertSourcesTest, PicturesAreComparedByTheirMean) {
 TEST_F(ConvertSourcesTest, GlassOfALampDoesNotEmitBesides) {
     json rule = lamp(600);
     rule["opening"] = opening();
-    const ConversionReport named = convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}});
+    const scene::ConversionReport named = convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}});
     EXPECT_EQ(converted().materials.at(0).emission, glm::vec3(0));
     EXPECT_FALSE(mentions(named.warnings, "seen twice"));
     EXPECT_EQ(given(named), 0u);
-    const ConversionReport twice = convert_with(rule, {{"materials", "glass"}, {"luminance_cd_m2", 10000}});
+    const scene::ConversionReport twice = convert_with(rule, {{"materials", "glass"}, {"luminance_cd_m2", 10000}});
     EXPECT_TRUE(
         mentions(twice.warnings, "emitter 'glass': lies where lamp 'beam' shows its opening and would be seen twice"));
     EXPECT_EQ(given(twice), 0u);
@@ -153,7 +153,7 @@ TEST_F(ConvertSourcesTest, DisagreementsAboveTenPercentAreReported) {
         for (const double luminance : {7000.0, 8900.0, 9300.0, 10000.0, 10800.0, 11300.0, 15000.0, 90000.0}) {
             json rule = lamp(600), emitter = {{"name", "E"}, {"materials", "glass"}, {"luminance_cd_m2", luminance}};
             if (stated) rule["opening"] = opening(), emitter["lamp"] = "beam";
-            const ConversionReport report = convert_with(rule, emitter);
+            const scene::ConversionReport report = convert_with(rule, emitter);
             const bool wrong = luminance > 11000 || luminance < 10000 / 1.1;
             EXPECT_EQ(given(report), wrong ? 1u : 0u) << luminance << (stated ? " stated" : " measured");
             if (luminance == 15000) {
@@ -163,7 +163,7 @@ TEST_F(ConvertSourcesTest, DisagreementsAboveTenPercentAreReported) {
                 EXPECT_EQ(mentions(report.warnings, "the most of 2 nodes"), !stated);
             }
         }
-    const ConversionReport off = convert_with(lamp(600), {{"materials", "glass"}, {"luminance_cd_m2", 0}});
+    const scene::ConversionReport off = convert_with(lamp(600), {{"materials", "glass"}, {"luminance_cd_m2", 0}});
     EXPECT_EQ(given(off), 0u) << "what is off is meant to be";
 }
 
@@ -236,9 +236,9 @@ TEST_F(ConvertSourcesTest, OwnStreetsAgree) {
     const std::filesystem::path rivoli = std::filesystem::path(VESPER_SOURCE_DIR) / "data/rivoli";
     for (const auto& [street, photometry] :
          {std::pair("rivoli", "rivoli"), {"rivoli", "rivoli.measured"}, {"rivoli-drive", "rivoli-drive"}}) {
-        const ConversionReport report =
-            convert(rivoli / (std::string(street) + ".gltf"), rivoli / (std::string(photometry) + ".photometry.json"),
-                    folder_ / "own.gltf");
+        const scene::ConversionReport report =
+            scene::convert(rivoli / (std::string(street) + ".gltf"),
+                           rivoli / (std::string(photometry) + ".photometry.json"), folder_ / "own.gltf");
         EXPECT_FALSE(report.changes.empty());
         for (const std::string& warning : report.warnings)
             EXPECT_TRUE(!warning.starts_with("emitter") ||
@@ -248,23 +248,25 @@ TEST_F(ConvertSourcesTest, OwnStreetsAgree) {
 }
 
 TEST(Intensity, OfEveryLobe) {
-    Lamp lamp;
+    scene::Lamp lamp;
     lamp.intensity = 100;
-    EXPECT_EQ(luminous_intensity(lamp, {}, {3, 1, 2}), 100) << "a point";
-    lamp.kind = Lamp::Kind::Spot, lamp.inner_cone = 0.3f, lamp.outer_cone = 0.6f;
-    const auto at = [&](double angle) { return luminous_intensity(lamp, {}, {std::sin(angle), 0, -std::cos(angle)}); };
+    EXPECT_EQ(scene::luminous_intensity(lamp, {}, {3, 1, 2}), 100) << "a point";
+    lamp.kind = scene::Lamp::Kind::Spot, lamp.inner_cone = 0.3f, lamp.outer_cone = 0.6f;
+    const auto at = [&](double angle) {
+        return scene::luminous_intensity(lamp, {}, {std::sin(angle), 0, -std::cos(angle)});
+    };
     EXPECT_EQ(at(0.29), 100);
     EXPECT_EQ(at(0.61), 0);
     const double ramp = (std::cos(0.45) - std::cos(0.6)) / (std::cos(0.3) - std::cos(0.6));
     EXPECT_NEAR(at(0.45), 100 * ramp * ramp, 1e-4);
-    lamp.kind = Lamp::Kind::CosinePower, lamp.exponent = 3;
+    lamp.kind = scene::Lamp::Kind::CosinePower, lamp.exponent = 3;
     EXPECT_NEAR(at(1), 100 * std::pow(std::cos(1.0), 3), 1e-9);
     EXPECT_EQ(at(2), 0);
-    lamp.kind = Lamp::Kind::Directional;
+    lamp.kind = scene::Lamp::Kind::Directional;
     EXPECT_EQ(at(0), 0);
-    EXPECT_EQ(deviation(0.67), "33 % less");
-    EXPECT_EQ(deviation(1.55), "55 % more");
-    EXPECT_EQ(deviation(12.1), "12 times as much");
+    EXPECT_EQ(scene::deviation(0.67), "33 % less");
+    EXPECT_EQ(scene::deviation(1.55), "55 % more");
+    EXPECT_EQ(scene::deviation(12.1), "12 times as much");
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ TEST_F(ConvertTest, PicturesThatNothingShowsNeedNotBeThere) {
     street_.root["textures"].push_back({{"source", 1}});
     street_.root["materials"][1]["normalTexture"] = {{"index", 1}};
     for (const char* output : {"out.gltf", "out.glb"}) {
-        const ConversionReport report = convert_with(json::object(), output);
+        const scene::ConversionReport report = convert_with(json::object(), output);
         EXPECT_TRUE(mentions(report.warnings, "/images/1/uri")) << output;
         EXPECT_TRUE(contains(read_text(folder_ / output), "\"uri\":\"missing_normal.png\"")) << output;
         EXPECT_EQ(converted(output).images.size(), 1u);
@@ -95,26 +95,26 @@ TEST_F(ConvertTest, PicturesThatNothingShowsNeedNotBeThere) {
 }
 
 TEST_F(ConvertTest, PutsLampsOnNodes) {
-    const ConversionReport report = convert_with({{"lamps", lamps()}});
-    const Scene scene = converted();
+    const scene::ConversionReport report = convert_with({{"lamps", lamps()}});
+    const scene::Scene scene = converted();
     ASSERT_EQ(scene.lamps.size(), 2u);
-    const Lamp &street = scene.lamps[0], &beam = scene.lamps[1];
-    EXPECT_EQ(street.kind, Lamp::Kind::Spot);
+    const scene::Lamp &street = scene.lamps[0], &beam = scene.lamps[1];
+    EXPECT_EQ(street.kind, scene::Lamp::Kind::Spot);
     EXPECT_NEAR(street.intensity, 1800, 1e-3);
     EXPECT_NEAR(street.outer_cone, 80 * std::acos(-1.0) / 180, 1e-6);
-    const glm::vec3 wanted = colour_of_temperature(2100);
+    const glm::vec3 wanted = scene::colour_of_temperature(2100);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(street.colour[c], wanted[c], 1e-5);
-    EXPECT_EQ(beam.kind, Lamp::Kind::CosinePower);
+    EXPECT_EQ(beam.kind, scene::Lamp::Kind::CosinePower);
     EXPECT_EQ(beam.exponent, 250);
     EXPECT_NEAR(beam.intensity, 12000, 1e-2);
     EXPECT_NEAR(beam.colour.g / beam.colour.r, 0.9, 1e-6);
     EXPECT_NEAR(luminance(beam.colour), 1, 1e-6);
 
     // One lamp on its node, two on children that turn and move them; the offset is in metres whatever the scale.
-    const auto world = world_transforms(scene, 0);
+    const auto world = scene::world_transforms(scene, 0);
     std::vector<uint32_t> lit;
     for (uint32_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].lamp != kNone) lit.push_back(i);
+        if (scene.nodes[i].lamp != scene::kNone) lit.push_back(i);
     ASSERT_EQ(lit.size(), 3u);
     EXPECT_EQ(scene.nodes[lit[0]].name, "light");
     EXPECT_EQ(world[lit[0]][3], glm::dvec4(0, 6.5, 0, 1));
@@ -151,16 +151,16 @@ TEST_F(ConvertTest, StoresStandardGltf) {
 }
 
 TEST_F(ConvertTest, MakesMaterialsEmit) {
-    const ConversionReport report = convert_with(
+    const scene::ConversionReport report = convert_with(
         {{"emitters",
           {{{"name", "glass"}, {"materials", "lamp_gl*"}, {"luminance_cd_m2", 7000}, {"colour_temperature_K", 2100}},
            {{"name", "rest"}, {"materials", "*glass"}, {"luminance_cd_m2", 1}},
            {{"name", "window"}, {"materials", "wall"}, {"luminance_cd_m2", 50}, {"modulate", true}}}}});
-    const Scene scene = converted();
+    const scene::Scene scene = converted();
     EXPECT_NEAR(luminance(scene.materials[1].emission), 7000, 1e-2);
-    EXPECT_EQ(scene.materials[1].emission_texture.image, kNone);
+    EXPECT_EQ(scene.materials[1].emission_texture.image, scene::kNone);
     // The brightest texel of the wall, (255, 128, 0) through sRGB, shows the luminance stated.
-    const Material& wall = scene.materials[0];
+    const scene::Material& wall = scene.materials[0];
     ASSERT_EQ(wall.emission_texture.image, wall.base_colour_texture.image);
     const double green = std::pow((128 / 255.0 + 0.055) / 1.055, 2.4);
     EXPECT_NEAR(luminance(glm::dvec3(wall.emission) * glm::dvec3(1, green, 0)), 50, 1e-3);
@@ -169,11 +169,11 @@ TEST_F(ConvertTest, MakesMaterialsEmit) {
 }
 
 TEST_F(ConvertTest, ChangesSurfaces) {
-    const ConversionReport report =
+    const scene::ConversionReport report =
         convert_with({{"surfaces",
                        {{{"materials", "asphalt*"}, {"reflectance_scale", 0.5}, {"roughness", 0.8}, {"metallic", 0}},
                         {{"materials", "lamp_glass"}, {"reflectance_scale", 4}}}}});
-    const Scene scene = converted();
+    const scene::Scene scene = converted();
     EXPECT_EQ(scene.materials[2].base_colour, glm::vec4(0.1f, 0.1f, 0.1f, 1));
     EXPECT_EQ(scene.materials[2].metallic, 0);
     EXPECT_FLOAT_EQ(scene.materials[2].roughness, 0.8f);
@@ -187,13 +187,13 @@ TEST_F(ConvertTest, KeepsPicturesByteForByte) {
         convert_with({{"lamps", lamps()}}, output);
         const TempFolder elsewhere;  // nothing beside it
         std::filesystem::copy(folder_ / output, elsewhere / output);
-        const LoadedScene loaded = read_gltf(elsewhere / output);
+        const scene::LoadedScene loaded = scene::read_gltf(elsewhere / output);
         EXPECT_EQ(loaded.scene.images.at(0).rgba, (std::vector<uint8_t>{255, 128, 0, 255, 10, 10, 10, 255}));
         EXPECT_EQ(loaded.scene.lamps.size(), 2u);
         EXPECT_EQ(loaded.scene.meshes.at(2).primitives.at(0).vertices.at(1).position, glm::vec3(20, 0, 0));
         const std::string file = read_text(elsewhere / output);
         const std::string code =
-            encode_data_uri("image/png", {reinterpret_cast<const uint8_t*>(picture.data()), picture.size()});
+            scene::encode_data_uri("image/png", {reinterpret_cast<const uint8_t*>(picture.data()), picture.size()});
         EXPECT_NE(file.find(std::string(output) == "out.glb" ? picture : code), std::string::npos) << output;
     }
 }
@@ -201,24 +201,24 @@ TEST_F(ConvertTest, KeepsPicturesByteForByte) {
 TEST_F(ConvertTest, RecordsTransferAmbientAndSky) {
     EXPECT_NO_THROW(convert_with({{"ambient", {{"illuminance_lx", 0.4}, {"colour_temperature_K", 3200}}},
                                   {"sky", {{"luminance_cd_m2", 0.02}}}}));
-    Scene scene = converted();
-    EXPECT_EQ(scene.transfer.kind, Transfer::Kind::Gamma);
+    scene::Scene scene = converted();
+    EXPECT_EQ(scene.transfer.kind, scene::Transfer::Kind::Gamma);
     EXPECT_FLOAT_EQ(scene.transfer.gamma, 2.2f);
     EXPECT_FLOAT_EQ(scene.ambient_illuminance, 0.4f);
-    EXPECT_NEAR(scene.ambient_colour.b, colour_of_temperature(3200).b, 1e-6);
+    EXPECT_NEAR(scene.ambient_colour.b, scene::colour_of_temperature(3200).b, 1e-6);
     EXPECT_FLOAT_EQ(scene.sky_luminance, 0.02f);
     convert_with({{"textures", {{"transfer", "gamma"}, {"gamma", 2.4}}}});
     EXPECT_FLOAT_EQ(converted().transfer.gamma, 2.4f);
-    convert_with({{"textures", {{"gamma", 2.4}}}}, "out.gltf", Transfer{Transfer::Kind::Srgb, 2.2f});
-    EXPECT_EQ(converted().transfer.kind, Transfer::Kind::Srgb);
+    convert_with({{"textures", {{"gamma", 2.4}}}}, "out.gltf", scene::Transfer{scene::Transfer::Kind::Srgb, 2.2f});
+    EXPECT_EQ(converted().transfer.kind, scene::Transfer::Kind::Srgb);
 }
 
 TEST_F(ConvertTest, KeepsLightsWhenAsked) {
-    const ConversionReport report = convert_with({{"lights", {{"keep", true}}}, {"lamps", lamps()}});
-    const Scene scene = converted();
+    const scene::ConversionReport report = convert_with({{"lights", {{"keep", true}}}, {"lamps", lamps()}});
+    const scene::Scene scene = converted();
     ASSERT_EQ(scene.lamps.size(), 3u);
-    EXPECT_EQ(scene.lamps[0].kind, Lamp::Kind::Directional);
-    EXPECT_EQ(scene.lamps[2].kind, Lamp::Kind::CosinePower);  // the lobe refers to the right one
+    EXPECT_EQ(scene.lamps[0].kind, scene::Lamp::Kind::Directional);
+    EXPECT_EQ(scene.lamps[2].kind, scene::Lamp::Kind::CosinePower);  // the lobe refers to the right one
     EXPECT_FALSE(mentions(report.changes, "removed"));
 }
 
@@ -226,14 +226,16 @@ TEST_F(ConvertTest, PutsSeveralLampsOnOneNode) {
     json rules = lamps();
     rules.push_back({{"name", "second"}, {"nodes", "light"}, {"type", "point"}, {"intensity_cd", 3}});
     convert_with({{"lamps", rules}});
-    const Scene scene = converted();
-    EXPECT_EQ(std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.lamp != kNone; }), 4);
+    const scene::Scene scene = converted();
+    EXPECT_EQ(std::count_if(scene.nodes.begin(), scene.nodes.end(),
+                            [](const scene::Node& n) { return n.lamp != scene::kNone; }),
+              4);
 }
 
 TEST_F(ConvertTest, WarnsOfWhatCannotBeRight) {
     street_.root["materials"][1]["pbrMetallicRoughness"]["baseColorFactor"] = {0.95, 0.95, 0.95, 1};
     street_.root["nodes"].push_back({{"name", "forgotten_lantern"}});
-    const ConversionReport report =
+    const scene::ConversionReport report =
         convert_with({{"lamps",
                        {{{"name", "none"}, {"nodes", "no_such_node"}, {"type", "point"}, {"intensity_cd", 5}},
                         {{"name", "star"}, {"nodes", "light"}, {"type", "point"}, {"intensity_cd", 5e6}}}},
@@ -248,8 +250,8 @@ TEST_F(ConvertTest, WarnsOfWhatCannotBeRight) {
     EXPECT_FALSE(mentions(report.warnings, "metres"));
     GltfFile toy;
     toy.show({{"attributes", {{"POSITION", toy.vec3({0, 0, 0, 0.1f, 0, 0, 0, 0.1f, 0})}}}});
-    const auto small = convert(folder_.write("toy.gltf", toy.text()), folder_.write("p.json", "{\"version\": 1}"),
-                               folder_ / "toy-out.gltf");
+    const auto small = scene::convert(folder_.write("toy.gltf", toy.text()),
+                                      folder_.write("p.json", "{\"version\": 1}"), folder_ / "toy-out.gltf");
     EXPECT_TRUE(mentions(small.warnings, "metres"));
 }
 
@@ -257,7 +259,7 @@ TEST_F(ConvertTest, WeighsReflectanceThroughTheTransfer) {
     // A white picture has reflectance 1; (255, 128, 0) and (10, 10, 10) are well below.
     EXPECT_FALSE(mentions(convert_with(json::object()).warnings, "material 'wall'"));
     const std::vector<uint8_t> white(8, 255);
-    write_png(folder_ / "wall.png", 2, 1, white);
+    io::write_png(folder_ / "wall.png", 2, 1, white);
     EXPECT_TRUE(mentions(convert_with(json::object()).warnings, "material 'wall': a mean reflectance of 1"));
 }
 

@@ -10,7 +10,7 @@
 namespace vesper::test {
 namespace {
 
-void expect_same(const Display& a, const Display& b) {
+void expect_same(const vision::Display& a, const vision::Display& b) {
     EXPECT_EQ(a.peak, b.peak);
     EXPECT_EQ(a.black, b.black);
     EXPECT_EQ(a.ambient, b.ambient);
@@ -18,7 +18,7 @@ void expect_same(const Display& a, const Display& b) {
     EXPECT_EQ(a.eotf, b.eotf);
     EXPECT_EQ(a.bits, b.bits);
     EXPECT_EQ(a.primaries, b.primaries);
-    if (a.eotf == Eotf::Gamma) {
+    if (a.eotf == vision::Eotf::Gamma) {
         EXPECT_EQ(a.gamma, b.gamma);
     }
     ASSERT_EQ(a.table.size(), b.table.size());
@@ -30,32 +30,34 @@ void expect_same(const Display& a, const Display& b) {
 
 TEST(DisplayFile, ComesBackAsItWas) {
     const TempFolder folder;
-    std::vector<Display> displays;
-    for (const NamedDisplay& known : known_displays()) {
+    std::vector<vision::Display> displays;
+    for (const vision::NamedDisplay& known : vision::known_displays()) {
         displays.push_back(known.display);
-        expect_same(find_display(known.name), known.display);
+        expect_same(scene::find_display(known.name), known.display);
     }
     displays.push_back({.peak = 90,
                         .black = 0.3f,
                         .ambient = 3.7f,
-                        .eotf = Eotf::Table,
+                        .eotf = vision::Eotf::Table,
                         .bits = 10,
                         .primaries = {{0.66, 0.32}, {0.28, 0.65}, {0.15, 0.05}, {0.30, 0.32}},
                         .table = {{0, double(0.3f)}, {7 / 1023.0, 0.31}, {320 / 1023.0, 8}, {1, 90}}});
-    for (const Display& display : displays) {
-        const auto file = folder.write("d.json", display_json(display, "a name"));
-        expect_same(read_display(file), display);
-        expect_same(find_display(file.string()), display);
+    for (const vision::Display& display : displays) {
+        const auto file = folder.write("d.json", scene::display_json(display, "a name"));
+        expect_same(scene::read_display(file), display);
+        expect_same(scene::find_display(file.string()), display);
     }
 }
 
 // Edited, replaced by a file of the same size, gone; and as it was known where neither time nor size tells of a change.
 TEST(DisplayFile, IsReadAgainWhenItHasChanged) {
     const TempFolder folder;
-    const auto write = [&](float peak) { return folder.write("d.json", display_json({.peak = peak}, "")).string(); };
+    const auto write = [&](float peak) {
+        return folder.write("d.json", scene::display_json({.peak = peak}, "")).string();
+    };
     const std::string file = write(90);
     const auto first = std::filesystem::last_write_time(file);
-    DisplayFinder displays;
+    scene::DisplayFinder displays;
     EXPECT_EQ(displays.find(file).peak, 90);
     write(50);
     std::filesystem::last_write_time(file, first);
@@ -65,7 +67,7 @@ TEST(DisplayFile, IsReadAgainWhenItHasChanged) {
     write(120);
     std::filesystem::last_write_time(file, first + std::chrono::seconds(1));
     EXPECT_EQ(displays.find(file).peak, 120) << "another size";
-    expect_same(displays.find("projector"), find_display("projector"));
+    expect_same(displays.find("projector"), scene::find_display("projector"));
     EXPECT_EQ(displays.find(file).peak, 120);
     std::filesystem::remove(file);
     EXPECT_THROW(displays.find(file), Error);
@@ -77,7 +79,7 @@ TEST(DisplayFile, IsReadAgainWhenItHasChanged) {
 TEST(DisplayFile, IsRefusedWhereItIsWrong) {
     const TempFolder folder;
     const std::string good = R"({"version":1,"eotf":"gamma","gamma":2.2,"peak_cd_m2":100,"black_cd_m2":0.1})";
-    EXPECT_NO_THROW(read_display(folder.write("d.json", good)));
+    EXPECT_NO_THROW(scene::read_display(folder.write("d.json", good)));
     const std::pair<const char*, const char*> cases[]{
         {R"({"eotf":"gamma"})", "version"},
         {R"({"version":2,"eotf":"gamma"})", "/version"},
@@ -109,12 +111,12 @@ TEST(DisplayFile, IsRefusedWhereItIsWrong) {
         {R"([1])", "d.json"}};
     for (const auto& [text, place] : cases) {
         const auto file = folder.write("d.json", text);
-        const std::string complaint = complaint_of([&] { read_display(file); });
+        const std::string complaint = complaint_of([&] { scene::read_display(file); });
         EXPECT_TRUE(contains(complaint, "d.json")) << text;
         EXPECT_TRUE(contains(complaint, place)) << text;
     }
-    EXPECT_THROW(find_display("unheard-of"), Error);
-    EXPECT_THROW(find_display((folder / "none.json").string()), Error);
+    EXPECT_THROW(scene::find_display("unheard-of"), Error);
+    EXPECT_THROW(scene::find_display((folder / "none.json").string()), Error);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ TEST(Examples, EveryPhotometryFileIsValid) {
     for (const auto& entry : fs::recursive_directory_iterator(kData)) {
         const std::string name = entry.path().filename().string();
         if (!name.ends_with(".photometry.json")) continue;
-        EXPECT_NO_THROW(read_photometry(entry.path())) << name;
+        EXPECT_NO_THROW(scene::read_photometry(entry.path())) << name;
         ++count;
     }
     EXPECT_GE(count, 1u);
@@ -32,14 +32,14 @@ TEST(Examples, TheStreetOfFreeModelsIsAssembledAndConverted) {
     const std::string command = "python3 '" + (example / "assemble.py").string() + "' '" + assets.string() + "' -o '" +
                                 (folder / "street.gltf").string() + "'";
     ASSERT_EQ(std::system(command.c_str()), 0);
-    const ConversionReport report =
-        convert(folder / "street.gltf", example / "kaykit-street.photometry.json", folder / "night.glb");
+    const scene::ConversionReport report =
+        scene::convert(folder / "street.gltf", example / "kaykit-street.photometry.json", folder / "night.glb");
     for (const char* miss : {"no node matches", "no material matches", "earlier rules"})
         EXPECT_FALSE(mentions(report.warnings, miss));
-    const Scene scene = read_gltf(folder / "night.glb").scene;
+    const scene::Scene scene = scene::read_gltf(folder / "night.glb").scene;
     EXPECT_EQ(scene.cameras.size(), 3u);
     size_t lamps = 0;
-    for (const Node& node : scene.nodes) lamps += node.lamp != kNone;
+    for (const scene::Node& node : scene.nodes) lamps += node.lamp != scene::kNone;
     EXPECT_EQ(lamps, 50u);  // 14 street lamps, 9 cars with two lamps at either end
 }
 

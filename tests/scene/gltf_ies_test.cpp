@@ -23,7 +23,7 @@ GltfFile lamps() {
     file.root["extensionsRequired"] = {"EXT_lights_ies"};
     file.root["extensions"]["EXT_lights_ies"]["lights"] = {
         {{"bufferView", view}, {"mimeType", "application/x-ies-lm-63"}},
-        {{"uri", encode_data_uri("application/x-ies-lm-63", bytes_of(kProfile))}, {"name", "second"}}};
+        {{"uri", scene::encode_data_uri("application/x-ies-lm-63", bytes_of(kProfile))}, {"name", "second"}}};
     for (size_t i = 0; i < 2; ++i) file.root["nodes"].push_back({{"extensions", use(i)}});
     return file;
 }
@@ -34,8 +34,8 @@ TEST(GltfIes, ReadsProfilesAndTheirUse) {
     lamp["multiplier"] = 3;
     lamp["color"] = {0.5, 0.25, 7};  // clamped to 1
     file.root["nodes"].push_back({{"extensions", use(0)}});
-    const LoadedScene loaded = file.read();
-    const Scene& scene = loaded.scene;
+    const scene::LoadedScene loaded = file.read();
+    const scene::Scene& scene = loaded.scene;
     EXPECT_TRUE(loaded.notes.empty());
     ASSERT_EQ(scene.distributions.size(), 2u);
     EXPECT_EQ(scene.distributions[0].name, "Lamp 7");
@@ -43,8 +43,8 @@ TEST(GltfIes, ReadsProfilesAndTheirUse) {
     EXPECT_EQ(scene.distributions[0].candela, (std::vector<double>{100, 50, 25}));
     ASSERT_EQ(scene.lamps.size(), 2u);  // the third node shares the first one's
     EXPECT_EQ(scene.nodes[2].lamp, scene.nodes[0].lamp);
-    const Lamp &first = scene.lamps[scene.nodes[0].lamp], &second = scene.lamps[scene.nodes[1].lamp];
-    EXPECT_EQ(first.kind, Lamp::Kind::Measured);
+    const scene::Lamp &first = scene.lamps[scene.nodes[0].lamp], &second = scene.lamps[scene.nodes[1].lamp];
+    EXPECT_EQ(first.kind, scene::Lamp::Kind::Measured);
     EXPECT_EQ(first.distribution, 0u);
     EXPECT_EQ(first.intensity, 1);
     EXPECT_EQ(first.colour, glm::vec3(1));
@@ -60,7 +60,7 @@ TEST(GltfIes, ReadsAFileBesideIt) {
     folder.write("lamp.ies", kProfile);
     GltfFile file = lamps();
     file.root["extensions"]["EXT_lights_ies"]["lights"][0] = {{"uri", "lamp.ies"}};
-    EXPECT_EQ(read_gltf(folder.write("a.gltf", file.text())).scene.distributions[0].name, "Lamp 7");
+    EXPECT_EQ(scene::read_gltf(folder.write("a.gltf", file.text())).scene.distributions[0].name, "Lamp 7");
     file.root["extensions"]["EXT_lights_ies"]["lights"][0] = {{"uri", "none.ies"}};
     EXPECT_TRUE(contains(file.complaint(), "/extensions/EXT_lights_ies/lights/0/uri"));
 }
@@ -71,13 +71,13 @@ TEST(GltfIes, ANodeMayHoldBothKindsOfLight) {
     file.root["nodes"][0]["name"] = "lantern";
     file.root["nodes"][0]["translation"] = {1, 2, 3};
     file.root["nodes"][0]["extensions"]["KHR_lights_punctual"] = {{"light", 0}};
-    const Scene scene = file.read().scene;
+    const scene::Scene scene = file.read().scene;
     ASSERT_EQ(scene.nodes.size(), 3u);
-    EXPECT_EQ(scene.lamps[scene.nodes[0].lamp].kind, Lamp::Kind::Point);
+    EXPECT_EQ(scene.lamps[scene.nodes[0].lamp].kind, scene::Lamp::Kind::Point);
     EXPECT_EQ(scene.nodes[1].name, "lantern");
     EXPECT_EQ(scene.nodes[1].parent, 0u);
-    EXPECT_EQ(scene.lamps[scene.nodes[1].lamp].kind, Lamp::Kind::Measured);
-    EXPECT_EQ(world_transforms(scene, 0)[1][3], glm::dvec4(1, 2, 3, 1));
+    EXPECT_EQ(scene.lamps[scene.nodes[1].lamp].kind, scene::Lamp::Kind::Measured);
+    EXPECT_EQ(scene::world_transforms(scene, 0)[1][3], glm::dvec4(1, 2, 3, 1));
     // The index of a punctual light does not reach into the measured ones.
     file.root["nodes"][1]["extensions"]["KHR_lights_punctual"] = {{"light", 1}};
     EXPECT_TRUE(contains(file.complaint(), "KHR_lights_punctual/light"));
@@ -99,7 +99,7 @@ TEST(GltfIes, NamesThePlaceOfWhatIsWrong) {
         return file.complaint();
     });
     GltfFile file = lamps();
-    SceneLimits limits;
+    scene::SceneLimits limits;
     limits.candela = 5;
     EXPECT_TRUE(contains(file.complaint(limits), "lights/1: more intensities than the limit of 5"));
 }

@@ -7,6 +7,7 @@ namespace vesper::test {
 namespace {
 
 using nlohmann::json;
+using scene::read_gltf;
 
 /// A valid triangle with indices, to be damaged.
 GltfFile triangle() {
@@ -104,7 +105,7 @@ TEST(GltfMalformed, WholeNumbersMayHaveAPoint) {
     file.root["nodes"][0]["mesh"] = 0.0;
     file.root["meshes"][0]["primitives"][0]["indices"] = 1.0;
     file.root["accessors"][0]["count"] = 3.0;
-    const Scene scene = file.read().scene;
+    const scene::Scene scene = file.read().scene;
     EXPECT_EQ(scene.nodes.at(0).mesh, 0u);
     EXPECT_EQ(scene.meshes.at(0).primitives.at(0).indices.size(), 3u);
 }
@@ -156,7 +157,7 @@ TEST(GltfMalformed, RefusesIndicesBeyondTheVertices) {
 }
 
 TEST(GltfMalformed, RefusesMoreThanTheLimits) {
-    SceneLimits small;
+    scene::SceneLimits small;
     small.vertices = 2;
     EXPECT_TRUE(contains(triangle().complaint(small), "limit of 2"));
     small = {};

@@ -12,9 +12,9 @@ using nlohmann::json;
 /// A picture of one colour as a data URI.
 std::string png_uri(const std::vector<uint8_t>& rgba) {
     const TempFolder folder;
-    write_png(folder / "x.png", static_cast<uint32_t>(rgba.size() / 4), 1, rgba);
+    io::write_png(folder / "x.png", static_cast<uint32_t>(rgba.size() / 4), 1, rgba);
     const std::string text = read_text(folder / "x.png");
-    return encode_data_uri("image/png", {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
+    return scene::encode_data_uri("image/png", {reinterpret_cast<const uint8_t*>(text.data()), text.size()});
 }
 
 /// A file with a triangle of one material.
@@ -35,14 +35,14 @@ void add_texture(GltfFile& file, const std::string& uri, const json& sampler = j
 }
 
 TEST(GltfMaterial, KeepsTheDefaultsOfTheFormat) {
-    const Scene scene = with_material({{"name", "plain"}}).read().scene;
-    const Material& m = scene.materials.at(0);
+    const scene::Scene scene = with_material({{"name", "plain"}}).read().scene;
+    const scene::Material& m = scene.materials.at(0);
     EXPECT_EQ(m.base_colour, glm::vec4(1));
     EXPECT_EQ(m.metallic, 1);
     EXPECT_EQ(m.roughness, 1);
     EXPECT_EQ(m.emission, glm::vec3(0));
-    EXPECT_EQ(m.alpha, Material::Alpha::Opaque);
-    EXPECT_EQ(scene.transfer.kind, Transfer::Kind::Srgb);
+    EXPECT_EQ(m.alpha, scene::Material::Alpha::Opaque);
+    EXPECT_EQ(scene.transfer.kind, scene::Transfer::Kind::Srgb);
 }
 
 TEST(GltfMaterial, ReadsFactorsAndEmission) {
@@ -54,25 +54,26 @@ TEST(GltfMaterial, ReadsFactorsAndEmission) {
         {"alphaMode", "MASK"},
         {"alphaCutoff", 0.3},
         {"doubleSided", true}};
-    const Scene scene = with_material(material).read().scene;
-    const Material& m = scene.materials.at(0);
+    const scene::Scene scene = with_material(material).read().scene;
+    const scene::Material& m = scene.materials.at(0);
     EXPECT_EQ(m.base_colour, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
     EXPECT_EQ(m.emission, glm::vec3(5000, 2500, 0));
-    EXPECT_EQ(m.alpha, Material::Alpha::Mask);
+    EXPECT_EQ(m.alpha, scene::Material::Alpha::Mask);
     EXPECT_FLOAT_EQ(m.alpha_cutoff, 0.3f);
     EXPECT_TRUE(m.double_sided);
 }
 
 TEST(GltfMaterial, NotesWhatIsReadWithAChange) {
-    const LoadedScene blend = with_material({{"alphaMode", "BLEND"}}).read();
-    EXPECT_EQ(blend.scene.materials[0].alpha, Material::Alpha::Mask);
+    const scene::LoadedScene blend = with_material({{"alphaMode", "BLEND"}}).read();
+    EXPECT_EQ(blend.scene.materials[0].alpha, scene::Material::Alpha::Mask);
     EXPECT_TRUE(mentions(blend.notes, "BLEND"));
-    const LoadedScene unlit = with_material({{"extensions", {{"KHR_materials_unlit", json::object()}}}}).read();
+    const scene::LoadedScene unlit = with_material({{"extensions", {{"KHR_materials_unlit", json::object()}}}}).read();
     EXPECT_EQ(unlit.scene.materials[0].metallic, 0);
     EXPECT_TRUE(mentions(unlit.notes, "unlit"));
     json model = {
         {"diffuseFactor", {0.2, 0.3, 0.4, 1}}, {"specularFactor", {0.25, 0.5, 0}}, {"glossinessFactor", 0.25}};
-    const LoadedScene old = with_material({{"extensions", {{"KHR_materials_pbrSpecularGlossiness", model}}}}).read();
+    const scene::LoadedScene old =
+        with_material({{"extensions", {{"KHR_materials_pbrSpecularGlossiness", model}}}}).read();
     EXPECT_EQ(old.scene.materials[0].base_colour, glm::vec4(0.1f, 0.15f, 0.2f, 1));  // half of it is reflected before
     EXPECT_EQ(old.scene.materials[0].metallic, 0);
     EXPECT_FLOAT_EQ(old.scene.materials[0].roughness, 0.75f);
@@ -87,7 +88,7 @@ TEST(GltfMaterial, NotesWhatIsReadWithAChange) {
     model["specularGlossinessTexture"] = {{"index", 0}};
     GltfFile varied = with_material({{"extensions", {{"KHR_materials_pbrSpecularGlossiness", model}}}});
     add_texture(varied, png_uri({188, 0, 0, 255, 0, 0, 0, 255}));
-    const LoadedScene mean = varied.read();
+    const scene::LoadedScene mean = varied.read();
     EXPECT_NEAR(mean.scene.materials[0].base_colour.r, 0.2 * (1 - 0.5029 / 2), 1e-4);
     EXPECT_TRUE(mentions(mean.notes, "counts as its mean"));
 }
@@ -96,9 +97,10 @@ TEST(GltfMaterial, SaysWhatIsNotRead) {
     GltfFile file = with_material(
         {{"occlusionTexture", {{"index", 0}}}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
     const TempFolder folder;
-    write_png_10bit(folder / "x.png", 1, 1, std::vector<uint32_t>{3u << 30 | 1000}, PngColour());
+    io::write_png_10bit(folder / "x.png", 1, 1, std::vector<uint32_t>{3u << 30 | 1000}, io::PngColour());
     const std::string text = read_text(folder / "x.png");
-    add_texture(file, encode_data_uri("image/png", {reinterpret_cast<const uint8_t*>(text.data()), text.size()}));
+    add_texture(file,
+                scene::encode_data_uri("image/png", {reinterpret_cast<const uint8_t*>(text.data()), text.size()}));
     file.root["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 2}}}});
     const std::vector<std::string> notes = file.read().notes;
     for (const char* said : {"an occlusion texture is not read", "a picture of 16 bits is read at 8",
@@ -112,11 +114,11 @@ TEST(GltfMaterial, TakesDefaultsForValuesItDoesNotKnow) {
     GltfFile file =
         with_material({{"alphaMode", "DITHER"}, {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
     add_texture(file, png_uri({10, 20, 30, 255}), {{"wrapS", 10496}, {"wrapT", 33071}});
-    const LoadedScene loaded = file.read();
-    const Material& m = loaded.scene.materials.at(0);
-    EXPECT_EQ(m.alpha, Material::Alpha::Opaque);
-    EXPECT_EQ(m.base_colour_texture.wrap_u, Wrap::Repeat);
-    EXPECT_EQ(m.base_colour_texture.wrap_v, Wrap::Clamp);
+    const scene::LoadedScene loaded = file.read();
+    const scene::Material& m = loaded.scene.materials.at(0);
+    EXPECT_EQ(m.alpha, scene::Material::Alpha::Opaque);
+    EXPECT_EQ(m.base_colour_texture.wrap_u, scene::Wrap::Repeat);
+    EXPECT_EQ(m.base_colour_texture.wrap_v, scene::Wrap::Clamp);
     EXPECT_TRUE(mentions(loaded.notes, "an alpha mode that glTF does not have is read as OPAQUE"));
     EXPECT_TRUE(mentions(loaded.notes, "a wrapping mode that glTF does not have is read as REPEAT"));
     file.root["materials"][0]["alphaMode"] = 1;
@@ -129,14 +131,14 @@ TEST(GltfMaterial, ChoosesAndTransformsTextureCoordinates) {
     const json texture = {{"index", 0}, {"texCoord", 0}, {"extensions", {{"KHR_texture_transform", transform}}}};
     GltfFile file = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", texture}}}});
     add_texture(file, png_uri({10, 20, 30, 255}), {{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}});
-    const Scene scene = file.read().scene;
+    const scene::Scene scene = file.read().scene;
     // TEXCOORD_1 of the second corner is (0.25, 0.5): scaled (0.5, 2), turned by a quarter, moved.
     const glm::vec2 uv = scene.meshes[0].primitives[0].vertices[1].uv;
     EXPECT_NEAR(uv.x, 0.5 + 2, 1e-6);
     EXPECT_NEAR(uv.y, 0.25 - 0.5, 1e-6);
-    const TextureUse& use = scene.materials[0].base_colour_texture;
-    EXPECT_EQ(use.wrap_u, Wrap::Clamp);
-    EXPECT_EQ(use.wrap_v, Wrap::Mirror);
+    const scene::TextureUse& use = scene.materials[0].base_colour_texture;
+    EXPECT_EQ(use.wrap_u, scene::Wrap::Clamp);
+    EXPECT_EQ(use.wrap_v, scene::Wrap::Mirror);
     EXPECT_TRUE(use.nearest);
     EXPECT_EQ(scene.images.at(use.image).rgba, (std::vector<uint8_t>{10, 20, 30, 255}));
 }
@@ -148,7 +150,7 @@ TEST(GltfMaterial, ReadsAPictureOnceAndOnlyWhenUsed) {
                                    {"normalTexture", {{"index", 1}}}});
     add_texture(file, png_uri({1, 2, 3, 255}));
     add_texture(file, "missing.png");  // of the normal texture, which is not read
-    const LoadedScene loaded = file.read();
+    const scene::LoadedScene loaded = file.read();
     EXPECT_EQ(loaded.scene.images.size(), 1u);
     EXPECT_EQ(loaded.scene.materials[0].emission_texture.image, 0u);
     EXPECT_TRUE(mentions(loaded.notes, "normal texture"));
@@ -157,14 +159,14 @@ TEST(GltfMaterial, ReadsAPictureOnceAndOnlyWhenUsed) {
 TEST(GltfMaterial, FallsBackFromFormatsItDoesNotRead) {
     GltfFile file = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
     const std::vector<uint8_t> webp = {'R', 'I', 'F', 'F', 4, 0, 0, 0, 'W', 'E', 'B', 'P'};
-    file.root["images"] = {{{"uri", encode_data_uri("image/webp", webp)}}, {{"uri", png_uri({7, 7, 7, 255})}}};
+    file.root["images"] = {{{"uri", scene::encode_data_uri("image/webp", webp)}}, {{"uri", png_uri({7, 7, 7, 255})}}};
     file.root["textures"] = {{{"source", 1}, {"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}}};
     EXPECT_EQ(file.read().scene.images.at(0).rgba[0], 7);
     file.root["textures"][0].erase("source");
-    EXPECT_EQ(file.read().scene.materials[0].base_colour_texture.image, kNone);
+    EXPECT_EQ(file.read().scene.materials[0].base_colour_texture.image, scene::kNone);
     file.root["textures"][0]["source"] = 0;
-    const LoadedScene loaded = file.read();
-    EXPECT_EQ(loaded.scene.materials[0].base_colour_texture.image, kNone);
+    const scene::LoadedScene loaded = file.read();
+    EXPECT_EQ(loaded.scene.materials[0].base_colour_texture.image, scene::kNone);
     EXPECT_TRUE(mentions(loaded.notes, "image/webp"));
 }
 
@@ -172,14 +174,14 @@ TEST(GltfMaterial, FindsPicturesByEncodedAndByPlainNames) {
     const TempFolder folder;
     std::filesystem::create_directory(folder / "sub");
     const std::vector<uint8_t> pixel = {9, 9, 9, 255};
-    for (const char* name : {"a b ❤.png", "50%25.png"}) write_png(folder / name, 1, 1, pixel);
+    for (const char* name : {"a b ❤.png", "50%25.png"}) io::write_png(folder / name, 1, 1, pixel);
     for (const char* uri : {"a%20b%20%E2%9D%A4.png", "a b ❤.png", "50%25.png", "sub/../a b ❤.png"}) {
         GltfFile file = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
         add_texture(file, uri);
-        EXPECT_EQ(read_gltf(folder.write("s.gltf", file.text())).scene.images.at(0).rgba[0], 9) << uri;
+        EXPECT_EQ(scene::read_gltf(folder.write("s.gltf", file.text())).scene.images.at(0).rgba[0], 9) << uri;
         // A database may keep its textures beside the folder of its models.
         file.root["images"][0]["uri"] = "../" + std::string(uri);
-        EXPECT_EQ(read_gltf(folder.write("sub/s.gltf", file.text())).scene.images.size(), 1u) << uri;
+        EXPECT_EQ(scene::read_gltf(folder.write("sub/s.gltf", file.text())).scene.images.size(), 1u) << uri;
     }
 }
 

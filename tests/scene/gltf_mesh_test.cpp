@@ -8,15 +8,17 @@
 namespace vesper::test {
 namespace {
 
-const Primitive& only_primitive(const LoadedScene& loaded) { return loaded.scene.meshes.at(0).primitives.at(0); }
+const scene::Primitive& only_primitive(const scene::LoadedScene& loaded) {
+    return loaded.scene.meshes.at(0).primitives.at(0);
+}
 
 TEST(GltfMesh, MakesFlatNormalsWhereThereAreNone) {
     GltfFile file;
     file.show({{"attributes", {{"POSITION", file.vec3(kTriangle)}}}});
-    const LoadedScene loaded = file.read();
-    const Primitive& p = only_primitive(loaded);
+    const scene::LoadedScene loaded = file.read();
+    const scene::Primitive& p = only_primitive(loaded);
     ASSERT_EQ(p.indices.size(), 3u);
-    for (const Vertex& v : p.vertices) EXPECT_EQ(v.normal, glm::vec3(0, 0, 1));
+    for (const scene::Vertex& v : p.vertices) EXPECT_EQ(v.normal, glm::vec3(0, 0, 1));
     EXPECT_EQ(p.bounds.low, glm::vec3(0, 0, 0));
     EXPECT_EQ(p.bounds.high, glm::vec3(1, 1, 0));
     EXPECT_EQ(loaded.scene.materials.at(p.material).base_colour, glm::vec4(0.5f, 0.5f, 0.5f, 1));
@@ -52,7 +54,7 @@ TEST(GltfMesh, ReadsStridedAndSparseAccessors) {
                                                   {"indices", {{"bufferView", where}, {"componentType", 5121}}},
                                                   {"values", {{"bufferView", what}}}};
     file.show({{"attributes", {{"POSITION", position}}}});
-    const Primitive p = only_primitive(file.read());
+    const scene::Primitive p = only_primitive(file.read());
     EXPECT_EQ(p.vertices.at(1).position, glm::vec3(5, 6, 7));
     EXPECT_EQ(p.vertices.at(2).position, glm::vec3(0, 1, 0));
 }
@@ -66,7 +68,7 @@ TEST(GltfMesh, TurnsStripsAndFansIntoTriangles) {
             mode == 5 ? std::vector<uint16_t>{0, 1, 2, 3} : std::vector<uint16_t>{0, 1, 3, 2};
         const nlohmann::json attributes = {{"POSITION", file.vec3(quad)}, {"NORMAL", file.vec3(up)}};
         file.show({{"attributes", attributes}, {"indices", file.indices(corners)}, {"mode", mode}});
-        const Primitive p = only_primitive(file.read());
+        const scene::Primitive p = only_primitive(file.read());
         ASSERT_EQ(p.indices.size(), 6u);
         for (size_t i = 0; i < 6; i += 3) {
             const glm::vec3 a = p.vertices[p.indices[i]].position, b = p.vertices[p.indices[i + 1]].position,
@@ -81,7 +83,7 @@ TEST(GltfMesh, LeavesOutPointsAndLinesAndEmptyTriangles) {
     const size_t position = file.vec3(kTriangle);
     file.show({{"attributes", {{"POSITION", position}}}, {"mode", 0}});
     file.show({{"attributes", {{"POSITION", position}}}, {"indices", file.indices({0, 1, 1})}});
-    const LoadedScene loaded = file.read();
+    const scene::LoadedScene loaded = file.read();
     EXPECT_TRUE(loaded.scene.meshes.at(0).primitives.empty());
     EXPECT_TRUE(loaded.scene.meshes.at(1).primitives.empty());
     EXPECT_TRUE(mentions(loaded.notes, "points or lines"));
@@ -94,7 +96,7 @@ TEST(GltfMesh, ReadsVertexColoursOfAnyKind) {
     const size_t shorts =
         file.accessor(std::vector<uint16_t>{65535, 0, 0, 32768, 0, 0, 0, 0, 0, 0, 0, 0}, 5123, "VEC4", 4, true);
     file.show({{"attributes", {{"POSITION", position}, {"COLOR_0", shorts}}}});
-    const LoadedScene loaded = file.read();
+    const scene::LoadedScene loaded = file.read();
     using Colour = std::array<uint16_t, 4>;
     EXPECT_EQ(loaded.scene.meshes[0].primitives[0].vertices[0].colour, (Colour{65535, 0, 32768, 65535}));
     EXPECT_EQ(loaded.scene.meshes[0].primitives[0].vertices[1].colour, (Colour{65535, 0, 0, 65535}));  // limited
@@ -112,7 +114,7 @@ TEST(GltfMesh, KeepsDarkVertexColours) {
         {{"attributes",
           {{"POSITION", position},
            {"COLOR_0", file.accessor(std::vector<uint16_t>{1000, 65, 1, 0, 0, 0, 0, 0, 0}, 5123, "VEC3", 3, true)}}}});
-    const Scene scene = file.read().scene;
+    const scene::Scene scene = file.read().scene;
     const auto colour = [&](size_t mesh, size_t c) {
         return scene.meshes[mesh].primitives[0].vertices[0].colour[c] / 65535.0;
     };
@@ -128,7 +130,7 @@ TEST(GltfMesh, KeepsOnlyTheVerticesAPrimitiveUses) {
     for (int i = 0; i < 1000; ++i) normals.insert(normals.end(), {0, 0, 1});
     const nlohmann::json attributes = {{"POSITION", file.vec3(many)}, {"NORMAL", file.vec3(normals)}};
     file.show({{"attributes", attributes}, {"indices", file.indices({100, 101, 102})}});
-    const Primitive p = only_primitive(file.read());
+    const scene::Primitive p = only_primitive(file.read());
     EXPECT_EQ(p.vertices.size(), 3u);
     EXPECT_EQ(p.bounds.high, glm::vec3(1, 1, 0));
 }
@@ -138,7 +140,7 @@ TEST(GltfMesh, RepairsNormalsOfNoDirection) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const size_t normals = file.vec3({0, 0, 0, nan, 0, 0, 0, 3, 0});
     file.show({{"attributes", {{"POSITION", file.vec3(kTriangle)}, {"NORMAL", normals}}}});
-    const Primitive p = only_primitive(file.read());
+    const scene::Primitive p = only_primitive(file.read());
     EXPECT_EQ(p.vertices[0].normal, glm::vec3(0, 0, 1));
     EXPECT_EQ(p.vertices[1].normal, glm::vec3(0, 0, 1));
     EXPECT_EQ(p.vertices[2].normal, glm::vec3(0, 1, 0));
@@ -153,11 +155,11 @@ TEST(GltfMesh, ExpandsInstances) {
         {{"attributes", {{"POSITION", file.vec3(kTriangle)}}}},
         {{"translation", {10, 0, 0}}, {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", attributes}}}}}});
     file.root["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
-    const Scene scene = file.read().scene;
+    const scene::Scene scene = file.read().scene;
     ASSERT_EQ(scene.nodes.size(), 3u);
-    EXPECT_EQ(scene.nodes[0].mesh, kNone);
+    EXPECT_EQ(scene.nodes[0].mesh, scene::kNone);
     EXPECT_EQ(scene.nodes[1].mesh, 0u);
-    const auto world = world_transforms(scene, 0);
+    const auto world = scene::world_transforms(scene, 0);
     EXPECT_EQ(world[1][3], glm::dvec4(11, 0, 0, 1));
     EXPECT_NEAR(world[2][0].x, -1, 1e-6);  // half a turn about Y
 }

@@ -9,6 +9,7 @@ namespace vesper::test {
 namespace {
 
 using nlohmann::json;
+using scene::Scene;
 
 TEST(GltfNode, ReadsTheDefaultSceneOrAllRoots) {
     GltfFile file;
@@ -30,12 +31,12 @@ TEST(GltfNode, ReadsATreeAsDeepAsItIs) {
     for (int i = 0; i < kDepth; ++i) file.root["nodes"].push_back({{"children", {i + 1}}, {"translation", {1, 0, 0}}});
     file.root["nodes"].push_back(json::object());
     const Scene scene = file.read().scene;
-    EXPECT_EQ(world_transforms(scene, 0).back()[3].x, kDepth);
+    EXPECT_EQ(scene::world_transforms(scene, 0).back()[3].x, kDepth);
 }
 
 TEST(GltfNode, ReadsFilesWithoutAnything) {
     GltfFile file;
-    const LoadedScene loaded = file.read();
+    const scene::LoadedScene loaded = file.read();
     EXPECT_TRUE(loaded.scene.nodes.empty());
     EXPECT_TRUE(loaded.notes.empty());
 }
@@ -43,7 +44,7 @@ TEST(GltfNode, ReadsFilesWithoutAnything) {
 TEST(GltfNode, KeepsNegativeScaleAndMatrices) {
     GltfFile file;
     file.root["nodes"] = {{{"scale", {-1, 2, 3}}}, {{"matrix", {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1}}}};
-    const auto world = world_transforms(file.read().scene, 0);
+    const auto world = scene::world_transforms(file.read().scene, 0);
     EXPECT_EQ(world[0][0].x, -1);
     EXPECT_EQ(world[1][0], glm::dvec4(0, 1, 0, 0));
     EXPECT_EQ(world[1][3], glm::dvec4(4, 5, 6, 1));
@@ -56,7 +57,7 @@ TEST(GltfNode, FarFromTheOriginAndBackIsExact) {
                           {{"translation", {5'000'000.3, 1, -412'000}}},
                           {{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -5'000'000.1, 0, 0, 1}}, {"children", {3}}},
                           {{"translation", {5'000'000, 0, 0}}}};
-    const auto world = world_transforms(file.read().scene, 0);
+    const auto world = scene::world_transforms(file.read().scene, 0);
     EXPECT_NEAR(world[1][3].x, 0.3, 1e-6);
     EXPECT_NEAR(world[1][3].z, 0.25, 1e-6);
     EXPECT_NEAR(world[3][3].x, -0.1, 1e-6);
@@ -73,12 +74,12 @@ TEST(GltfNode, NamesCameras) {
     for (const auto& [name, camera] :
          std::vector<std::pair<const char*, int>>{{"n0", 0}, {"n1", 1}, {"n2", 2}, {"n3", 2}, {"n4", 3}})
         file.root["nodes"].push_back({{"name", name}, {"camera", camera}});
-    const LoadedScene loaded = file.read();
+    const scene::LoadedScene loaded = file.read();
     std::vector<std::string> names;
-    for (const Camera& camera : loaded.scene.cameras) names.push_back(camera.name);
+    for (const scene::Camera& camera : loaded.scene.cameras) names.push_back(camera.name);
     EXPECT_EQ(names, (std::vector<std::string>{"driver", "n1", "n2", "n3"}));
     EXPECT_FLOAT_EQ(loaded.scene.cameras[0].vertical_fov, 0.7f);
-    EXPECT_EQ(loaded.scene.nodes[4].camera, kNone);
+    EXPECT_EQ(loaded.scene.nodes[4].camera, scene::kNone);
     EXPECT_TRUE(mentions(loaded.notes, "orthographic"));
 }
 
@@ -90,10 +91,10 @@ TEST(GltfNode, LeavesOutCamerasThatItCannotHave) {
     };
     file.root["cameras"] = {{{"type", "fisheye"}}, lens(3.2), lens(3.1)};
     for (int i = 0; i < 3; ++i) file.root["nodes"].push_back({{"camera", i}});
-    const LoadedScene loaded = file.read();
+    const scene::LoadedScene loaded = file.read();
     ASSERT_EQ(loaded.scene.cameras.size(), 1u);
     EXPECT_EQ(loaded.scene.nodes[2].camera, 0u);
-    EXPECT_TRUE(loaded.scene.nodes[0].camera == kNone && loaded.scene.nodes[1].camera == kNone);
+    EXPECT_TRUE(loaded.scene.nodes[0].camera == scene::kNone && loaded.scene.nodes[1].camera == scene::kNone);
     EXPECT_TRUE(mentions(loaded.notes, "a camera of a type that glTF does not have is left out"));
     EXPECT_TRUE(mentions(loaded.notes, "a camera with a field of view of 180 degrees or more is left out"));
     file.root["cameras"][1] = lens(-3);
@@ -109,7 +110,7 @@ TEST(GltfLight, KeepsTheProductOfIntensityAndColour) {
                                      {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.1}, {"outerConeAngle", 0.5}}}},
                                      {{"type", "directional"}, {"intensity", 5}}});
     file.root["nodes"] = {lamp(0), lamp(1), lamp(2)};
-    const LoadedScene loaded = file.read();
+    const scene::LoadedScene loaded = file.read();
     const auto& read = loaded.scene.lamps;
     ASSERT_EQ(read.size(), 3u);
     const double y = luminance({1, 0.5, 0.25});
@@ -117,11 +118,11 @@ TEST(GltfLight, KeepsTheProductOfIntensityAndColour) {
     EXPECT_NEAR(luminance(read[0].colour), 1, 1e-6);
     EXPECT_NEAR(read[0].colour.r * read[0].intensity, 100, 1e-4);
     EXPECT_TRUE(mentions(loaded.notes, "range"));
-    EXPECT_EQ(read[1].kind, Lamp::Kind::Spot);
+    EXPECT_EQ(read[1].kind, scene::Lamp::Kind::Spot);
     EXPECT_FLOAT_EQ(read[1].inner_cone, 0.1f);
     EXPECT_FLOAT_EQ(read[1].outer_cone, 0.5f);
     EXPECT_FLOAT_EQ(read[1].intensity, 1);  // the default
-    EXPECT_EQ(read[2].kind, Lamp::Kind::Directional);
+    EXPECT_EQ(read[2].kind, scene::Lamp::Kind::Directional);
     EXPECT_EQ(loaded.scene.nodes[2].lamp, 2u);
 }
 
@@ -140,8 +141,8 @@ TEST(GltfLight, LeavesOutTypesThatItDoesNotKnow) {
     GltfFile file;
     file.root["extensions"] = lamps({{{"type", "area"}, {"intensity", 100}}, {{"type", "point"}, {"intensity", 7}}});
     file.root["nodes"] = {lamp(0), lamp(1)};
-    const LoadedScene loaded = file.read();
-    EXPECT_EQ(loaded.scene.nodes[0].lamp, kNone);
+    const scene::LoadedScene loaded = file.read();
+    EXPECT_EQ(loaded.scene.nodes[0].lamp, scene::kNone);
     ASSERT_EQ(loaded.scene.nodes[1].lamp, 1u);
     EXPECT_EQ(loaded.scene.lamps[1].intensity, 7);
     EXPECT_TRUE(mentions(loaded.notes, "a light of a type that glTF does not have is left out"));
@@ -158,14 +159,14 @@ TEST(GltfLight, ReadsTheVesperBlock) {
                                      {"ambient", {{"illuminance_lx", 0.4}, {"colour", {2, 2, 2}}}},
                                      {"sky", {{"luminance_cd_m2", 0.02}}},
                                      {"lobes", {{{"light", 0}, {"type", "cosine_power"}, {"exponent", 250}}}}};
-    const LoadedScene loaded = file.read();
+    const scene::LoadedScene loaded = file.read();
     const Scene& scene = loaded.scene;
     EXPECT_TRUE(loaded.photometric);
-    EXPECT_EQ(scene.transfer.kind, Transfer::Kind::Gamma);
+    EXPECT_EQ(scene.transfer.kind, scene::Transfer::Kind::Gamma);
     EXPECT_FLOAT_EQ(scene.ambient_illuminance, 0.4f);
     EXPECT_NEAR(luminance(scene.ambient_colour), 1, 1e-6);
     EXPECT_FLOAT_EQ(scene.sky_luminance, 0.02f);
-    EXPECT_EQ(scene.lamps[0].kind, Lamp::Kind::CosinePower);
+    EXPECT_EQ(scene.lamps[0].kind, scene::Lamp::Kind::CosinePower);
     EXPECT_EQ(scene.lamps[0].exponent, 250);
     file.root["extras"]["vesper"]["version"] = 2;
     EXPECT_TRUE(contains(file.complaint(), "/extras/vesper/version"));
@@ -192,8 +193,10 @@ TEST(GltfAnimation, InterpolatesStepAndLinear) {
     const Scene linear = animated("translation", "LINEAR", times, values, 3),
                 step = animated("translation", "STEP", times, values, 3),
                 unknown = animated("translation", "WAVY", times, values, 3);
-    const auto x = [](const Scene& scene, double seconds) { return float(world_transforms(scene, seconds)[0][3].x); };
-    EXPECT_EQ(animation_length(linear), 3);
+    const auto x = [](const Scene& scene, double seconds) {
+        return float(scene::world_transforms(scene, seconds)[0][3].x);
+    };
+    EXPECT_EQ(scene::animation_length(linear), 3);
     for (const auto& [seconds, expected] :
          std::vector<std::pair<double, float>>{{0, 0}, {1, 0}, {1.5, 2}, {2, 4}, {3, 8}, {9, 8}})
         EXPECT_FLOAT_EQ(x(linear, seconds), expected) << seconds;
@@ -206,7 +209,7 @@ TEST(GltfAnimation, TurnsAlongTheShortestWay) {
     const float h = std::sqrt(0.5f);
     // From 0 to 90 degrees about Y, the end given with the opposite sign: the same rotation.
     const Scene scene = animated("rotation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, -h, 0, -h}, 4);
-    const glm::mat4 half = world_transforms(scene, 0.5)[0];
+    const glm::mat4 half = scene::world_transforms(scene, 0.5)[0];
     EXPECT_NEAR(half[0].x, std::cos(std::numbers::pi / 4), 1e-6);
     EXPECT_NEAR(half[0].z, -std::sin(std::numbers::pi / 4), 1e-6);
 }
@@ -215,7 +218,8 @@ TEST(GltfAnimation, FollowsCubicSplines) {
     // x(t) = t^3 on [0, 2]: a cubic spline must reproduce it. Per key: in-tangent, value, out-tangent.
     const Scene scene =
         animated("translation", "CUBICSPLINE", {0, 2}, {0, 0, 0, 0, 0, 0, 0, 0, 0, 12, 0, 0, 8, 0, 0, 12, 0, 0}, 3);
-    for (const double t : {0.0, 0.3, 1.0, 1.7, 2.0}) EXPECT_NEAR(world_transforms(scene, t)[0][3].x, t * t * t, 1e-5);
+    for (const double t : {0.0, 0.3, 1.0, 1.7, 2.0})
+        EXPECT_NEAR(scene::world_transforms(scene, t)[0][3].x, t * t * t, 1e-5);
 }
 
 TEST(GltfAnimation, PlaysAllAnimationsTogether) {
@@ -229,10 +233,10 @@ TEST(GltfAnimation, PlaysAllAnimationsTogether) {
     };
     file.root["animations"] = {animation(up, "translation", 0), animation(big, "scale", 0),
                                animation(up, "translation", 1)};
-    const LoadedScene loaded = file.read();
+    const scene::LoadedScene loaded = file.read();
     EXPECT_EQ(loaded.scene.channels.size(), 2u);
     EXPECT_TRUE(mentions(loaded.notes, "matrix"));
-    const glm::mat4 world = world_transforms(loaded.scene, 2)[0];
+    const glm::mat4 world = scene::world_transforms(loaded.scene, 2)[0];
     EXPECT_EQ(world[3].y, 2);
     EXPECT_EQ(world[0].x, 2);
 }

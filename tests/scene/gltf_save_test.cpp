@@ -7,26 +7,28 @@
 #include "scene/lamp.h"
 #include "scene/scene_files.h"
 
-namespace vesper {
+namespace vesper::test {
 namespace {
+
+using scene::Scene;
 
 Scene example() {
     Scene scene{.name = "example"};
-    Material road{.name = "road"};
+    scene::Material road{.name = "road"};
     road.base_colour = {0.2f, 0.21f, 0.22f, 1};
     road.reflection_table = 0;
-    Material sign{.name = "sign"};
+    scene::Material sign{.name = "sign"};
     sign.roughness = 0.5f, sign.metallic = 0.0f, sign.double_sided = true, sign.retroreflector = 0;
-    Material shop{.name = "shop"};
+    scene::Material shop{.name = "shop"};
     shop.emission = {120, 80, 40};
     scene.materials = {road, sign, shop};
-    scene.reflection_tables.push_back(find_reflection_table("R3"));
-    scene.retroreflectors.push_back(retroreflective_class("RA2"));
-    Mesh mesh{.name = "triangle"};
+    scene.reflection_tables.push_back(photometry::find_reflection_table("R3"));
+    scene.retroreflectors.push_back(photometry::retroreflective_class("RA2"));
+    scene::Mesh mesh{.name = "triangle"};
     for (uint32_t m = 0; m < 3; ++m) {
-        Primitive primitive{.material = m};
+        scene::Primitive primitive{.material = m};
         for (int i = 0; i < 3; ++i) {
-            Vertex vertex;
+            scene::Vertex vertex;
             vertex.position = {float(i), float(m), float(i * i)};
             vertex.normal = {0, 1, 0};
             if (m == 1) vertex.uv = {0.25f * float(i), 1}, vertex.colour = {65535, 1000, 0, 65535};
@@ -37,43 +39,46 @@ Scene example() {
         mesh.primitives.push_back(primitive);
     }
     scene.meshes.push_back(mesh);
-    Lamp measured{.name = "street lamp",
-                  .kind = Lamp::Kind::Measured,
-                  .intensity = 0.8f,
-                  .colour = glm::vec3(1),
-                  .distribution = 0};
+    scene::Lamp measured{.name = "street lamp",
+                         .kind = scene::Lamp::Kind::Measured,
+                         .intensity = 0.8f,
+                         .colour = glm::vec3(1),
+                         .distribution = 0};
     measured.opening.length = 0.6, measured.opening.width = 0.3;
-    Lamp lobe{.name = "lobe",
-              .kind = Lamp::Kind::CosinePower,
-              .intensity = 300,
-              .inner_cone = 0,
-              .outer_cone = 1.2f,
-              .exponent = 8};
-    Lamp spot{.name = "spot", .kind = Lamp::Kind::Spot, .intensity = 200, .inner_cone = 0.1f, .outer_cone = 0.6f};
+    scene::Lamp lobe{.name = "lobe",
+                     .kind = scene::Lamp::Kind::CosinePower,
+                     .intensity = 300,
+                     .inner_cone = 0,
+                     .outer_cone = 1.2f,
+                     .exponent = 8};
+    scene::Lamp spot{
+        .name = "spot", .kind = scene::Lamp::Kind::Spot, .intensity = 200, .inner_cone = 0.1f, .outer_cone = 0.6f};
     spot.colour = glm::vec3(glm::dvec3(2, 0.7, 0.5) / luminance(glm::dvec3(2, 0.7, 0.5)));
     spot.opening.length = spot.opening.width = 0.2, spot.opening.round = true;
     scene.lamps = {measured, lobe, spot};
-    scene.distributions.push_back(standard_lamp("street-lamp"));
+    scene.distributions.push_back(photometry::standard_lamp("street-lamp"));
     scene.cameras.push_back({.name = "eye", .vertical_fov = 0.7f, .near = 0.2f});
-    Node root{.name = "root"}, car{.name = "car", .parent = 0}, lamp{.name = "lamp", .parent = 1},
+    scene::Node root{.name = "root"}, car{.name = "car", .parent = 0}, lamp{.name = "lamp", .parent = 1},
         second{.name = "second"};
     root.mesh = 0;
     car.translation = {1, 2, 3}, car.camera = 0;
     lamp.rotation = glm::angleAxis(0.5f, glm::vec3(0, 1, 0)), lamp.lamp = 0;
     second.lamp = 2, second.scale = {2, 2, 2};
-    Node third{.name = "third"};
+    scene::Node third{.name = "third"};
     third.lamp = 1;
     scene.nodes = {root, car, lamp, second, third};
+    scene.channels.push_back({.node = 1,
+                              .path = scene::Channel::Path::Translation,
+                              .times = {0, 2},
+                              .values = {{1, 2, 3, 0}, {5, 2, 3, 0}}});
     scene.channels.push_back(
-        {.node = 1, .path = Channel::Path::Translation, .times = {0, 2}, .values = {{1, 2, 3, 0}, {5, 2, 3, 0}}});
-    scene.channels.push_back(
-        {.node = 1, .path = Channel::Path::Rotation, .times = {0, 2}, .values = {{0, 0, 0, 1}, {0, 1, 0, 0}}});
+        {.node = 1, .path = scene::Channel::Path::Rotation, .times = {0, 2}, .values = {{0, 0, 0, 1}, {0, 1, 0, 0}}});
     scene.ambient_illuminance = 0.3f, scene.sky_luminance = 0.02f;
     return scene;
 }
 
-const Node& find(const Scene& scene, const std::string& name) {
-    for (const Node& node : scene.nodes)
+const scene::Node& find(const Scene& scene, const std::string& name) {
+    for (const scene::Node& node : scene.nodes)
         if (node.name == name) return node;
     throw Error("no node " + name);
 }
@@ -81,11 +86,11 @@ const Node& find(const Scene& scene, const std::string& name) {
 class GltfSave : public testing::TestWithParam<const char*> {};
 
 TEST_P(GltfSave, GivesTheSameSceneBack) {
-    const test::TempFolder folder;
+    const TempFolder folder;
     const auto file = folder / GetParam();
     const Scene scene = example();
-    save_gltf(scene, "test", file);
-    const LoadedScene loaded = read_gltf(file);
+    scene::save_gltf(scene, "test", file);
+    const scene::LoadedScene loaded = scene::read_gltf(file);
     const Scene& got = loaded.scene;
     EXPECT_TRUE(loaded.notes.empty()) << loaded.notes[0];
     ASSERT_EQ(got.materials.size(), 3u);
@@ -99,7 +104,8 @@ TEST_P(GltfSave, GivesTheSameSceneBack) {
     ASSERT_EQ(got.meshes.size(), 1u);
     for (size_t m = 0; m < 3; ++m)
         for (size_t i = 0; i < 3; ++i) {
-            const Vertex &a = got.meshes[0].primitives[m].vertices[i], &b = scene.meshes[0].primitives[m].vertices[i];
+            const scene::Vertex &a = got.meshes[0].primitives[m].vertices[i],
+                                &b = scene.meshes[0].primitives[m].vertices[i];
             EXPECT_EQ(a.position, b.position);
             EXPECT_EQ(a.normal, b.normal);
             EXPECT_EQ(a.uv, b.uv);
@@ -107,7 +113,7 @@ TEST_P(GltfSave, GivesTheSameSceneBack) {
         }
     const auto light_on = [&](const Scene& of, const char* node) { return of.lamps[find(of, node).lamp]; };
     for (const char* node : {"lamp", "second", "third"}) {
-        const Lamp a = light_on(got, node), b = light_on(scene, node);
+        const scene::Lamp a = light_on(got, node), b = light_on(scene, node);
         EXPECT_EQ(a.kind, b.kind);
         EXPECT_NEAR(a.intensity, b.intensity, 1e-4 * b.intensity);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(a.colour[c], b.colour[c], 1e-5);
@@ -115,11 +121,11 @@ TEST_P(GltfSave, GivesTheSameSceneBack) {
         EXPECT_EQ(a.opening.width, b.opening.width);
         EXPECT_EQ(a.opening.round, b.opening.round);
         for (const glm::dvec3 direction : {glm::dvec3(0.1, 0.2, -1), glm::dvec3(0.7, 0.1, -0.5)})
-            EXPECT_NEAR(luminous_intensity(a, got.distributions, direction),
-                        luminous_intensity(b, scene.distributions, direction), 1e-3 * b.intensity + 0.01);
+            EXPECT_NEAR(scene::luminous_intensity(a, got.distributions, direction),
+                        scene::luminous_intensity(b, scene.distributions, direction), 1e-3 * b.intensity + 0.01);
     }
     const auto placed = [&](const Scene& of, const char* node, double time) {
-        return world_transforms(of, time)[static_cast<size_t>(&find(of, node) - of.nodes.data())];
+        return scene::world_transforms(of, time)[static_cast<size_t>(&find(of, node) - of.nodes.data())];
     };
     for (const double time : {0.0, 1.0, 2.0})
         for (const char* node : {"car", "lamp", "second"}) {
@@ -136,16 +142,16 @@ TEST_P(GltfSave, GivesTheSameSceneBack) {
 INSTANTIATE_TEST_SUITE_P(Formats, GltfSave, testing::Values("scene.gltf", "scene.glb"));
 
 TEST(GltfSaveNames, MayBeMissingOrNoUtf8) {
-    const test::TempFolder folder;
+    const TempFolder folder;
     Scene scene;
     for (const char* name : {"scene.gltf", "scene.glb"}) {
-        save_gltf(scene, "test", folder / name);
-        EXPECT_TRUE(read_gltf(folder / name).scene.nodes.empty());
+        scene::save_gltf(scene, "test", folder / name);
+        EXPECT_TRUE(scene::read_gltf(folder / name).scene.nodes.empty());
     }
     scene.nodes.resize(2);
     scene.nodes[1].name = "M\xfcller";
-    save_gltf(scene, "K\xf6ln.xodr", folder / "scene.gltf");
-    const Scene got = read_gltf(folder / "scene.gltf").scene;
+    scene::save_gltf(scene, "K\xf6ln.xodr", folder / "scene.gltf");
+    const Scene got = scene::read_gltf(folder / "scene.gltf").scene;
     ASSERT_EQ(got.nodes.size(), 2u);
     EXPECT_EQ(got.nodes[0].name, "");
     EXPECT_EQ(got.nodes[0].scale, glm::vec3(1));
@@ -153,13 +159,13 @@ TEST(GltfSaveNames, MayBeMissingOrNoUtf8) {
 }
 
 TEST(GltfSaveErrors, RefusesWhatItCannotHold) {
-    const test::TempFolder folder;
+    const TempFolder folder;
     Scene scene = example();
-    EXPECT_THROW(save_gltf(scene, "test", folder / "scene.obj"), Error);
+    EXPECT_THROW(scene::save_gltf(scene, "test", folder / "scene.obj"), Error);
     scene.images.emplace_back();
-    EXPECT_THROW(save_gltf(scene, "test", folder / "scene.gltf"), Error);
+    EXPECT_THROW(scene::save_gltf(scene, "test", folder / "scene.gltf"), Error);
     EXPECT_FALSE(std::filesystem::exists(folder / "scene.gltf"));
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

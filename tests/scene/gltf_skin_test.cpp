@@ -11,6 +11,7 @@ namespace vesper::test {
 namespace {
 
 using nlohmann::json;
+using scene::Scene;
 
 const json kUp = {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)};  // +Z of the file up
 
@@ -41,7 +42,7 @@ struct Rig {
 
 size_t drawn(const Scene& scene, const std::string& name) {
     for (size_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].name == name && scene.nodes[i].mesh != kNone) return i;
+        if (scene.nodes[i].name == name && scene.nodes[i].mesh != scene::kNone) return i;
     ADD_FAILURE() << "no node " << name << " shows a mesh";
     return 0;
 }
@@ -53,12 +54,12 @@ struct Seen {
 /// A vertex of a node in the world.
 Seen seen(const Scene& scene, const std::string& name, size_t vertex, const std::vector<glm::dmat4>& world) {
     const size_t node = drawn(scene, name);
-    const Vertex& v = scene.meshes.at(scene.nodes.at(node).mesh).primitives.at(0).vertices.at(vertex);
+    const scene::Vertex& v = scene.meshes.at(scene.nodes.at(node).mesh).primitives.at(0).vertices.at(vertex);
     return {glm::vec3(world[node] * glm::dvec4(v.position, 1)),
             glm::normalize(glm::transpose(glm::inverse(glm::mat3(glm::mat4(world[node])))) * v.normal)};
 }
 Seen seen(const Scene& scene, const std::string& name, size_t vertex) {
-    return seen(scene, name, vertex, world_transforms(scene, 0));
+    return seen(scene, name, vertex, scene::world_transforms(scene, 0));
 }
 
 void expect_near(glm::vec3 got, glm::vec3 want, double near = 1e-5) {
@@ -72,7 +73,7 @@ TEST(GltfSkin, JointsPutAMeshInPlaceAndItsNodeDoesNot) {
     rig.bind({}, {0});  // no matrices: identities
     rig.file.root["nodes"] = {{{"name", "joint"}, {"translation", {0.5, 0, 0}}},
                               {{"name", "body"}, {"mesh", rig.mesh()}, {"skin", 0}, {"translation", {-5, 1, 2}}}};
-    const LoadedScene loaded = rig.file.read();
+    const scene::LoadedScene loaded = rig.file.read();
     expect_near(seen(loaded.scene, "body", 0).position, {0.5f, 0, 0});
     expect_near(seen(loaded.scene, "body", 1).position, {1.5f, 0, 0});
     EXPECT_TRUE(mentions(loaded.notes, "with a skin is shown at rest"));
@@ -101,8 +102,8 @@ TEST(GltfSkin, FiguresInCentimetresWithZUpStandUpright) {
                     glm::vec3(kTriangle[3 * i] + 3, kTriangle[3 * i + 1], kTriangle[3 * i + 2] + 4));
         expect_near(seen(scene, "body", i).normal, {0, 0, 1});
     }
-    const Primitive& primitive = scene.meshes.at(scene.nodes[drawn(scene, "body")].mesh).primitives.at(0);
-    for (const Vertex& v : primitive.vertices)
+    const scene::Primitive& primitive = scene.meshes.at(scene.nodes[drawn(scene, "body")].mesh).primitives.at(0);
+    for (const scene::Vertex& v : primitive.vertices)
         EXPECT_TRUE(glm::all(glm::lessThanEqual(v.position, primitive.bounds.high)));
 }
 
@@ -117,14 +118,16 @@ TEST(GltfSkin, MeshesGoWithWhatTheirJointsStandOn) {
             {{"samplers", {{{"input", times}, {"output", moves}}}},
              {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}}}}}};
         const Scene scene = file.read().scene;
-        return seen(scene, "body", 0, world_transforms(scene, 1)).position;
+        return seen(scene, "body", 0, scene::world_transforms(scene, 1)).position;
     };
     expect_near(keyed(0), {50, 0, 0}, 1e-4);
     expect_near(keyed(2), {3, 0, 4}, 1e-4);
     expect_near(keyed(3), {3, 0, 4}, 1e-4);
     const Scene scene = file.read().scene;
-    EXPECT_EQ(std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const Node& n) { return n.name == "body"; }), 1);
-    const auto moved = placed_transforms(
+    EXPECT_EQ(
+        std::count_if(scene.nodes.begin(), scene.nodes.end(), [](const scene::Node& n) { return n.name == "body"; }),
+        1);
+    const auto moved = scene::placed_transforms(
         scene, 0, {{static_cast<uint32_t>(drawn(scene, "body")), glm::translate(glm::mat4(1), glm::vec3(9, 0, 0))}});
     EXPECT_FLOAT_EQ(seen(scene, "body", 0, moved).position.x, 9);
 }
@@ -161,7 +164,7 @@ TEST(GltfSkin, MirroringJointsTurnTrianglesRound) {
     rig.bind({}, {0});
     rig.file.root["nodes"] = {{{"scale", {-1, 1, 1}}}, {{"name", "body"}, {"mesh", rig.mesh()}, {"skin", 0}}};
     const Scene scene = rig.file.read().scene;
-    const Primitive& p = scene.meshes.at(scene.nodes[drawn(scene, "body")].mesh).primitives.at(0);
+    const scene::Primitive& p = scene.meshes.at(scene.nodes[drawn(scene, "body")].mesh).primitives.at(0);
     const auto corner = [&](size_t i) { return p.vertices[p.indices[i]].position; };
     const glm::vec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
     EXPECT_GT(glm::dot(normal, p.vertices[0].normal), 0.9f);
@@ -183,7 +186,7 @@ TEST(GltfSkin, AMeshOfSeveralSkinsIsReadForEach) {
     EXPECT_EQ(scene.meshes.size(), 3u);
     for (const auto& [name, x] : {std::pair("a", 1.0f), {"b", 2.0f}, {"c", 0.0f}, {"d", 2.0f}})
         EXPECT_EQ(seen(scene, name, 0).position.x, x) << name;
-    SceneLimits few;
+    scene::SceneLimits few;
     few.vertices = 8;  // three triangles have nine
     EXPECT_TRUE(contains(rig.file.complaint(few), "over the limit"));
 }
@@ -199,7 +202,7 @@ TEST(GltfSkin, WhatIsNotThereDoesNoHarm) {
     rig.file.root["scenes"] = {{{"nodes", {2}}}};
     expect_near(seen(rig.file.read().scene, "a", 0).position, {1, 2, 0});
     rig.file.root["meshes"][mesh]["primitives"][0]["attributes"].erase("JOINTS_0");
-    const LoadedScene loaded = rig.file.read();
+    const scene::LoadedScene loaded = rig.file.read();
     expect_near(seen(loaded.scene, "a", 0).position, {5, 5, 5});
     EXPECT_TRUE(mentions(loaded.notes, "as it is modelled"));
 }
@@ -239,7 +242,7 @@ TEST(GltfSkin, JointsOfAnyDepthTakeATimeThatIsBounded) {
     const size_t mesh = rig.mesh();
     for (int i = 0; i < skins; ++i)
         rig.bind({}, {0, depth}), rig.file.root["nodes"].push_back({{"mesh", mesh}, {"skin", i}});
-    SceneLimits limits;
+    scene::SceneLimits limits;
     limits.nodes = 2 * depth;
     EXPECT_TRUE(contains(rig.file.complaint(limits), "together stand too deep"));
     EXPECT_EQ(rig.file.complaint(), "");

@@ -12,7 +12,7 @@ namespace {
 
 std::string complaint(const std::string& text) {
     try {
-        parse_json({reinterpret_cast<const uint8_t*>(text.data()), text.size()}, "x.json");
+        scene::parse_json({reinterpret_cast<const uint8_t*>(text.data()), text.size()}, "x.json");
     } catch (const Error& error) {
         return error.what();
     }

@@ -18,13 +18,13 @@ json street_lamp() {
             {"colour_temperature_K", 2100}};
 }
 
-Photometry read(const json& file) {
+scene::Photometry read(const json& file) {
     const TempFolder folder;
-    return read_photometry(folder.write("p.json", file.dump()));
+    return scene::read_photometry(folder.write("p.json", file.dump()));
 }
 
 TEST(Photometry, ReadsAWholeFile) {
-    const Photometry p = read(
+    const scene::Photometry p = read(
         {{"version", 1},
          {"textures", {{"transfer", "gamma"}, {"gamma", 2.4}}},
          {"ambient", {{"illuminance_lx", 0.4}, {"colour_temperature_K", 3200}}},
@@ -45,7 +45,7 @@ TEST(Photometry, ReadsAWholeFile) {
     EXPECT_NEAR(luminance(p.sky->colour), 1, 1e-9);
     EXPECT_TRUE(p.keep_lights);
     ASSERT_EQ(p.lamps.size(), 2u);
-    EXPECT_EQ(p.lamps[0].lamp.kind, Lamp::Kind::Spot);
+    EXPECT_EQ(p.lamps[0].lamp.kind, scene::Lamp::Kind::Spot);
     EXPECT_FLOAT_EQ(p.lamps[0].lamp.outer_cone, static_cast<float>(80 * std::numbers::pi / 180));
     EXPECT_EQ(p.lamps[1].name, "a");
     EXPECT_EQ(p.lamps[1].aim, glm::dvec3(0, -1, 0));
@@ -55,8 +55,8 @@ TEST(Photometry, ReadsAWholeFile) {
 }
 
 TEST(Photometry, StartsFromEquationOne) {
-    const Photometry p = read({{"version", 1}});
-    EXPECT_EQ(p.transfer.kind, Transfer::Kind::Gamma);
+    const scene::Photometry p = read({{"version", 1}});
+    EXPECT_EQ(p.transfer.kind, scene::Transfer::Kind::Gamma);
     EXPECT_FLOAT_EQ(p.transfer.gamma, 2.2f);
     EXPECT_FALSE(p.ambient);
 }
@@ -101,36 +101,36 @@ TEST(Photometry, NamesThePlaceOfWhatIsWrong) {
         {{"version", 1}, {"lamps", {street_lamp()}}, {"sky", {{"luminance_cd_m2", 1}}}}, faults,
         [](const json& file) { return complaint_of([&] { read(file); }); }, "p.json: ");
     const TempFolder folder;
-    EXPECT_THROW(read_photometry(folder.write("p.json", "{\"version\": 1")), Error);
-    EXPECT_THROW(read_photometry(folder / "missing.json"), Error);
+    EXPECT_THROW(scene::read_photometry(folder.write("p.json", "{\"version\": 1")), Error);
+    EXPECT_THROW(scene::read_photometry(folder / "missing.json"), Error);
 }
 
 TEST(Pattern, MatchesNames) {
     for (const char* pattern : {"lamp_1", "*", "lamp*", "*1", "l?mp_?", "*a*_*", "lamp_1*", "**"})
-        EXPECT_TRUE(matches_name(pattern, "lamp_1")) << pattern;
+        EXPECT_TRUE(scene::matches_name(pattern, "lamp_1")) << pattern;
     for (const char* pattern : {"lamp", "amp_1", "?", "lamp_1?", "*2", "", "LAMP_1"})
-        EXPECT_FALSE(matches_name(pattern, "lamp_1")) << pattern;
-    EXPECT_TRUE(matches_name("*", ""));
-    EXPECT_TRUE(matches_name("a*b*a*c", "aXbYbaZc"));
-    EXPECT_TRUE(matches_name("r?verb?re", "réverbère"));
-    EXPECT_FALSE(matches_name(std::string(50, '*') + "x", std::string(5000, 'a')));  // at once
+        EXPECT_FALSE(scene::matches_name(pattern, "lamp_1")) << pattern;
+    EXPECT_TRUE(scene::matches_name("*", ""));
+    EXPECT_TRUE(scene::matches_name("a*b*a*c", "aXbYbaZc"));
+    EXPECT_TRUE(scene::matches_name("r?verb?re", "réverbère"));
+    EXPECT_FALSE(scene::matches_name(std::string(50, '*') + "x", std::string(5000, 'a')));  // at once
 }
 
 TEST(Pattern, MatchesEndsOfPaths) {
     const std::vector<std::string> path = {"light", "street_lamp_07", "street"};
     for (const char* pattern :
          {"light", "l*", "street_lamp_*/light", "street/street_lamp_07/light", "*/*/light", "*/light"})
-        EXPECT_TRUE(matches_path(pattern, path)) << pattern;
+        EXPECT_TRUE(scene::matches_path(pattern, path)) << pattern;
     for (const char* pattern :
          {"street*", "lamp_*/light", "street/light", "street*light", "*/*/*/light", "street_lamp_*", "/light"})
-        EXPECT_FALSE(matches_path(pattern, path)) << pattern;
+        EXPECT_FALSE(scene::matches_path(pattern, path)) << pattern;
     // A name may hold slashes: it counts as one component, whose inside no match begins in.
     const std::vector<std::string> odd = {"street_lamp_07/light", "street"};
     for (const char* pattern :
          {"street_lamp_*/light", "street_lamp_*7/light", "street_lamp_?7/*", "street/street_lamp_07/light", "*"})
-        EXPECT_TRUE(matches_path(pattern, odd)) << pattern;
-    EXPECT_FALSE(matches_path("light", odd));
-    EXPECT_FALSE(matches_path("street/*", odd));
+        EXPECT_TRUE(scene::matches_path(pattern, odd)) << pattern;
+    EXPECT_FALSE(scene::matches_path("light", odd));
+    EXPECT_FALSE(scene::matches_path("street/*", odd));
 }
 
 }  // namespace

@@ -20,10 +20,10 @@ protected:
         }
         folder_.write("street.gltf", street_.text());
     }
-    ConversionReport run(const json& surfaces) {
-        return convert(folder_ / "street.gltf",
-                       folder_.write("p.json", json({{"version", 1}, {"surfaces", surfaces}}).dump()),
-                       folder_ / "night.gltf");
+    scene::ConversionReport run(const json& surfaces) {
+        return scene::convert(folder_ / "street.gltf",
+                              folder_.write("p.json", json({{"version", 1}, {"surfaces", surfaces}}).dump()),
+                              folder_ / "night.gltf");
     }
     std::string complaint(const json& surface) {
         return complaint_of([&] { run(json::array({surface})); });
@@ -34,25 +34,25 @@ protected:
 
 TEST_F(SurfaceTables, TablesSurviveAConversion) {
     folder_.write("mine.csv", "t,0,90,180\n0,100,100,100\n1.5,50,20,\n");
-    const ConversionReport report =
+    const scene::ConversionReport report =
         run({{{"materials", "asphalt wet"}, {"reflection_table", "W3"}},
              {{"materials", "asphalt old"}, {"reflection_table", "mine.csv"}},
              {{"materials", {"asphalt", "kerb"}}, {"reflection_table", "R3"}, {"q0", 0.09}}});
     EXPECT_TRUE(mentions(report.changes, "reflection table R3 of Q0 0.09"));
-    const Scene scene = read_gltf(folder_ / "night.gltf").scene;
+    const scene::Scene scene = scene::read_gltf(folder_ / "night.gltf").scene;
     ASSERT_EQ(scene.reflection_tables.size(), 3u);
     const auto table_of = [&](size_t m) { return scene.reflection_tables.at(scene.materials[m].reflection_table); };
-    EXPECT_EQ(table_of(0), rescaled(find_reflection_table("R3"), 0.09));
+    EXPECT_EQ(table_of(0), photometry::rescaled(photometry::find_reflection_table("R3"), 0.09));
     EXPECT_EQ(scene.materials[0].reflection_table, scene.materials[1].reflection_table);
-    EXPECT_EQ(table_of(2), find_reflection_table("W3"));
-    EXPECT_EQ(table_of(3), find_reflection_table("mine.csv", folder_.path()));
+    EXPECT_EQ(table_of(2), photometry::find_reflection_table("W3"));
+    EXPECT_EQ(table_of(3), photometry::find_reflection_table("mine.csv", folder_.path()));
 }
 
 TEST_F(SurfaceTables, WithoutRulesThereAreNoTables) {
     run({{{"materials", "asphalt"}, {"roughness", 0.9}}});
-    const Scene scene = read_gltf(folder_ / "night.gltf").scene;
+    const scene::Scene scene = scene::read_gltf(folder_ / "night.gltf").scene;
     EXPECT_TRUE(scene.reflection_tables.empty());
-    EXPECT_EQ(scene.materials[0].reflection_table, kNone);
+    EXPECT_EQ(scene.materials[0].reflection_table, scene::kNone);
     EXPECT_FALSE(json::parse(read_text(folder_ / "night.gltf"))["extras"]["vesper"].contains("roads"));
 }
 
@@ -82,7 +82,8 @@ TEST_F(SurfaceTables, RefusesWhatIsNoTable) {
     for (const auto& c : cases) {
         json damaged = good;
         damaged["extras"]["vesper"][json::json_pointer(c.pointer)] = c.value;
-        const std::string refusal = complaint_of([&] { read_gltf(folder_.write("damaged.gltf", damaged.dump())); });
+        const std::string refusal =
+            complaint_of([&] { scene::read_gltf(folder_.write("damaged.gltf", damaged.dump())); });
         EXPECT_TRUE(contains(refusal, "damaged.gltf: /extras/vesper/")) << c.pointer << " = " << c.value;
     }
 }

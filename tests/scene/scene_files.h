@@ -127,17 +127,17 @@ public:
     std::string text() {
         if (!bytes.empty())
             root["buffers"] = {
-                {{"byteLength", bytes.size()}, {"uri", encode_data_uri("application/octet-stream", bytes)}}};
+                {{"byteLength", bytes.size()}, {"uri", scene::encode_data_uri("application/octet-stream", bytes)}}};
         return root.dump();
     }
 
-    LoadedScene read(const SceneLimits& limits = {}) {
+    scene::LoadedScene read(const scene::SceneLimits& limits = {}) {
         const TempFolder folder;
-        return read_gltf(folder.write("scene.gltf", text()), limits);
+        return scene::read_gltf(folder.write("scene.gltf", text()), limits);
     }
 
     /// The message of the Error that reading throws; empty when it throws none.
-    std::string complaint(const SceneLimits& limits = {}) {
+    std::string complaint(const scene::SceneLimits& limits = {}) {
         return complaint_of([&] { read(limits); });
     }
 };

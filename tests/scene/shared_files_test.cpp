@@ -30,7 +30,7 @@ TEST(SharedFiles, EveryGltfGivesASceneOrAnError) {
         for (const fs::path& file : files_below(folder)) {
             if (!is_gltf(file)) continue;
             try {
-                read_gltf(file);
+                scene::read_gltf(file);
                 ++scenes;
             } catch (const Error& error) {
                 ++errors;
@@ -49,7 +49,7 @@ TEST(SharedFiles, EveryDamagedPictureGivesPixelsOrAnError) {
     if (files.empty()) GTEST_SKIP() << "the shared set is not here";
     for (const fs::path& file : files) {
         try {
-            const Image image = decode_image(read_file(file, 1u << 28), 4096);
+            const Image image = io::decode_image(io::read_file(file, 1u << 28), 4096);
             EXPECT_EQ(image.rgba.size(), size_t{4} * image.width * image.height);
         } catch (const Error&) {
         }
@@ -61,11 +61,11 @@ TEST(SharedFiles, WholeSetsAreRead) {
     if (files.empty()) GTEST_SKIP() << "the shared set is not here";
     for (const fs::path& file : files) {
         if (!is_gltf(file)) continue;
-        EXPECT_NO_THROW(read_gltf(file)) << file;
+        EXPECT_NO_THROW(scene::read_gltf(file)) << file;
     }
     // An inked (YCCK) picture.
     const fs::path inked = shared_data("malformed/image/jpeg/YCbCrK.jpg");
-    const Image image = decode_image(read_file(inked, 1u << 20), 4096);
+    const Image image = io::decode_image(io::read_file(inked, 1u << 20), 4096);
     EXPECT_GT(image.rgba[0] + image.rgba[1] + image.rgba[2], 0);
 }
 

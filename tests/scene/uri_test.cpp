@@ -5,21 +5,21 @@ namespace vesper::test {
 namespace {
 
 std::string decoded(const std::string& uri) {
-    const std::vector<uint8_t> bytes = decode_data_uri(uri);
+    const std::vector<uint8_t> bytes = scene::decode_data_uri(uri);
     return {bytes.begin(), bytes.end()};
 }
 
 TEST(DataUri, CaseOfSchemeAndMarkDoesNotMatter) {
     for (const char* uri : {"data:;base64,SGk=", "DATA:;base64,SGk=", "Data:text/plain;BASE64,SGk",
                             "data:text/plain;charset=utf-8;Base64,SGk%3D", "data:,Hi", "daTA:text/plain,%48i"}) {
-        EXPECT_TRUE(is_data_uri(uri)) << uri;
+        EXPECT_TRUE(scene::is_data_uri(uri)) << uri;
         EXPECT_EQ(decoded(uri), "Hi") << uri;
     }
-    for (const char* uri : {"", "data", "dat:,Hi", "xdata:,Hi"}) EXPECT_FALSE(is_data_uri(uri)) << uri;
+    for (const char* uri : {"", "data", "dat:,Hi", "xdata:,Hi"}) EXPECT_FALSE(scene::is_data_uri(uri)) << uri;
 }
 
 TEST(DataUri, WhatIsWrongIsCalledByItsName) {
-    const auto complaint = [](const std::string& uri) { return complaint_of([&] { decode_data_uri(uri); }); };
+    const auto complaint = [](const std::string& uri) { return complaint_of([&] { scene::decode_data_uri(uri); }); };
     EXPECT_TRUE(contains(complaint("data:;base64,SG\nk="), "contains a line break"));
     EXPECT_TRUE(contains(complaint("data:;base64,SGkh\r\nSGkh"), "contains a line break"));
     EXPECT_TRUE(contains(complaint("data:;base64,SG k="), "contains a space"));

@@ -15,18 +15,20 @@ protected:
     /// wall.png, two pixels, and a texture of it.
     void add_wall_picture() {
         const std::vector<uint8_t> pixels = {255, 128, 0, 255, 10, 10, 10, 255};
-        write_png(folder_ / "wall.png", 2, 1, pixels);
+        io::write_png(folder_ / "wall.png", 2, 1, pixels);
         street_.root["images"] = {{{"uri", "wall.png"}}};
         street_.root["textures"] = {{{"source", 0}}};
     }
     /// `photometry` needs no version.
-    ConversionReport convert_with(nlohmann::json photometry, const std::string& output = "out.gltf",
-                                  const std::optional<Transfer>& transfer = std::nullopt) {
+    scene::ConversionReport convert_with(nlohmann::json photometry, const std::string& output = "out.gltf",
+                                         const std::optional<scene::Transfer>& transfer = std::nullopt) {
         photometry["version"] = 1;
-        return convert(folder_.write("in.gltf", street_.text()), folder_.write("p.json", photometry.dump()),
-                       folder_ / output, transfer);
+        return scene::convert(folder_.write("in.gltf", street_.text()), folder_.write("p.json", photometry.dump()),
+                              folder_ / output, transfer);
     }
-    Scene converted(const std::string& output = "out.gltf") const { return read_gltf(folder_ / output).scene; }
+    scene::Scene converted(const std::string& output = "out.gltf") const {
+        return scene::read_gltf(folder_ / output).scene;
+    }
 
     TempFolder folder_;
     GltfFile street_;

@@ -29,7 +29,7 @@ struct ExrLayout {
 };
 
 /// Writes a picture with 32-bit floats.
-inline void write_layout(const std::filesystem::path& file, const HdrImage& image, const ExrLayout& layout) {
+inline void write_layout(const std::filesystem::path& file, const io::HdrImage& image, const ExrLayout& layout) {
     const int w = int(image.width), h = int(image.height);
     Imf::Header header(w, h);
     header.compression() = layout.compression;
@@ -70,7 +70,7 @@ inline void write_layout(const std::filesystem::path& file, const HdrImage& imag
 }
 
 /// Writes luminance and chroma of half the resolution, in halves.
-inline void write_chroma(const std::filesystem::path& file, const HdrImage& image) {
+inline void write_chroma(const std::filesystem::path& file, const io::HdrImage& image) {
     std::vector<Imf::Rgba> pixels;
     for (size_t i = 0; i < image.rgb.size(); i += 3)
         pixels.emplace_back(image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]);

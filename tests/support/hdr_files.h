@@ -19,7 +19,7 @@ namespace vesper::test {
 
 using Values = std::vector<float>;
 
-inline void expect_values(const HdrImage& image, const Values& wanted, double relative = 0) {
+inline void expect_values(const io::HdrImage& image, const Values& wanted, double relative = 0) {
     ASSERT_EQ(image.rgb.size(), wanted.size());
     ASSERT_EQ(image.rgb.size(), size_t{3} * image.width * image.height);
     for (size_t i = 0; i < wanted.size(); ++i)
@@ -27,10 +27,10 @@ inline void expect_values(const HdrImage& image, const Values& wanted, double re
 }
 
 /// What a file is refused with, on a line that names it; nothing if it is read.
-inline std::string refusal(const std::filesystem::path& file, const HdrLimits& limits = {},
+inline std::string refusal(const std::filesystem::path& file, const io::HdrLimits& limits = {},
                            const std::string& layer = {}) {
     try {
-        read_hdr_image(file, limits, layer);
+        io::read_hdr_image(file, limits, layer);
     } catch (const Error& error) {
         EXPECT_TRUE(contains(error.what(), file.filename().string())) << error.what();
         EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
@@ -41,11 +41,11 @@ inline std::string refusal(const std::filesystem::path& file, const HdrLimits& l
 
 /// Every shorter file, and every file with one byte changed, gives a picture or an Error.
 inline void expect_survives(const TempFolder& folder, const std::filesystem::path& good, bool every_cut_is_seen) {
-    const std::vector<uint8_t> whole = read_file(good, 1 << 24);
+    const std::vector<uint8_t> whole = io::read_file(good, 1 << 24);
     const auto attempt = [&](std::span<const uint8_t> bytes) {
-        replace_file(folder / "damaged", bytes);
+        io::replace_file(folder / "damaged", bytes);
         try {
-            read_hdr_image(folder / "damaged", {4096, 1 << 20});
+            io::read_hdr_image(folder / "damaged", {4096, 1 << 20});
         } catch (const Error&) {
             return false;
         }

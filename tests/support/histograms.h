@@ -10,8 +10,8 @@ namespace vesper::reference {
 
 constexpr uint32_t kBins = 100;
 
-inline const ReceptorModel kCones(ReceptorKind::Cones, Receptors::cones()),
-    kRods(ReceptorKind::Rods, Receptors::rods());
+inline const vision::ReceptorModel kCones(vision::ReceptorKind::Cones, vision::Receptors::cones()),
+    kRods(vision::ReceptorKind::Rods, vision::Receptors::rods());
 
 inline shared::ToneParameters parameters_of(double low = 0.5, double high = 200,
                                             uint32_t ceiling = shared::kCeilingCones) {
@@ -69,10 +69,11 @@ inline std::vector<double> split_votes(const std::vector<std::pair<double, doubl
 /// The default settings' parameters at a number of bins; a display from 0.12 to 100 cd/m^2.
 inline shared::ToneParameters split_parameters(uint32_t bins, uint32_t ceiling = shared::kCeilingEye) {
     shared::ToneParameters p = parameters_of(0.12, 100, ceiling);
-    const HistogramSettings settings{.bins = bins};
+    const render::HistogramSettings settings{.bins = bins};
     p.bins = bins, p.bins_per_ln = settings.bins_per_ln(), p.steps_per_bin = settings.steps_per_bin(),
     p.window = settings.window();
-    p.cone_break = float(ThresholdBreaks::continuous().cones), p.rod_break = float(ThresholdBreaks::continuous().rods);
+    p.cone_break = float(vision::ThresholdBreaks::continuous().cones),
+    p.rod_break = float(vision::ThresholdBreaks::continuous().rods);
     return p;
 }
 

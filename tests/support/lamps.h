@@ -16,7 +16,7 @@ struct LampMix {
 };
 
 /// For frames without measured lamps and roads.
-inline TableTexels no_tables(FrameGraph& graph) {
+inline render::TableTexels no_tables(graph::FrameGraph& graph) {
     return {graph.upload("tables", std::vector<glm::vec4>(1), VK_FORMAT_R32G32B32A32_SFLOAT)};
 }
 
@@ -24,7 +24,7 @@ inline TableTexels no_tables(FrameGraph& graph) {
 inline LampMix half_and_half(uint32_t count) { return {(count + 1) / 2, count / 2, 0}; }
 
 /// Lamps at random along a street 400 m long that begins 20 m behind the eye, `candela` (within a factor of ten) each.
-inline LampList street_lamps(LampMix mix, float candela, uint32_t seed = 1) {
+inline gpu_scene::LampList street_lamps(LampMix mix, float candela, uint32_t seed = 1) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
     std::normal_distribution<float> normal;
@@ -35,7 +35,7 @@ inline LampList street_lamps(LampMix mix, float candela, uint32_t seed = 1) {
         const glm::vec3 c(0.4f + unit(random), 0.4f + unit(random), 0.4f + unit(random));
         return c / glm::dot(c, glm::vec3(0.212639f, 0.715169f, 0.072192f));
     };
-    LampList list;
+    gpu_scene::LampList list;
     list.counts = {mix.cones, mix.powers, 0, mix.directional};
     for (uint32_t i = 0; i < mix.cones + mix.powers; ++i) {
         shared::Lamp lamp{};

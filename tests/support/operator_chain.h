@@ -22,12 +22,12 @@ inline std::vector<glm::vec4> damaged_pixels(VkExtent2D extent) {
 }
 
 /// Pictures of awkward sizes with damaged pixels, and one without any light: codes are those of the reference.
-inline void expect_reference(Operator wanted, const OperatorSettings& of_operators = {}) {
+inline void expect_reference(render::Operator wanted, const render::OperatorSettings& of_operators = {}) {
     std::string complaints;
-    Device device(
+    gpu::Device device(
         {.select = "", .validation = true, .on_message = [&](const std::string& m) { complaints += m + "\n"; }});
-    ToneMapper mapper(device);
-    ToneChainSettings settings;
+    render::ToneMapper mapper(device);
+    render::ToneChainSettings settings;
     settings.tone_operator = wanted;
     settings.tone.operators = of_operators;
     for (const bool dark : {false, true})
@@ -36,8 +36,9 @@ inline void expect_reference(Operator wanted, const OperatorSettings& of_operato
             if (dark) pixels.assign(pixels.size(), glm::vec4(0, 0, 0, 1));
             const std::span<const float> rgba(&pixels.front().x, pixels.size() * 4);
             mapper.reset_adaptation();
-            const ToneMapped got = mapper.map(settings, {.extent = extent, .values = rgba, .channels = 4}, 0, {});
-            const uint32_t tone = operator_info(wanted).form;
+            const render::ToneMapped got =
+                mapper.map(settings, {.extent = extent, .values = rgba, .channels = 4}, 0, {});
+            const uint32_t tone = render::operator_info(wanted).form;
             const auto want = reference_codes(pixels, extent, settings, tone, got.foveal_level, 0);
             EXPECT_EQ(pixels_off(got.display, want), 0u)
                 << extent.width << " x " << extent.height << (dark ? ", dark" : "");

@@ -13,13 +13,13 @@ namespace vesper::test {
 
 /// Codes before rounding, RGB, in [0, 255]; without glare. `previous` is what the eye remembers.
 inline std::vector<glm::dvec3> reference_codes(std::span<const glm::vec4> scene, VkExtent2D extent,
-                                               const ToneChainSettings& settings, uint32_t tone, uint32_t foveal_level,
-                                               float seconds, shared::EyeState previous = {}) {
+                                               const render::ToneChainSettings& settings, uint32_t tone,
+                                               uint32_t foveal_level, float seconds, shared::EyeState previous = {}) {
     const auto levels = reference::pyramid(scene, extent.width, extent.height);
     const auto& level = levels.at(foveal_level - 1);
-    const HistogramSettings& bins = settings.histogram;
-    const Display& display = settings.display;
-    const OperatorInfo& op = operator_info(settings.tone_operator);
+    const render::HistogramSettings& bins = settings.histogram;
+    const vision::Display& display = settings.display;
+    const render::OperatorInfo& op = render::operator_info(settings.tone_operator);
     const bool fine = bins.fine && foveal_level > 1, overlaps = fine && bins.overlap;
     const uint32_t halvings = overlaps ? std::min(foveal_level - 1, 3u) : 0;
     const reference::PyramidLevel texels =
@@ -43,8 +43,8 @@ inline std::vector<glm::dvec3> reference_codes(std::span<const glm::vec4> scene,
     if (fine) reference::vote(votes, std::span<const glm::dvec4>(levels[0].texels), push_of(levels[0], 1, overlaps, 0));
     shared::Histogram histogram = votes.counted;
     for (size_t i = 0; i < votes.count.size(); ++i) histogram.count[i] = uint32_t(std::lround(votes.count[i]));
-    const shared::ToneParameters parameters =
-        tone_parameters(op, bins, settings.tone, display, {foveal_level, {level.width, level.height}, extent}, seconds);
+    const shared::ToneParameters parameters = render::tone_parameters(
+        op, bins, settings.tone, display, {foveal_level, {level.width, level.height}, extent}, seconds);
     const auto adapted = reference::adapt(
         {histogram, levels.back().texels.at(0), level, previous, parameters, settings.tone.observer, op.tone_operator,
          op.chromatic ? reference::colour_tiles(scene, extent.width, extent.height) : reference::PyramidLevel{}});

@@ -26,14 +26,15 @@ struct Surfaces {
 };
 
 /// As images of a frame; without emission for a pass that reads none.
-inline GBuffer upload(FrameGraph& graph, const Surfaces& s) {
-    return {PassRig::image(graph, "reflectance", kReflectanceFormat, s.extent, to_halves(s.reflectance)),
-            PassRig::image(graph, "surface", kSurfaceFormat, s.extent, s.surface),
-            s.emission.empty() ? Resource{} : PassRig::image(graph, "emission", kEmissionFormat, s.extent, s.emission),
+inline render::GBuffer upload(graph::FrameGraph& graph, const Surfaces& s) {
+    return {PassRig::image(graph, "reflectance", render::kReflectanceFormat, s.extent, to_halves(s.reflectance)),
+            PassRig::image(graph, "surface", render::kSurfaceFormat, s.extent, s.surface),
+            s.emission.empty() ? graph::Resource{}
+                               : PassRig::image(graph, "emission", render::kEmissionFormat, s.extent, s.emission),
             {}};
 }
 
-inline TableTexels upload(FrameGraph& graph, const IntensityTables& tables) {
+inline render::TableTexels upload(graph::FrameGraph& graph, const gpu_scene::IntensityTables& tables) {
     return {graph.upload("tables", tables.texels, VK_FORMAT_R32G32B32A32_SFLOAT), tables.roads, tables.roads != 0};
 }
 
@@ -44,22 +45,24 @@ struct Shot {
 };
 
 /// Clusters and shades, seen from the origin along -Z. `sheets`: classes of retroreflection, if there are any.
-inline Shot shade(PassRig& rig, const Surfaces& s, const LampList& list, const ClusterSettings& clusters,
-                  ShadeSettings settings, const IntensityTables& tables = {},
-                  const std::vector<Retroreflector>& sheets = {}) {
-    FrameGraph graph;
-    const FrameContext frame = rig.frame(graph, View::symmetric(s.extent, 0.7f, glm::mat4(1)));
-    const GBuffer g = upload(graph, s);
-    if (!sheets.empty()) settings.retro = graph.upload("retro", retro_texels(sheets), VK_FORMAT_R32G32B32A32_SFLOAT);
-    const Clusters c = add_clusters(frame, g.surface, list, upload(graph, tables), clusters);
-    const Resource scene = keep<glm::vec4>(graph, add_shading(frame, g, c, settings)),
-                   report = keep<shared::ClusterReport>(graph, c.report);
+inline Shot shade(PassRig& rig, const Surfaces& s, const gpu_scene::LampList& list,
+                  const render::ClusterSettings& clusters, render::ShadeSettings settings,
+                  const gpu_scene::IntensityTables& tables = {},
+                  const std::vector<photometry::Retroreflector>& sheets = {}) {
+    graph::FrameGraph graph;
+    const render::FrameContext frame = rig.frame(graph, gpu_scene::View::symmetric(s.extent, 0.7f, glm::mat4(1)));
+    const render::GBuffer g = upload(graph, s);
+    if (!sheets.empty())
+        settings.retro = graph.upload("retro", gpu_scene::retro_texels(sheets), VK_FORMAT_R32G32B32A32_SFLOAT);
+    const render::Clusters c = render::add_clusters(frame, g.surface, list, upload(graph, tables), clusters);
+    const graph::Resource scene = keep<glm::vec4>(graph, render::add_shading(frame, g, c, settings)),
+                          report = keep<shared::ClusterReport>(graph, c.report);
     rig.run(graph);
     return {rig.got<glm::vec4>(scene), c.push, rig.got<shared::ClusterReport>(report).at(0)};
 }
 
 /// What the shader was told, for the reference.
-inline shared::ShadePush push_of(const Surfaces& s, const Shot& shot, const ShadeSettings& settings) {
+inline shared::ShadePush push_of(const Surfaces& s, const Shot& shot, const render::ShadeSettings& settings) {
     shared::ShadePush p{};
     p.size = {s.extent.width, s.extent.height};
     p.grid = shot.cluster.grid, p.lamps = shot.cluster.lamps, p.threshold = shot.cluster.threshold;
@@ -92,9 +95,9 @@ void expect_light(const std::string& name, VkExtent2D extent, const std::vector<
 /// Compares a shot with the reference. 2e-5 for sums of positive terms in float with exp2 and log2 of cosines; the
 /// reference's rounding holds what cancels: dot products near a threshold, a cone's edge or a mirror's highlight. 1e-12
 /// cd/m^2 is nothing. `on_roads`: relative error besides, on surfaces with a table.
-inline void expect_reference(const Shot& shot, const Surfaces& s, const LampList& list, const ShadeSettings& settings,
-                             const reference::Measurements& measurements = {}, Tolerance tolerance = {2e-5, 1e-7},
-                             double on_roads = 0) {
+inline void expect_reference(const Shot& shot, const Surfaces& s, const gpu_scene::LampList& list,
+                             const render::ShadeSettings& settings, const reference::Measurements& measurements = {},
+                             Tolerance tolerance = {2e-5, 1e-7}, double on_roads = 0) {
     const shared::ShadePush p = push_of(s, shot, settings);
     expect_light("scene", s.extent, shot.pixels, tolerance, [&](size_t i) {
         reference::Shaded shaded = reference::shade(s.texel(i), s.pixel(i), list.lamps, p, measurements);

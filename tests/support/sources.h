@@ -11,22 +11,22 @@ namespace vesper::test {
 
 /// Lamps and where they stand: node i carries lamp i.
 struct Lamps {
-    LuminaireSet set;
-    SceneFrame frame;
+    gpu_scene::LuminaireSet set;
+    gpu_scene::SceneFrame frame;
 
-    void add(const Lamp& lamp, const glm::mat4& world) {
+    void add(const scene::Lamp& lamp, const glm::mat4& world) {
         set.lamps.push_back({lamp, uint32_t(frame.world.size())});
         frame.world.push_back(world);
     }
-    LuminaireList seen(const View& view, std::optional<float> white = {}) const {
-        return luminaire_list(set, frame, view, white);
+    gpu_scene::LuminaireList seen(const gpu_scene::View& view, std::optional<float> white = {}) const {
+        return gpu_scene::luminaire_list(set, frame, view, white);
     }
 };
 
 /// A lamp of some candela behind an opening of width x height (m).
-inline Lamp lamp_with_opening(float candela, double width, double height, bool round = false,
-                              Lamp::Kind kind = Lamp::Kind::CosinePower) {
-    Lamp lamp;
+inline scene::Lamp lamp_with_opening(float candela, double width, double height, bool round = false,
+                                     scene::Lamp::Kind kind = scene::Lamp::Kind::CosinePower) {
+    scene::Lamp lamp;
     lamp.kind = kind, lamp.intensity = candela, lamp.exponent = 1;
     lamp.opening = {.length = width, .width = height, .height = 0, .round = round};
     return lamp;

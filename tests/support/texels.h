@@ -25,8 +25,8 @@ inline std::vector<glm::vec4> from_halves(std::span<const uint64_t> packed) {
 
 /// Asks for the whole of an image or buffer after the frame, as values of T. Call before run.
 template <class T>
-Resource keep(FrameGraph& graph, Resource from) {
-    const Shape shape = graph.resources()[from.index].shape;
+graph::Resource keep(graph::FrameGraph& graph, graph::Resource from) {
+    const graph::Shape shape = graph.resources()[from.index].shape;
     const size_t count = shape.is_image() ? size_t(shape.extent.width) * shape.extent.height : shape.bytes / sizeof(T);
     return PassRig::want<T>(graph, from, count);
 }

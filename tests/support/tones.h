@@ -33,7 +33,7 @@ constexpr uint32_t kEveryTone[]{shared::kToneCurve,
                                 shared::kToneRods | shared::kGamutClip};
 
 /// A crooked table from 0.01 to 1e4 cd/m^2.
-inline shared::ToneCurve crooked_curve(const Display& display, uint32_t bins = 100) {
+inline shared::ToneCurve crooked_curve(const vision::Display& display, uint32_t bins = 100) {
     shared::ToneCurve c{};
     c.adaptation = c.log_average = 0.7f, c.maximum = 3000;
     c.ln_low = std::log(0.01f), c.bins_per_ln = float(bins) / std::log(1e6f), c.bins = float(bins);
@@ -50,7 +50,7 @@ inline shared::ToneCurve crooked_curve(const Display& display, uint32_t bins = 1
 }
 
 /// The same for kToneColour: responses of cones and rods, as crooked.
-inline shared::ToneCurve crooked_responses(const Display& display, uint32_t bins = 100) {
+inline shared::ToneCurve crooked_responses(const vision::Display& display, uint32_t bins = 100) {
     shared::ToneCurve c = crooked_curve(display, bins);
     c.block[0] = {-0.01f, 5.17f, 0, 0};
     for (uint32_t i = 0; i <= bins; ++i) {
@@ -62,7 +62,7 @@ inline shared::ToneCurve crooked_responses(const Display& display, uint32_t bins
 }
 
 /// For any form: also Reinhard with white at 3000, linear from 0.05 to 80.
-inline shared::ToneCurve crooked_curve_of(uint32_t tone, const Display& display) {
+inline shared::ToneCurve crooked_curve_of(uint32_t tone, const vision::Display& display) {
     const uint32_t form = tone & shared::kToneForm;
     if (form == shared::kToneColour) return crooked_responses(display);
     shared::ToneCurve c = crooked_curve(display);

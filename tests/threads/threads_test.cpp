@@ -34,19 +34,21 @@ void at_once(const Work& work) {
 
 /// What an engine of its own shows of a scene that others read too, after some frames; each of the threads in another
 /// way.
-std::vector<uint8_t> shown(const Scene& scene, size_t which) {
-    Device device;
-    Renderer renderer(device, scene);
-    ToneMapper mapper(device);
-    RenderSettings settings;
-    settings.tone_operator = operators()[which].tone_operator;
-    settings.glare = Glare::Scatter;
+std::vector<uint8_t> shown(const scene::Scene& scene, size_t which) {
+    gpu::Device device;
+    render::Renderer renderer(device, scene);
+    render::ToneMapper mapper(device);
+    render::RenderSettings settings;
+    settings.tone_operator = render::operators()[which].tone_operator;
+    settings.glare = render::Glare::Scatter;
     const VkExtent2D extent{uint32_t(16 + 8 * which), 12};
     std::vector<uint8_t> all;
     for (int i = 0; i < 3; ++i) {
-        const Frame frame = renderer.render(settings, View::symmetric(extent, 0.4f, glm::mat4(1)),
-                                            {world_transforms(scene, 0)}, 0.1f, {.display = true, .scene = true});
-        const ToneMapped mapped = mapper.map(settings, {.extent = extent, .values = frame.scene, .channels = 4}, 0.1f);
+        const render::Frame frame =
+            renderer.render(settings, gpu_scene::View::symmetric(extent, 0.4f, glm::mat4(1)),
+                            {scene::world_transforms(scene, 0)}, 0.1f, {.display = true, .scene = true});
+        const render::ToneMapped mapped =
+            mapper.map(settings, {.extent = extent, .values = frame.scene, .channels = 4}, 0.1f);
         all.insert(all.end(), frame.display.begin(), frame.display.end());
         all.insert(all.end(), mapped.display.begin(), mapped.display.end());
     }
@@ -54,7 +56,7 @@ std::vector<uint8_t> shown(const Scene& scene, size_t which) {
 }
 
 TEST(Threads, EnginesShowWhatEachShowsAlone) {
-    const Scene scene = wall_with_a_lamp();
+    const scene::Scene scene = wall_with_a_lamp();
     std::vector<uint8_t> alone[kThreads], together[kThreads];
     for (size_t i = 0; i < kThreads; ++i) alone[i] = shown(scene, i);
     at_once([&](size_t i) { together[i] = shown(scene, i); });
@@ -64,14 +66,16 @@ TEST(Threads, EnginesShowWhatEachShowsAlone) {
 
 // An engine belongs to one thread at a time, not to the one that made it.
 TEST(Threads, AnEngineMayGoFromThreadToThread) {
-    const Scene scene = wall_with_a_lamp();
-    std::unique_ptr<Device> device;
-    std::unique_ptr<Renderer> renderer;
+    const scene::Scene scene = wall_with_a_lamp();
+    std::unique_ptr<gpu::Device> device;
+    std::unique_ptr<render::Renderer> renderer;
     const auto elsewhere = [](const auto& work) { std::thread(work).join(); };
-    const View view = View::symmetric({16, 8}, 0.4f, glm::mat4(1));
-    const SceneFrame moment{world_transforms(scene, 0)};
+    const gpu_scene::View view = gpu_scene::View::symmetric({16, 8}, 0.4f, glm::mat4(1));
+    const gpu_scene::SceneFrame moment{scene::world_transforms(scene, 0)};
     std::vector<uint8_t> first, second;
-    elsewhere([&] { device = std::make_unique<Device>(), renderer = std::make_unique<Renderer>(*device, scene); });
+    elsewhere([&] {
+        device = std::make_unique<gpu::Device>(), renderer = std::make_unique<render::Renderer>(*device, scene);
+    });
     elsewhere([&] { first = renderer->render({}, view, moment, 0, {.display = true}).display; });
     elsewhere([&] {
         renderer->reset_adaptation(), second = renderer->render({}, view, moment, 0, {.display = true}).display;
@@ -84,19 +88,19 @@ TEST(Threads, AnEngineMayGoFromThreadToThread) {
 TEST(Threads, ReadersReadTheSameFiles) {
     const std::filesystem::path data = std::filesystem::path(VESPER_SOURCE_DIR) / "data";
     const TempFolder folder;
-    write_png(folder / "x.png", 7, 5, std::vector<uint8_t>(7 * 5 * 4, 99));
+    io::write_png(folder / "x.png", 7, 5, std::vector<uint8_t>(7 * 5 * 4, 99));
     const auto read = [&](size_t i) {
         std::vector<double> seen;
-        seen.push_back(double(read_gltf(data / "glare/headlamps.gltf").scene.nodes.size()));
-        seen.push_back(double(read_hdr_image(data / "rivoli/signs.exr").rgb[1]));
-        seen.push_back(luminous_flux(read_distribution(data / "photometry/street-lamp.ies")));
-        seen.push_back(luminous_flux(read_distribution(data / "road/luminaire.ldt")));
-        seen.push_back(luminous_flux(read_distribution(data / "photometry/high-beam.csv")));
+        seen.push_back(double(scene::read_gltf(data / "glare/headlamps.gltf").scene.nodes.size()));
+        seen.push_back(double(io::read_hdr_image(data / "rivoli/signs.exr").rgb[1]));
+        seen.push_back(photometry::luminous_flux(photometry::read_distribution(data / "photometry/street-lamp.ies")));
+        seen.push_back(photometry::luminous_flux(photometry::read_distribution(data / "road/luminaire.ldt")));
+        seen.push_back(photometry::luminous_flux(photometry::read_distribution(data / "photometry/high-beam.csv")));
         seen.push_back(double(roads::read_opendrive(data / "rivoli/rivoli.xodr").roads.size()));
-        seen.push_back(double(decode_image(read_file(folder / "x.png", 1 << 20), 100).rgba[3]));
-        seen.push_back(double(find_display("lcd").peak));
-        read_photometry(data / "rivoli/rivoli.measured.photometry.json");
-        write_png(folder / ("y" + std::to_string(i) + ".png"), 7, 5, std::vector<uint8_t>(7 * 5 * 4, 99));
+        seen.push_back(double(io::decode_image(io::read_file(folder / "x.png", 1 << 20), 100).rgba[3]));
+        seen.push_back(double(scene::find_display("lcd").peak));
+        scene::read_photometry(data / "rivoli/rivoli.measured.photometry.json");
+        io::write_png(folder / ("y" + std::to_string(i) + ".png"), 7, 5, std::vector<uint8_t>(7 * 5 * 4, 99));
         return seen;
     };
     const std::vector<double> alone = read(0);

@@ -6,8 +6,10 @@
 
 #include <gtest/gtest.h>
 
-namespace vesper {
-using namespace traffic;
+namespace vesper::test {
+
+using traffic::VehicleParameters, traffic::VehicleState, traffic::advance;
+
 namespace {
 
 constexpr double kVehicleStep = 1.0 / 60;
@@ -38,7 +40,7 @@ TEST(Vehicle, SteadyYawGainIsTheClosedForm) {
         p.rear_stiffness = rear;
         for (const double speed : {8.0, 15.0, 25.0}) {
             const double angle = 0.004;
-            EXPECT_NEAR(settled(p, speed, angle).yaw_rate / angle / steady_yaw_gain(p, speed), 1, 0.01)
+            EXPECT_NEAR(settled(p, speed, angle).yaw_rate / angle / traffic::steady_yaw_gain(p, speed), 1, 0.01)
                 << speed << " m/s";
         }
     }
@@ -53,7 +55,7 @@ TEST(Vehicle, UndersteerGradientIsWhatTheAngleGrowsWith) {
     const double a = curvature(slow), b = curvature(fast);
     // angle = L a + K slow^2 a = L b + K fast^2 b
     const double k = (angle / b - angle / a) / (fast * fast - slow * slow);
-    EXPECT_NEAR(k / understeer_gradient(p), 1, 0.02);
+    EXPECT_NEAR(k / traffic::understeer_gradient(p), 1, 0.02);
 }
 
 TEST(Vehicle, BrakesWithinTheFormula) {
@@ -128,10 +130,10 @@ TEST(Vehicle, EnergyNeverGrowsWithoutThrottle) {
     for (int run = 0; run < 200; ++run) {
         VehicleState s;
         s.speed = 40 * random() - 3, s.lateral = 6 * random() - 3, s.yaw_rate = 4 * random() - 2;
-        double energy = kinetic_energy(s, p);
+        double energy = traffic::kinetic_energy(s, p);
         for (int i = 0; i < 120; ++i) {
             advance(s, p, {.angle = 2 * random() - 1, .brake = i % 3 ? 0 : random()}, kVehicleStep);
-            const double now = kinetic_energy(s, p);
+            const double now = traffic::kinetic_energy(s, p);
             ASSERT_LE(now, energy * (1 + 1e-12)) << "run " << run << " step " << i;
             ASSERT_TRUE(std::isfinite(s.position.x + s.yaw));
             energy = now;
@@ -180,4 +182,4 @@ TEST(Vehicle, PassesFromRollingToSlippingSmoothly) {
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

@@ -13,8 +13,10 @@
 #include "traffic/daylight.h"
 #include "traffic/world_file.h"
 
-namespace vesper {
-using namespace traffic;
+namespace vesper::test {
+
+using traffic::Course, traffic::World, traffic::daylight_illuminance;
+
 namespace {
 
 constexpr double kWorldStep = 1.0 / 60;
@@ -29,8 +31,8 @@ Course circle(double radius, int points = 360) {
 }
 
 // The driver stands on another lane, out of the way.
-std::shared_ptr<WorldDescription> one_lane(Course lane) {
-    auto d = std::make_shared<WorldDescription>();
+std::shared_ptr<traffic::WorldDescription> one_lane(Course lane) {
+    auto d = std::make_shared<traffic::WorldDescription>();
     d->lanes.push_back(std::move(lane));
     d->lanes.emplace_back("away", std::vector<glm::dvec3>{{500, 0, 0}, {500, 0, 100}}, 3, 10);
     d->driver_lane = 1;
@@ -110,7 +112,7 @@ TEST(Course, KeepsToLimitsThatChange) {
             EXPECT_LT(v, 30 / 3.6 * 1.05) << s;
         }
         slowest = std::min(slowest, v);
-        for (const Actor& actor : world.actors())
+        for (const traffic::Actor& actor : world.actors())
             if (actor.node == "car" && actor.position.z < -400 && actor.position.z > -500) {
                 EXPECT_LT(actor.speed, 30 / 3.6 * 1.05) << actor.position.z;
             }
@@ -122,13 +124,13 @@ TEST(Course, KeepsToLimitsThatChange) {
 
 // Treiber, Hennecke and Helbing 2000: a free car accelerates with a, one at its gap of equilibrium keeps its speed.
 TEST(CarFollowing, IsTheIntelligentDriverModel) {
-    const CarFollowing p;
-    EXPECT_EQ(idm_acceleration(p, 0, INFINITY, 0), p.acceleration);
-    EXPECT_NEAR(idm_acceleration(p, p.speed, INFINITY, 0), 0, 1e-12);
+    const traffic::CarFollowing p;
+    EXPECT_EQ(traffic::idm_acceleration(p, 0, INFINITY, 0), p.acceleration);
+    EXPECT_NEAR(traffic::idm_acceleration(p, p.speed, INFINITY, 0), 0, 1e-12);
     const double v = 8, gap = (p.distance + v * p.headway) / std::sqrt(1 - std::pow(v / p.speed, 4));
-    EXPECT_NEAR(idm_acceleration(p, v, gap, 0), 0, 1e-12);
-    EXPECT_LT(idm_acceleration(p, v, gap, 2), -0.5);
-    EXPECT_EQ(idm_acceleration(p, 15, 0.01, 15), -p.hardest);
+    EXPECT_NEAR(traffic::idm_acceleration(p, v, gap, 0), 0, 1e-12);
+    EXPECT_LT(traffic::idm_acceleration(p, v, gap, 2), -0.5);
+    EXPECT_EQ(traffic::idm_acceleration(p, 15, 0.01, 15), -p.hardest);
 }
 
 TEST(World, CarsNeverMeetAndKeepTheirDistance) {
@@ -141,7 +143,7 @@ TEST(World, CarsNeverMeetAndKeepTheirDistance) {
         for (size_t a = 1; a < actors.size(); ++a)
             for (size_t b = 1; b < a; ++b) ASSERT_GT(glm::distance(actors[a].position, actors[b].position), 4.5) << i;
     }
-    for (const Actor& actor : world.actors())
+    for (const traffic::Actor& actor : world.actors())
         if (!actor.node.empty()) {
             EXPECT_GT(actor.speed, 3);
         }
@@ -157,7 +159,7 @@ TEST(World, ACarStopsBehindTheDriverWithBrakeLamps) {
     const double gap = world.actors()[1].position.z - world.actors()[0].position.z;
     EXPECT_TRUE(braked);
     EXPECT_LT(world.actors()[1].speed, 0.2);
-    EXPECT_NEAR(gap - 4.4, CarFollowing{}.distance, 1.2);
+    EXPECT_NEAR(gap - 4.4, traffic::CarFollowing{}.distance, 1.2);
 }
 
 // The lane ends, and the car comes in anew where the driver stands.
@@ -242,19 +244,19 @@ TEST(World, CarsLetWalkersCrossAndWalkersWait) {
 
 // A kerb stops what is across it, and takes energy only.
 TEST(Barrier, StopsACarAndTakesEnergy) {
-    const VehicleParameters p;
-    const std::vector<Barrier> kerb{{.line = {{3, 50}, {3, -200}}, .height = {}}};
+    const traffic::VehicleParameters p;
+    const std::vector<traffic::Barrier> kerb{{.line = {{3, 50}, {3, -200}}, .height = {}}};
     for (const double yaw : {-0.05, -0.3, -1.2}) {  // to the right
-        VehicleState s;
+        traffic::VehicleState s;
         s.yaw = yaw, s.speed = 12;
         bool hit = false;
-        double energy = kinetic_energy(s, p);
+        double energy = traffic::kinetic_energy(s, p);
         for (int i = 0; i < 60 * 4; ++i) {
-            const VehicleState before = s;
-            advance(s, p, {}, kWorldStep);
-            hit |= collide(s, before, p, kerb);
-            ASSERT_LE(kinetic_energy(s, p), energy * (1 + 1e-9));
-            energy = kinetic_energy(s, p);
+            const traffic::VehicleState before = s;
+            traffic::advance(s, p, {}, kWorldStep);
+            hit |= traffic::collide(s, before, p, kerb);
+            ASSERT_LE(traffic::kinetic_energy(s, p), energy * (1 + 1e-9));
+            energy = traffic::kinetic_energy(s, p);
             for (const int ahead : {-1, 1})
                 for (const int side : {-1, 1}) {
                     const glm::dvec2 corner = s.position +
@@ -271,11 +273,11 @@ TEST(Barrier, StopsACarAndTakesEnergy) {
 // drives by hand.
 TEST(World, RoadsAboveOneAnotherDoNotMeet) {
     for (const double high : {5.0, 0.0}) {
-        const auto d = std::make_shared<WorldDescription>();
+        const auto d = std::make_shared<traffic::WorldDescription>();
         d->lanes.emplace_back("above", std::vector<glm::dvec3>{{0, high, 0}, {0, high, -300}}, 3, 15);
         d->lanes.emplace_back("below", std::vector<glm::dvec3>{{-60, 0, -60}, {600, 0, -500}}, 3, 10);
         d->barriers.push_back({.line = {{-50, -104}, {50, -104}}, .height = 0.0});
-        RecordedMover parked{
+        traffic::RecordedMover parked{
             .node = "parked",
             .poses = {
                 {.time = 0, .position = {0, 0, -100}, .yaw = -kPi / 2, .pitch = 0, .roll = 0, .speed = 0, .lamps = {}},
@@ -307,12 +309,12 @@ TEST(Lamps, IndicatorsFlashNinetyTimesAMinute) {
     int changes = 0;
     bool last = false;
     for (int i = 0; i < 6000; ++i) {
-        const bool lit = lamps_of(Beam::Low, Indicator::Left, false, i * 0.01).left;
+        const bool lit = traffic::lamps_of(traffic::Beam::Low, traffic::Indicator::Left, false, i * 0.01).left;
         changes += lit && !last, last = lit;
     }
     EXPECT_EQ(changes, 90);
-    EXPECT_FALSE(lamps_of(Beam::Off, Indicator::Left, true, 0).tail);
-    EXPECT_TRUE(lamps_of(Beam::High, Indicator::None, true, 0).high);
+    EXPECT_FALSE(traffic::lamps_of(traffic::Beam::Off, traffic::Indicator::Left, true, 0).tail);
+    EXPECT_TRUE(traffic::lamps_of(traffic::Beam::High, traffic::Indicator::None, true, 0).high);
 }
 
 // Janiczek and DeYoung 1987, table: 759 lx at the horizon, 3.40 at -6, 8.3e-3 at -12 and 6.5e-4 at -18 degrees.
@@ -328,7 +330,8 @@ TEST(Daylight, IsThePublishedTwilight) {
 }
 
 TEST(WorldFile, TheStreetOfRivoliIsOne) {
-    const WorldFile file = read_world(std::string(VESPER_SOURCE_DIR) + "/data/rivoli/rivoli.world.json");
+    const traffic::WorldFile file =
+        traffic::read_world(std::string(VESPER_SOURCE_DIR) + "/data/rivoli/rivoli.world.json");
     EXPECT_EQ(file.world.lanes.size(), 2u);
     EXPECT_EQ(file.world.cars.size(), 17u);
     EXPECT_EQ(file.tunnels.size(), 1u);
@@ -339,13 +342,13 @@ TEST(WorldFile, TheStreetOfRivoliIsOne) {
 
 // Files that would keep a drive busy for ever are refused with their place.
 TEST(WorldFile, HasBounds) {
-    const test::TempFolder folder;
+    const TempFolder folder;
     const auto refused = [&](const std::string& more) {
         folder.write(
             "w.json",
             R"({"version": 1, "scene": "s.gltf", "driver": {"lane": "a"}, "lanes": [{"name": "a", "points": [[0, 0, 0], [0, 0, -9]]}])" +
                 more + "}");
-        return test::complaint_of([&] { read_world(folder / "w.json"); });
+        return complaint_of([&] { traffic::read_world(folder / "w.json"); });
     };
     const auto many = [](size_t count, const std::string& one) {
         std::string text = "[" + one;
@@ -353,13 +356,13 @@ TEST(WorldFile, HasBounds) {
         return text + "]";
     };
     EXPECT_EQ(refused(R"(, "paths": [{"name": "p", "points": [[0, 0, 0], [5000, 0, 0]]}])"), "");
-    EXPECT_TRUE(test::contains(refused(R"(, "paths": [{"name": "p", "points": [[-1000000, 0, 0], [1000000, 0, 0]]}])"),
-                               "w.json: /paths: are longer than 10000 m"));
-    EXPECT_TRUE(test::contains(refused(R"(, "cars": )" + many(1001, R"({"node": "c", "lane": "a"})")),
-                               "w.json: /cars: more than 1000"));
-    EXPECT_TRUE(test::contains(refused(R"(, "barriers": [)" + many(100'001, "[0, 1]") + "]"),
-                               "w.json: /barriers/0: with this one"));
+    EXPECT_TRUE(contains(refused(R"(, "paths": [{"name": "p", "points": [[-1000000, 0, 0], [1000000, 0, 0]]}])"),
+                         "w.json: /paths: are longer than 10000 m"));
+    EXPECT_TRUE(contains(refused(R"(, "cars": )" + many(1001, R"({"node": "c", "lane": "a"})")),
+                         "w.json: /cars: more than 1000"));
+    EXPECT_TRUE(
+        contains(refused(R"(, "barriers": [)" + many(100'001, "[0, 1]") + "]"), "w.json: /barriers/0: with this one"));
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

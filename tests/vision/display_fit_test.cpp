@@ -12,13 +12,15 @@
 namespace vesper::test {
 namespace {
 
+using vision::DisplayFit, vision::Eotf, vision::fit_display;
+
 const std::vector<uint32_t> kCodes{0, 1, 2, 4, 8, 16, 32, 48, 64, 96, 128, 160, 192, 224, 255};
 
-std::vector<DisplayMeasurement> measure(const Display& display, double noise = 0) {
+std::vector<vision::DisplayMeasurement> measure(const vision::Display& display, double noise = 0) {
     std::mt19937 random(3);
     std::normal_distribution<double> error(0, noise);
-    const DisplayCurve curve(display);
-    std::vector<DisplayMeasurement> made;
+    const vision::DisplayCurve curve(display);
+    std::vector<vision::DisplayMeasurement> made;
     for (const uint32_t code : kCodes) {
         const uint32_t scaled = code * display.largest_code() / 255;
         made.push_back({scaled,
@@ -55,21 +57,21 @@ TEST(DisplayFit, NoiseStaysInTheResiduals) {
 }
 
 TEST(DisplayFit, OthersAreTables) {
-    Display odd{.peak = 90,
-                .black = 0.3f,
-                .eotf = Eotf::Table,
-                .table = {{0, double(0.3f)}, {0.1, 0.5}, {0.3, 5}, {0.31, 8}, {0.6, 30}, {1, 90}}};
+    vision::Display odd{.peak = 90,
+                        .black = 0.3f,
+                        .eotf = Eotf::Table,
+                        .table = {{0, double(0.3f)}, {0.1, 0.5}, {0.3, 5}, {0.31, 8}, {0.6, 30}, {1, 90}}};
     const auto measured = measure(odd);
     const DisplayFit fit = fit_display(measured, 8);
     EXPECT_EQ(fit.display.eotf, Eotf::Table);
     EXPECT_LT(fit.largest, 1e-6);
-    EXPECT_NO_THROW(check_display(fit.display));
+    EXPECT_NO_THROW(vision::check_display(fit.display));
 }
 
 // Codes 3 and 4 fall within the noise and 255 was measured twice: a plateau of their mean, and the curve rises.
 TEST(DisplayFit, TablesRiseThroughNoise) {
-    std::vector<DisplayMeasurement> measured{{0, 0.1, 1}, {3, 0.102, 2}, {4, 0.101, 3},
-                                             {60, 5, 4},  {255, 100, 5}, {255, 102, 6}};
+    std::vector<vision::DisplayMeasurement> measured{{0, 0.1, 1}, {3, 0.102, 2}, {4, 0.101, 3},
+                                                     {60, 5, 4},  {255, 100, 5}, {255, 102, 6}};
     const DisplayFit fit = fit_display(measured, 8, Eotf::Table);
     ASSERT_EQ(fit.display.table.size(), 5u);
     for (const size_t i : {1u, 2u}) {
@@ -82,29 +84,30 @@ TEST(DisplayFit, TablesRiseThroughNoise) {
 
 // Limited range shown as full range: codes below 16 are black, those above 235 white; the profile says so.
 TEST(DisplayFit, CrushedAndClippedCodesStayEqual) {
-    std::vector<DisplayMeasurement> measured;
+    std::vector<vision::DisplayMeasurement> measured;
     for (const uint32_t code : {0u, 4u, 8u, 16u, 17u, 20u, 34u, 68u, 120u, 180u, 230u, 235u, 238u, 250u, 255u})
         measured.push_back(
             {code, 0.05 + 8 * std::pow(std::clamp((code - 16.0) / 219, 0.0, 1.0), 2.2), measured.size() + 1});
     const DisplayFit fit = fit_display(measured, 8);
     EXPECT_EQ(fit.display.eotf, Eotf::Table);
     EXPECT_LT(fit.largest, 2e-6);
-    const DisplayCurve curve(fit.display);
+    const vision::DisplayCurve curve(fit.display);
     EXPECT_NEAR(curve.emitted(12 / 255.0), 0.05, 1e-6) << "between measured codes of the plateau, too";
     EXPECT_NEAR(curve.emitted(244 / 255.0), 8.05, 1e-4);
     for (double code = 0, before = 0; code <= 1; code += 1.0 / 255)
         EXPECT_GE(curve.emitted(code), before), before = curve.emitted(code);
-    EXPECT_NO_THROW(check_display(fit.display));
+    EXPECT_NO_THROW(vision::check_display(fit.display));
 }
 
 // A meter reads 0 for what it cannot tell: equally black.
 TEST(DisplayFit, ZerosAreBlack) {
     const DisplayFit fit = fit_display(
-        std::vector<DisplayMeasurement>{{0, 0, 1}, {5, 0, 2}, {10, 5e-7, 3}, {60, 5, 4}, {120, 20, 5}, {255, 500, 6}},
+        std::vector<vision::DisplayMeasurement>{
+            {0, 0, 1}, {5, 0, 2}, {10, 5e-7, 3}, {60, 5, 4}, {120, 20, 5}, {255, 500, 6}},
         8, Eotf::Table);
     EXPECT_FLOAT_EQ(fit.display.black, 1e-6f);
-    EXPECT_LT(DisplayCurve(fit.display).emitted(10 / 255.0), 1.1e-6);
-    EXPECT_NO_THROW(check_display(fit.display));
+    EXPECT_LT(vision::DisplayCurve(fit.display).emitted(10 / 255.0), 1.1e-6);
+    EXPECT_NO_THROW(vision::check_display(fit.display));
 }
 
 // The residuals are those of the noise, and the file is read again.
@@ -121,11 +124,11 @@ TEST(DisplayFit, PooledTablesAreReadAgain) {
             least = std::min(least, factor - 1), largest = std::max(largest, factor - 1);
             text += std::to_string(code) + "," + std::to_string(luminance * factor) + "\n";
         }
-        const auto measured = read_display_measurements(folder.write("m.csv", text), 8);
+        const auto measured = vision::read_display_measurements(folder.write("m.csv", text), 8);
         const DisplayFit fit = fit_display(measured, 8, Eotf::Table);
         EXPECT_LT(fit.largest, largest - least);
         EXPECT_LT(fit.rms, 0.011);
-        const Display again = read_display(folder.write("d.json", display_json(fit.display, "")));
+        const vision::Display again = scene::read_display(folder.write("d.json", scene::display_json(fit.display, "")));
         ASSERT_EQ(again.table.size(), fit.display.table.size());
         for (size_t i = 0; i < again.table.size(); ++i)
             EXPECT_EQ(again.table[i].luminance, fit.display.table[i].luminance);
@@ -136,7 +139,7 @@ TEST(DisplayFit, ReadsWhatSpreadsheetsWrite) {
     const TempFolder folder;
     for (const char* text : {"code,cd_m2\n0,0.1\n128,22\n255,100\n", "0;0,1\r\n128;22\r\n255;100\r\n",
                              "# wall\n255\t100\n\n0\t0.1  # black\n128\t22\n", "0 0.1\n128 22\n255 100"}) {
-        const auto measured = read_display_measurements(folder.write("m.csv", text), 8);
+        const auto measured = vision::read_display_measurements(folder.write("m.csv", text), 8);
         ASSERT_EQ(measured.size(), 3u) << text;
         double sum = 0;
         for (const auto& m : measured) sum += m.luminance;
@@ -168,11 +171,11 @@ TEST(DisplayFit, NonsenseIsRefusedWhereItStands) {
         {"0,0.1\n240,88\n200,100\n240,87\n255,120\n", "line 4: code 240 is darker than code 200 in line 3"}};
     for (const auto& [text, place] : cases) {
         const auto file = folder.write("m.csv", text);
-        const std::string complaint = complaint_of([&] { read_display_measurements(file, 8); });
+        const std::string complaint = complaint_of([&] { vision::read_display_measurements(file, 8); });
         EXPECT_TRUE(contains(complaint, "m.csv: ")) << text;
         EXPECT_TRUE(contains(complaint, place)) << text;
     }
-    EXPECT_THROW(read_display_measurements(folder / "none.csv", 8), Error);
+    EXPECT_THROW(vision::read_display_measurements(folder / "none.csv", 8), Error);
 }
 
 }  // namespace

@@ -12,8 +12,10 @@
 namespace vesper::test {
 namespace {
 
-constexpr int kSide = EyeAperture::kSide;
-constexpr double kSample = EyeAperture::kWindow / kSide;
+using vision::restless_pupil;
+
+constexpr int kSide = vision::EyeAperture::kSide;
+constexpr double kSample = vision::EyeAperture::kWindow / kSide;
 
 double transmitted(const std::vector<std::complex<double>>& amplitude) {
     double sum = 0;
@@ -22,13 +24,13 @@ double transmitted(const std::vector<std::complex<double>>& amplitude) {
 }
 
 TEST(EyeAperture, ThePupilLetsItsAreaThrough) {
-    const EyeAperture eye;
+    const vision::EyeAperture eye;
     for (const double diameter : {2.0, 4.0, 6.5}) {
         const double area = std::numbers::pi * diameter * diameter / 4,
                      open = transmitted(eye.amplitude(diameter, 0)) / area;
         EXPECT_LT(open, 1) << diameter << ": something is in the way";
         EXPECT_GT(open, 0.9) << diameter;
-        EXPECT_LT(transmitted(EyeAperture({.lashes = true}).amplitude(diameter, 0)) / area, open - 0.01)
+        EXPECT_LT(transmitted(vision::EyeAperture({.lashes = true}).amplitude(diameter, 0)) / area, open - 0.01)
             << diameter << ": lashes";
     }
 }
@@ -39,7 +41,7 @@ TEST(EyeAperture, FarFieldIsTheFourierTransform) {
     std::vector<std::complex<double>> amplitude;
     for (int i = 0; i < kSmall * kSmall; ++i)
         amplitude.push_back(std::polar(0.5 + 0.5 * std::sin(7.0 * i), std::cos(3.0 * i)));
-    const std::vector<double> intensity = far_field(amplitude, kSmall);
+    const std::vector<double> intensity = vision::far_field(amplitude, kSmall);
     for (int v = -kSmall / 2; v < kSmall / 2; ++v)
         for (int u = -kSmall / 2; u < kSmall / 2; ++u) {
             std::complex<double> sum = 0;
@@ -58,7 +60,7 @@ TEST(EyeAperture, ASlitHasItsZeros) {
     std::vector<std::complex<double>> amplitude(size_t(kSmall) * kSmall);
     for (int y = 0; y < kSmall; ++y)
         for (int x = 0; x < kWide; ++x) amplitude[size_t(y * kSmall + x)] = 1;
-    const std::vector<double> intensity = far_field(amplitude, kSmall);
+    const std::vector<double> intensity = vision::far_field(amplitude, kSmall);
     const size_t row = size_t(kSmall) * kSmall / 2, straight = kSmall / 2;
     EXPECT_NEAR(intensity[row + straight], std::pow(kSmall * kWide, 2), 1e-6);
     for (int k = 1; k < kWide / 2; ++k)
@@ -87,7 +89,7 @@ TEST(EyeAperture, ThePupilIsRestless) {
     EXPECT_EQ(restless_pupil(5, 7.25, 3), restless_pupil(5, 7.25, 3));
     EXPECT_NE(restless_pupil(5, 7.25, 3), restless_pupil(5, 7.25, 4));
     for (double luminance : {0.0, 1e-6, 1.0, 1e6}) {  // whatever the eye looks at
-        const double d = restless_pupil(pupil_moon_spencer(luminance), 1, 1);
+        const double d = restless_pupil(vision::pupil_moon_spencer(luminance), 1, 1);
         EXPECT_TRUE(d >= 1 && d <= 8) << luminance;
     }
 }

@@ -8,8 +8,8 @@
 namespace vesper::test {
 namespace {
 
-const ReceptorModel kCones(ReceptorKind::Cones, Receptors::cones());
-const ReceptorModel kRods(ReceptorKind::Rods, Receptors::rods());
+const vision::ReceptorModel kCones(vision::ReceptorKind::Cones, vision::Receptors::cones());
+const vision::ReceptorModel kRods(vision::ReceptorKind::Rods, vision::Receptors::rods());
 
 // tone-mapping.md, 2.4.
 TEST(Eye, AdaptedConesHaveTheTabulatedState) {
@@ -40,14 +40,14 @@ TEST(Eye, AdaptedRodsHaveTheTabulatedState) {
 TEST(Eye, AdaptedThresholdsArePublished) {
     for (double c : {1.5, 2.0, 8.0})
         for (double factor : {1.0, 3.0}) {
-            Receptors r = Receptors::cones();
+            vision::Receptors r = vision::Receptors::cones();
             r.semi_saturation = c, r.threshold_factor = factor;
-            const ReceptorModel model(ReceptorKind::Cones, r);
+            const vision::ReceptorModel model(vision::ReceptorKind::Cones, r);
             double before = 0;
             for (double l = -4; l < 6; l += 0.05) {
                 const double luminance = std::pow(10, l), sigma = model.adapted_sigma(luminance);
                 EXPECT_NEAR(model.threshold(luminance, sigma) /
-                                (factor * cone_threshold(luminance, ThresholdBreaks::continuous())),
+                                (factor * vision::cone_threshold(luminance, vision::ThresholdBreaks::continuous())),
                             1, 1e-9);
                 EXPECT_GE(sigma, luminance * (1 - 1e-12));
                 EXPECT_GE(sigma, before * 0.999) << "monotone, but for a dip of 2e-4 near 3e-3 cd/m^2";
@@ -97,13 +97,13 @@ TEST(Eye, ATunnelIsEnteredAsTabulated) {
                             {1, 1317, 0.351, 5.68, 0.5170},    {5, 737.8, 0.208, 3.37, 0.5325},
                             {10, 459.0, 0.140, 2.26, 0.5512},  {20, 281.1, 0.0964, 1.56, 0.5862},
                             {60, 184.3, 0.0736, 1.19, 0.7000}, {300, 135.9, 0.0628, 1.02, 0.9445}};
-    ReceptorState stepped = kCones.adapted(5000);
+    vision::ReceptorState stepped = kCones.adapted(5000);
     const double adapted = kCones.adapted_threshold(50);
     int steps = 0;
     for (const auto& [seconds, sigma, contrast, times, pigment] : table) {
         while (steps < std::lround(seconds * 600)) stepped = kCones.after(stepped, 50, 1.0 / 600), ++steps;
-        const ReceptorState once = kCones.after(kCones.adapted(5000), 50, seconds);
-        for (const ReceptorState& state : {once, stepped}) {
+        const vision::ReceptorState once = kCones.after(kCones.adapted(5000), 50, seconds);
+        for (const vision::ReceptorState& state : {once, stepped}) {
             EXPECT_NEAR(kCones.sigma(state) / sigma, 1, 1e-3) << seconds;
             EXPECT_NEAR(kCones.threshold(50, kCones.sigma(state)) / 50 / contrast, 1, 4e-3) << seconds;  // three digits
             EXPECT_NEAR(kCones.threshold(50, kCones.sigma(state)) / adapted / times, 1, 4e-3) << seconds;
@@ -117,15 +117,15 @@ TEST(Eye, ATunnelIsEnteredAsTabulated) {
 TEST(Eye, ATunnelIsLeftAsTabulated) {
     const double table[][2]{{0.02, 6.1}, {0.1, 2.7}, {0.5, 1.7}, {2, 1.44}, {10, 0.96}, {60, 0.92}};
     for (const auto& [seconds, times] : table) {
-        const ReceptorState state = kCones.after(kCones.adapted(50), 5000, seconds);
+        const vision::ReceptorState state = kCones.after(kCones.adapted(50), 5000, seconds);
         EXPECT_NEAR(kCones.threshold(5000, kCones.sigma(state)) / kCones.adapted_threshold(5000) / times, 1, 0.02)
             << seconds;
     }
 }
 
 TEST(Eye, APauseFreezesAndALongTimeAdapts) {
-    const ReceptorState state{0.5, 0.3, 0.7};
-    const ReceptorState same = kCones.after(state, 100, 0);
+    const vision::ReceptorState state{0.5, 0.3, 0.7};
+    const vision::ReceptorState same = kCones.after(state, 100, 0);
     EXPECT_EQ(same.pigment, state.pigment);
     EXPECT_EQ(same.fast, state.fast);
     EXPECT_EQ(same.slow, state.slow);
@@ -133,10 +133,10 @@ TEST(Eye, APauseFreezesAndALongTimeAdapts) {
 }
 
 TEST(Eye, ObserversHaveTheirThresholds) {
-    Observer old;
+    vision::Observer old;
     old.age = 70, old.low_vision = 2;
-    const ReceptorModel model(ReceptorKind::Cones, old.observed_cones());
-    EXPECT_NEAR(model.adapted_threshold(10) / kCones.adapted_threshold(10), 2 * age_factor(70), 1e-12);
+    const vision::ReceptorModel model(vision::ReceptorKind::Cones, old.observed_cones());
+    EXPECT_NEAR(model.adapted_threshold(10) / kCones.adapted_threshold(10), 2 * vision::age_factor(70), 1e-12);
     EXPECT_NEAR(model.adapted_sigma(10), kCones.adapted_sigma(10), 1e-9) << "the response is the same, its step is not";
 }
 

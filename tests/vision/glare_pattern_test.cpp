@@ -14,17 +14,18 @@ namespace vesper::test {
 namespace {
 
 using glm::dvec3;
+using vision::EyeScatter, vision::GlarePattern, vision::SpencerState, vision::temporal_pattern;
 
 constexpr int kColumns = GlarePattern::kColumns, kRows = GlarePattern::kRows;
 
 EyeScatter cie(double age) {
-    return EyeScatter([age](double theta) { return cie_total_glare(theta, {age, 0.5}); });
+    return EyeScatter([age](double theta) { return vision::cie_total_glare(theta, {age, 0.5}); });
 }
 EyeScatter veil(SpencerState state) {
-    return EyeScatter([state](double theta) { return spencer_veil(theta, state); });
+    return EyeScatter([state](double theta) { return vision::spencer_veil(theta, state); });
 }
-const EyeAperture& aperture() {
-    static const EyeAperture one;
+const vision::EyeAperture& aperture() {
+    static const vision::EyeAperture one;
     return one;
 }
 
@@ -95,15 +96,15 @@ TEST(GlarePattern, LeavesATenthOfTheVeil) {
     };
     EXPECT_GE(least(temporal_pattern(smooth, aperture(), 6, 2), smooth), 0.1 - 1e-6);
     EXPECT_LT(least(temporal_pattern(smooth, aperture(), 6, 2), smooth), 0.5) << "there are needles";
-    EXPECT_GE(least(spencer_pattern(photopic, SpencerState::Photopic, 1), photopic), 0.1);
-    EXPECT_GE(least(spencer_pattern(scotopic, SpencerState::Scotopic, 1), scotopic), 0.1);
+    EXPECT_GE(least(vision::spencer_pattern(photopic, SpencerState::Photopic, 1), photopic), 0.1);
+    EXPECT_GE(least(vision::spencer_pattern(scotopic, SpencerState::Scotopic, 1), scotopic), 0.1);
 }
 
 // Radii of the published ring: 3 degrees times the wavelength over 568 nm, blue inside. Means over a channel's
 // wavelengths: 2.4 degrees for 455 nm, 2.85 for 540, 3.2 for 605.
 TEST(GlarePattern, TheHaloIsAtItsPublishedRadiiAndColours) {
     const EyeScatter smooth = veil(SpencerState::Scotopic);
-    const GlarePattern p = spencer_pattern(smooth, SpencerState::Scotopic, 1);
+    const GlarePattern p = vision::spencer_pattern(smooth, SpencerState::Scotopic, 1);
     const double wanted[]{3.2, 2.85, 2.4};
     for (int c = 0; c < 3; ++c) {
         int brightest = 0;
@@ -115,8 +116,8 @@ TEST(GlarePattern, TheHaloIsAtItsPublishedRadiiAndColours) {
     dvec3 energy(0), ring(0);
     for (int row = 0; row < kRows; ++row) {
         const double theta = middle(row),
-                     plateau = spencer_veil(theta, SpencerState::Scotopic) -
-                               spencer_smooth_glare(theta, spencer_weights(SpencerState::Scotopic));
+                     plateau = vision::spencer_veil(theta, SpencerState::Scotopic) -
+                               vision::spencer_smooth_glare(theta, vision::spencer_weights(SpencerState::Scotopic));
         energy += steradians(row) * mean(p, row);
         ring += steradians(row) * (mean(p, row) + plateau / smooth.total());
     }
@@ -127,11 +128,11 @@ TEST(GlarePattern, TheHaloIsAtItsPublishedRadiiAndColours) {
 }
 
 TEST(GlarePattern, TheHaloNeedsAWidePupil) {
-    EXPECT_EQ(halo_share(1.9), 0);
-    EXPECT_EQ(halo_share(3), 0);
-    EXPECT_NEAR(halo_share(3.92), 0.016, 2e-4) << "mesopic";
-    EXPECT_NEAR(halo_share(4.9), 0.033, 1e-12);
-    EXPECT_EQ(halo_share(8), halo_share(4.9));
+    EXPECT_EQ(vision::halo_share(1.9), 0);
+    EXPECT_EQ(vision::halo_share(3), 0);
+    EXPECT_NEAR(vision::halo_share(3.92), 0.016, 2e-4) << "mesopic";
+    EXPECT_NEAR(vision::halo_share(4.9), 0.033, 1e-12);
+    EXPECT_EQ(vision::halo_share(8), vision::halo_share(4.9));
     const auto colours = [](const GlarePattern& p) {
         double most = 0;
         for (const glm::vec3& v : p.ring) most = std::max(most, double(std::abs(v.r)));
@@ -139,21 +140,22 @@ TEST(GlarePattern, TheHaloNeedsAWidePupil) {
     };
     EXPECT_EQ(colours(temporal_pattern(cie(24), aperture(), 2.9, 0)), 0);
     EXPECT_GT(colours(temporal_pattern(cie(24), aperture(), 4, 0)), 0.1);
-    EXPECT_LT(colours(spencer_pattern(veil(SpencerState::Photopic), SpencerState::Photopic, 1)), 1e-6);
-    EXPECT_GT(colours(spencer_pattern(veil(SpencerState::Mesopic), SpencerState::Mesopic, 1)), 1);
+    EXPECT_LT(colours(vision::spencer_pattern(veil(SpencerState::Photopic), SpencerState::Photopic, 1)), 1e-6);
+    EXPECT_GT(colours(vision::spencer_pattern(veil(SpencerState::Mesopic), SpencerState::Mesopic, 1)), 1);
 }
 
 // Lines that all go through the lamp cover more of a small ring than of a large one.
 TEST(GlarePattern, SpencersNeedlesStandOutFurtherFromTheLamp) {
-    const GlarePattern p = spencer_pattern(veil(SpencerState::Photopic), SpencerState::Photopic, 1);
+    const GlarePattern p = vision::spencer_pattern(veil(SpencerState::Photopic), SpencerState::Photopic, 1);
     const auto at = [&](double degrees) { return contrast(p, int(GlarePattern::row_of(degrees))); };
     EXPECT_LT(at(0.03), 0.2);
     EXPECT_GT(at(1), 0.4);
     EXPECT_GT(at(3), at(1));
     for (int row = 0; row < kRows; ++row)
         for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(mean(p, row)[c] / spencer_smooth_glare(middle(row), spencer_weights(SpencerState::Photopic)), 0,
-                        1e-5);
+            EXPECT_NEAR(mean(p, row)[c] /
+                            vision::spencer_smooth_glare(middle(row), vision::spencer_weights(SpencerState::Photopic)),
+                        0, 1e-5);
 }
 
 // White light draws the grains of one wavelength out to needles: along a radius the pattern changes slower than around.
@@ -175,7 +177,7 @@ TEST(GlarePattern, NeedlesAreRadial) {
 TEST(GlarePattern, MovesSlowlyAndOnlyWithTime) {
     const EyeScatter smooth = cie(24);
     const auto at = [&](double seconds) {
-        return temporal_pattern(smooth, aperture(), restless_pupil(5, seconds, 1), seconds);
+        return temporal_pattern(smooth, aperture(), vision::restless_pupil(5, seconds, 1), seconds);
     };
     const auto apart = [](const GlarePattern& a, const GlarePattern& b) {
         double difference = 0, all = 0;
@@ -194,8 +196,9 @@ TEST(GlarePattern, MovesSlowlyAndOnlyWithTime) {
     EXPECT_LT(blink, 1e-4);
     EXPECT_LT(frame, 0.1);
     EXPECT_GT(second, 3 * frame);
-    const EyeAperture other({.seed = 2});
-    EXPECT_GT(apart(first, temporal_pattern(smooth, other, restless_pupil(5, 10, 1), 10)), 0.5) << "another eye";
+    const vision::EyeAperture other({.seed = 2});
+    EXPECT_GT(apart(first, temporal_pattern(smooth, other, vision::restless_pupil(5, 10, 1), 10)), 0.5)
+        << "another eye";
 }
 
 }  // namespace

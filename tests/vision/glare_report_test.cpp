@@ -10,11 +10,13 @@
 #include "base/angle.h"
 #include "vision/visibility.h"
 
-namespace vesper {
+namespace vesper::test {
 namespace {
 
+using vision::report_glare;
+
 struct Picture {
-    ImageAngles image{321, 201, {-0.6, -0.375}, {0.6, 0.375}};
+    vision::ImageAngles image{321, 201, {-0.6, -0.375}, {0.6, 0.375}};
     std::vector<float> rgba;
 
     explicit Picture(float luminance) {
@@ -32,8 +34,9 @@ TEST(GlareReport, LampsInAndBesideThePictureAddUp) {
     Picture picture(0.5f);
     picture.set(250, 60, 2e5f);
     const glm::dvec3 inside = picture.towards(250, 60), outside = glm::normalize(glm::dvec3(1, 0.2, -1));
-    const GlareReport report = report_glare(picture.image, picture.rgba, std::vector{DazzlingLight{outside, 3}},
-                                            {.eye = {60, 0.5}, .source_luminance = 100});
+    const vision::GlareReport report =
+        report_glare(picture.image, picture.rgba, std::vector{vision::DazzlingLight{outside, 3}},
+                     {.eye = {60, 0.5}, .source_luminance = 100});
 
     double want = 0, road = 0;
     for (const auto& [direction, lux] : {std::pair{inside, 2e5 * picture.steradians(250, 60)}, {outside, 3.0}}) {
@@ -52,7 +55,7 @@ TEST(GlareReport, LampsInAndBesideThePictureAddUp) {
 TEST(GlareReport, WhatIsLookedAtIsNoGlare) {
     Picture picture(1);
     picture.set(160, 100, 1e6f);  // in the middle
-    const GlareReport report = report_glare(picture.image, picture.rgba, {}, {.source_luminance = 100});
+    const vision::GlareReport report = report_glare(picture.image, picture.rgba, {}, {.source_luminance = 100});
     EXPECT_EQ(report.veil, 0);
     EXPECT_GT(report.illuminance, 0);
     EXPECT_GT(report_glare(picture.image, picture.rgba, {}, {.gaze = {0.6, 0.5}, .source_luminance = 100}).veil, 0);
@@ -84,7 +87,7 @@ TEST(GlareReport, OnABlackRoadTheIncrementHasNoEnd) {
     Picture picture(0);
     EXPECT_EQ(report_glare(picture.image, picture.rgba, {}, {}).increment, 0);
     EXPECT_TRUE(std::isinf(report_glare(picture.image, picture.rgba,
-                                        std::vector{DazzlingLight{glm::normalize(glm::dvec3(1, 0, -4)), 3}}, {})
+                                        std::vector{vision::DazzlingLight{glm::normalize(glm::dvec3(1, 0, -4)), 3}}, {})
                                .increment));
 }
 
@@ -92,8 +95,9 @@ TEST(GlareReport, NothingIsNotANumber) {
     Picture picture(0);
     picture.set(3, 3, std::numeric_limits<float>::quiet_NaN());
     picture.set(4, 3, std::numeric_limits<float>::infinity());
-    const GlareReport report = report_glare(picture.image, picture.rgba, std::vector{DazzlingLight{{0, 0, 1}, 5}},
-                                            {.source_luminance = 1, .target = MarkedTarget{{0.4, 0.4}, {0.1, 0.1}}});
+    const vision::GlareReport report =
+        report_glare(picture.image, picture.rgba, std::vector{vision::DazzlingLight{{0, 0, 1}, 5}},
+                     {.source_luminance = 1, .target = vision::MarkedTarget{{0.4, 0.4}, {0.1, 0.1}}});
     EXPECT_EQ(report.veil, 0);
     EXPECT_EQ(report.increment, 0);
     EXPECT_TRUE(std::isfinite(report.visibility));
@@ -104,37 +108,37 @@ TEST(GlareReport, GlareHidesATarget) {
     Picture picture(0.3f);
     for (int y = 98; y < 102; ++y)
         for (int x = 158; x < 162; ++x) picture.set(x, y, 0.6f);
-    const MarkedTarget target{{158.0 / 321, 98.0 / 201}, {4.0 / 321, 4.0 / 201}};
+    const vision::MarkedTarget target{{158.0 / 321, 98.0 / 201}, {4.0 / 321, 4.0 / 201}};
     const auto ask = [&] {
         return report_glare(picture.image, picture.rgba, {},
                             {.eye = {23, 0.5}, .source_luminance = 100, .target = target});
     };
-    const GlareReport free = ask();
+    const vision::GlareReport free = ask();
     EXPECT_NEAR(free.target, 0.6, 1e-6);
     EXPECT_NEAR(free.around, 0.3, 1e-6);
     const double steradians = 16 * picture.steradians(160, 100);
-    EXPECT_NEAR(
-        free.visibility /
-            visibility_level(0.6, 0.3, {.size = 2 * std::sqrt(steradians / std::numbers::pi) * kDegreesPerRadian * 60}),
-        1, 1e-3);
+    EXPECT_NEAR(free.visibility /
+                    vision::visibility_level(
+                        0.6, 0.3, {.size = 2 * std::sqrt(steradians / std::numbers::pi) * kDegreesPerRadian * 60}),
+                1, 1e-3);
     picture.set(175, 99, float(2 / picture.steradians(175, 99)));  // 2 lx at 3.2 degrees
-    const GlareReport dazzled = ask();
-    EXPECT_NEAR(
-        dazzled.target_veil,
-        2 * cie_general_glare(std::acos(glm::dot(picture.towards(175, 99),
-                                                 glm::normalize(glm::dvec3(picture.image.at({160, 100}), -1)))) *
-                                  kDegreesPerRadian,
-                              {23, 0.5}),
-        0.01);
+    const vision::GlareReport dazzled = ask();
+    EXPECT_NEAR(dazzled.target_veil,
+                2 * vision::cie_general_glare(
+                        std::acos(glm::dot(picture.towards(175, 99),
+                                           glm::normalize(glm::dvec3(picture.image.at({160, 100}), -1)))) *
+                            kDegreesPerRadian,
+                        {23, 0.5}),
+                0.01);
     EXPECT_LT(dazzled.visibility, 0.5 * free.visibility);
 }
 
 TEST(GlareReport, RoadEquationHasItsRanges) {
-    EXPECT_NEAR(en13201_glare(10, 23), 0.1, 1e-3) << "10 / theta^2";
-    EXPECT_NEAR(en13201_glare(1, 62.5), 20, 1e-12);
-    EXPECT_EQ(en13201_glare(61, 23), 0);
-    EXPECT_EQ(en13201_glare(0.05, 23), 0);
+    EXPECT_NEAR(vision::en13201_glare(10, 23), 0.1, 1e-3) << "10 / theta^2";
+    EXPECT_NEAR(vision::en13201_glare(1, 62.5), 20, 1e-12);
+    EXPECT_EQ(vision::en13201_glare(61, 23), 0);
+    EXPECT_EQ(vision::en13201_glare(0.05, 23), 0);
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

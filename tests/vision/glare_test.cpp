@@ -7,8 +7,10 @@
 
 #include <gtest/gtest.h>
 
-namespace vesper {
+namespace vesper::test {
 namespace {
+
+using vision::EyeScatter, vision::SpencerState;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -43,22 +45,22 @@ void near(double got, double want, double theta) {
 
 TEST(Glare, HasThePublishedValues) {
     for (const Row& r : kTable) {
-        near(cie_total_glare(r.theta, {24, 0.5}), r.total24, r.theta);
-        near(cie_total_glare(r.theta, {35, 0.5}), r.total35, r.theta);
-        near(cie_total_glare(r.theta, {70, 0.5}), r.total70, r.theta);
-        near(cie_general_glare(r.theta, {24, 0.5}), r.general24, r.theta);
-        near(cie_general_glare(r.theta, {70, 0.5}), r.general70, r.theta);
-        near(cie_age_adjusted_glare(r.theta, 24), r.age24, r.theta);
-        near(cie_age_adjusted_glare(r.theta, 70), r.age70, r.theta);
-        near(spencer_glare(r.theta, SpencerState::Photopic), r.photopic, r.theta);
-        near(spencer_glare(r.theta, SpencerState::Mesopic), r.mesopic, r.theta);
-        near(spencer_glare(r.theta, SpencerState::Scotopic), r.scotopic, r.theta);
+        near(vision::cie_total_glare(r.theta, {24, 0.5}), r.total24, r.theta);
+        near(vision::cie_total_glare(r.theta, {35, 0.5}), r.total35, r.theta);
+        near(vision::cie_total_glare(r.theta, {70, 0.5}), r.total70, r.theta);
+        near(vision::cie_general_glare(r.theta, {24, 0.5}), r.general24, r.theta);
+        near(vision::cie_general_glare(r.theta, {70, 0.5}), r.general70, r.theta);
+        near(vision::cie_age_adjusted_glare(r.theta, 24), r.age24, r.theta);
+        near(vision::cie_age_adjusted_glare(r.theta, 70), r.age70, r.theta);
+        near(vision::spencer_glare(r.theta, SpencerState::Photopic), r.photopic, r.theta);
+        near(vision::spencer_glare(r.theta, SpencerState::Mesopic), r.mesopic, r.theta);
+        near(vision::spencer_glare(r.theta, SpencerState::Scotopic), r.scotopic, r.theta);
     }
-    EXPECT_DOUBLE_EQ(cie_small_angle_glare(2, 40), cie_general_glare(2, {40, 0}));
+    EXPECT_DOUBLE_EQ(vision::cie_small_angle_glare(2, 40), vision::cie_general_glare(2, {40, 0}));
 }
 
 EyeScatter cie(double age, double pigmentation) {
-    return EyeScatter([=](double theta) { return cie_total_glare(theta, {age, pigmentation}); });
+    return EyeScatter([=](double theta) { return vision::cie_total_glare(theta, {age, pigmentation}); });
 }
 
 // The normalisation that CIE built in leaves 0.5 to 2.3 %.
@@ -85,20 +87,21 @@ TEST(Glare, LightBeyondAnAngle) {
 }
 
 TEST(Glare, EveryPartOfSpencerIntegratesToOne) {
-    EXPECT_NEAR(EyeScatter(spencer_core).total(), 0.9991, 1e-4);
-    EXPECT_NEAR(EyeScatter(spencer_corona).total(), 0.9999, 1e-4);
-    EXPECT_NEAR(EyeScatter(spencer_bloom).total(), 0.9999, 1e-4);
+    EXPECT_NEAR(EyeScatter(vision::spencer_core).total(), 0.9991, 1e-4);
+    EXPECT_NEAR(EyeScatter(vision::spencer_corona).total(), 0.9999, 1e-4);
+    EXPECT_NEAR(EyeScatter(vision::spencer_bloom).total(), 0.9999, 1e-4);
     for (double nanometres : {450.0, 568.0, 700.0})
-        EXPECT_NEAR(EyeScatter([=](double t) { return spencer_halo(t, nanometres); }).total(), 1, 3e-4) << nanometres;
+        EXPECT_NEAR(EyeScatter([=](double t) { return vision::spencer_halo(t, nanometres); }).total(), 1, 3e-4)
+            << nanometres;
     for (SpencerState state : {SpencerState::Photopic, SpencerState::Mesopic, SpencerState::Scotopic}) {
-        const SpencerWeights w = spencer_weights(state);
+        const vision::SpencerWeights w = vision::spencer_weights(state);
         EXPECT_NEAR(w.core + w.corona + w.bloom + w.halo, 1, 1e-12);
-        EXPECT_NEAR(EyeScatter([=](double t) { return spencer_glare(t, state); }).total(), 0.9996, 2e-4);
+        EXPECT_NEAR(EyeScatter([=](double t) { return vision::spencer_glare(t, state); }).total(), 0.9996, 2e-4);
     }
 }
 
 TEST(Glare, WardScattersAnEighthAsTheSquareOfTheAngleFalls) {
-    const EyeScatter psf(ward_veil);
+    const EyeScatter psf(vision::ward_veil);
     EXPECT_NEAR(psf.total(), 1, 1e-6);
     EXPECT_NEAR(1 - psf.within(0.02), 0.08, 2e-5);  // 1.3e-5 of it is scattered within
     EXPECT_NEAR(psf(1) / psf(2), 4 * std::cos(1 * 3.14159265 / 180) / std::cos(2 * 3.14159265 / 180), 1e-6);
@@ -109,17 +112,18 @@ TEST(Glare, TheHaloIsARingWhoseRadiusFollowsTheWavelength) {
     for (const auto& [nanometres, radius] : {std::pair{450.0, 2.38}, {530.0, 2.80}, {610.0, 3.22}}) {
         double brightest = 0;
         for (double t = 1; t < 5; t += 0.001)
-            if (spencer_halo(t, nanometres) > spencer_halo(brightest, nanometres)) brightest = t;
+            if (vision::spencer_halo(t, nanometres) > vision::spencer_halo(brightest, nanometres)) brightest = t;
         EXPECT_NEAR(brightest, radius, 0.005) << nanometres;
     }
-    EXPECT_EQ(spencer_weights(SpencerState::Photopic).halo, 0) << "a small pupil covers the fibres that make it";
+    EXPECT_EQ(vision::spencer_weights(SpencerState::Photopic).halo, 0)
+        << "a small pupil covers the fibres that make it";
 }
 
 TEST(Glare, OneFunctionScatteredIsOne) {
     const EyeScatter psf = cie(70, 0.5);
     EXPECT_DOUBLE_EQ(psf.within(90), 1);
     EXPECT_DOUBLE_EQ(psf.within(0), 0);
-    EXPECT_DOUBLE_EQ(psf(2) * psf.total(), cie_total_glare(2, {70, 0.5}));
+    EXPECT_DOUBLE_EQ(psf(2) * psf.total(), vision::cie_total_glare(2, {70, 0.5}));
     double last = 0;  // rises everywhere, also within the rings it is summed over
     for (double t = 1e-5; t < 90; t *= 1.013) {
         EXPECT_GT(psf.within(t), last) << t;
@@ -130,4 +134,4 @@ TEST(Glare, OneFunctionScatteredIsOne) {
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

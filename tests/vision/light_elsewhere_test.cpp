@@ -14,7 +14,9 @@
 namespace vesper::reference {
 namespace {
 
-constexpr int kGuard = LightElsewhere::kGuard;
+using vision::EyePicture, vision::EyeScatter;
+
+constexpr int kGuard = vision::LightElsewhere::kGuard;
 constexpr ivec2 kStrip(4, 32);
 
 /// A screen: angles of its edges from its axis, and how that is turned, degrees; with its border.
@@ -112,16 +114,16 @@ private:
 
 /// What falls on the retina of one of them.
 Plane retina(const EyeScatter& psf, const std::vector<EyePicture>& pictures, const std::vector<Plane>& scenes,
-             size_t own, const std::vector<UnseenLamp>& lamps = {}) {
-    std::vector<LightSums> sums;
+             size_t own, const std::vector<vision::UnseenLamp>& lamps = {}) {
+    std::vector<vision::LightSums> sums;
     std::vector<std::vector<float>> values;
     for (size_t i = 0; i < pictures.size(); ++i) {
         values.push_back(rgba(scenes[i]));
         sums.emplace_back(pictures[i].image);
         sums.back().take(values.back());
     }
-    const OffscreenLight beyond = LightElsewhere(psf, pictures, own).of(sums, lamps);
-    return scatter(scenes[own], fit_scatter(psf, pictures[own].image, kStrip), {}, {}, beyond);
+    const vision::OffscreenLight beyond = vision::LightElsewhere(psf, pictures, own).of(sums, lamps);
+    return scatter(scenes[own], vision::fit_scatter(psf, pictures[own].image, kStrip), {}, {}, beyond);
 }
 
 /// A patch of `radius` degrees about a direction, with an edge of a tenth of that.
@@ -137,7 +139,7 @@ Lamp patch(double yaw, double pitch, double radius) {
 /// splines of light from beyond add, 1 %.
 void expect_everywhere(const std::vector<EyePicture>& pictures, const Lamp& light, double rms = 0.02,
                        double largest = 0.06, int samples = 3) {
-    const EyeScatter psf = eye_scatter({});
+    const EyeScatter psf = gpu_scene::eye_scatter({});
     std::vector<Plane> scenes;
     for (const EyePicture& p : pictures) scenes.push_back(picture_of(p, light, samples));
     std::mt19937 random(4);
@@ -203,20 +205,20 @@ void add_lamp(const EyePicture& p, dvec3 direction, Plane& plane) {
 // twice: what it veils far away changes smoothly. 3 % is what the pyramid has of a pixel; a share with a step at the
 // edge of a picture is wrong by half of the lamp.
 TEST(LightElsewhere, ALampCrossesASeam) {
-    const EyeScatter psf = eye_scatter({});
+    const EyeScatter psf = gpu_scene::eye_scatter({});
     for (const ivec2 others : {ivec2(150, 94), ivec2(75, 47)}) {
         const std::vector<EyePicture> pictures{screen(others, -24, 24, -15.6, 15.6, 48),
                                                screen({150, 94}, -24, 24, -15.6, 15.6, 0),
                                                screen(others, -24, 24, -15.6, 15.6, -48)};
-        std::vector<LightElsewhere> elsewhere;
+        std::vector<vision::LightElsewhere> elsewhere;
         for (size_t own = 0; own < 3; ++own) elsewhere.emplace_back(psf, pictures, own);
-        const ScatterFit fits[]{fit_scatter(psf, pictures[0].image, kStrip),
-                                fit_scatter(psf, pictures[1].image, kStrip),
-                                fit_scatter(psf, pictures[2].image, kStrip)};
+        const vision::ScatterFit fits[]{vision::fit_scatter(psf, pictures[0].image, kStrip),
+                                        vision::fit_scatter(psf, pictures[1].image, kStrip),
+                                        vision::fit_scatter(psf, pictures[2].image, kStrip)};
         for (double yaw = 19; yaw < 29; yaw += 0.77) {
             const dvec3 lamp(-std::sin(yaw * kRadiansPerDegree), 0.05, -std::cos(yaw * kRadiansPerDegree));
             std::vector<Plane> scenes;
-            std::vector<LightSums> sums;
+            std::vector<vision::LightSums> sums;
             std::vector<std::vector<float>> values;
             for (const EyePicture& p : pictures) {
                 scenes.emplace_back(ivec2(p.image.width, p.image.height));
@@ -243,10 +245,10 @@ TEST(LightElsewhere, ALampCrossesASeam) {
 // What is far is taken together: those of 1280 x 800 take 15 and 18 MB of the host, one by one their pixels would take
 // 10 GB.
 TEST(LightElsewhere, WhatIsFarIsTakenTogether) {
-    const EyeScatter psf = eye_scatter({});
+    const EyeScatter psf = gpu_scene::eye_scatter({});
     const std::vector<EyePicture> pictures = three({1280, 800});
-    EXPECT_LT(LightElsewhere(psf, pictures, 1).bytes(), 20u << 20);
-    EXPECT_LT(LightElsewhere(psf, pictures, 0).bytes(), 14u << 20);
+    EXPECT_LT(vision::LightElsewhere(psf, pictures, 1).bytes(), 20u << 20);
+    EXPECT_LT(vision::LightElsewhere(psf, pictures, 0).bytes(), 14u << 20);
 }
 
 // Three screens in one plane, seen off their axes.
@@ -278,7 +280,7 @@ TEST(LightElsewhere, OrderDoesNotMatter) {
     const Lamp light = [](dvec3 d) { return 1 + std::sin(9 * d.x + 5 * d.y); };
     std::vector<Plane> scenes;
     for (const EyePicture& p : pictures) scenes.push_back(picture_of(p, light));
-    const EyeScatter psf = eye_scatter({});
+    const EyeScatter psf = gpu_scene::eye_scatter({});
     const Plane one = retina(psf, pictures, scenes, 1),
                 other = retina(psf, turned, {scenes[2], scenes[1], scenes[0]}, 1);
     for (size_t i = 0; i < one.texels.size(); ++i) ASSERT_NEAR(one.texels[i].x / other.texels[i].x, 1, 1e-6) << i;
@@ -287,7 +289,7 @@ TEST(LightElsewhere, OrderDoesNotMatter) {
 // Lamps that no picture shows, near and far: as the function has them.
 TEST(LightElsewhere, UnseenLampsVeil) {
     const std::vector<EyePicture> pictures = three();
-    const EyeScatter psf = eye_scatter({});
+    const EyeScatter psf = gpu_scene::eye_scatter({});
     std::vector<Plane> dark;
     for (const EyePicture& p : pictures) dark.emplace_back(ivec2(p.image.width, p.image.height));
     for (const double pitch : {19.0, 25.0, 40.0, 70.0}) {
@@ -306,7 +308,7 @@ TEST(LightElsewhere, UnseenLampsVeil) {
 TEST(LightSums, KeepLightAndItsPlace) {
     std::mt19937 random(3);
     for (const ivec2 size : {ivec2(1, 1), {7, 5}, {2, 9}, {33, 20}, {64, 1}}) {
-        const ImageAngles image{size.x, size.y, {-0.4, -0.3}, {0.5, 0.2}};
+        const vision::ImageAngles image{size.x, size.y, {-0.4, -0.3}, {0.5, 0.2}};
         std::vector<float> pixels;
         double light = 0;
         dvec2 moment(0);
@@ -320,16 +322,16 @@ TEST(LightSums, KeepLightAndItsPlace) {
             const double lux = bad ? 0 : double(value) * solid_angle(image, direction_of(image, at));
             light += lux, moment += lux * at;
         }
-        LightSums sums(image);
+        vision::LightSums sums(image);
         sums.take(pixels);
-        const LightNodes& nodes = sums.nodes();
+        const vision::LightNodes& nodes = sums.nodes();
         for (int l = 0; l < nodes.levels(); ++l) {
             dvec3 sum(0);
             dvec2 middle(0);
             for (int y = 0; y < nodes.sizes[size_t(l)].y; ++y)
                 for (int x = 0; x < nodes.sizes[size_t(l)].x; ++x) {
                     const dvec3 at(sums.at(nodes.index(l, {x, y})));
-                    sum += at, middle += at.x * LightNodes::place(l, {x, y});
+                    sum += at, middle += at.x * vision::LightNodes::place(l, {x, y});
                 }
             EXPECT_NEAR(sum.x / light, 1, 1e-5) << size.x << " x " << size.y << ", level " << l;
             EXPECT_NEAR(sum.y / light, 0.5, 1e-5);

@@ -14,34 +14,34 @@ TEST(Pattanaik, HalfSaturationsAreThoseOfTheTable) {
                             {1, 75.3453, 9.89445},      {10, 350.759, 67.4101},    {25, 646.106, 144.658},
                             {100, 1628.08, 459.260},    {1e3, 7556.90, 3128.90},   {1e4, 35076, 21317}};
     for (const auto& [adaptation, cones, rods] : table) {
-        EXPECT_NEAR(pattanaik::cone_sigma(adaptation) / cones, 1, 2e-5) << adaptation;
-        EXPECT_NEAR(pattanaik::rod_sigma(adaptation) / rods, 1, 3e-5) << adaptation;
+        EXPECT_NEAR(vision::pattanaik::cone_sigma(adaptation) / cones, 1, 2e-5) << adaptation;
+        EXPECT_NEAR(vision::pattanaik::rod_sigma(adaptation) / rods, 1, 3e-5) << adaptation;
     }
 }
 
 // dB/dt = (1 - B) / tau - B G / (tau half), in very small steps.
 TEST(Pattanaik, TimeIsIntegratedExactly) {
-    pattanaik::State small = pattanaik::adapted(2000, 2000);
-    const pattanaik::State once = pattanaik::after(small, 0.5, 0.25, 3);
+    vision::pattanaik::State small = vision::pattanaik::adapted(2000, 2000);
+    const vision::pattanaik::State once = vision::pattanaik::after(small, 0.5, 0.25, 3);
     double b = small.cone_pigment, r = small.rod_pigment;
     for (int i = 0; i < 30000; ++i) {
-        small = pattanaik::after(small, 0.5, 0.25, 1e-4);
+        small = vision::pattanaik::after(small, 0.5, 0.25, 1e-4);
         b += 1e-4 * ((1 - b) / 110 - b * 0.5 / 2.2e8), r += 1e-4 * ((1 - r) / 400 - r * 0.25 / 16);
     }
     EXPECT_NEAR(small.cones, once.cones, 1e-9);
     EXPECT_NEAR(small.rod_pigment, once.rod_pigment, 1e-9);
     EXPECT_NEAR(once.cone_pigment, b, 1e-6);
     EXPECT_NEAR(once.rod_pigment, r, 1e-6);
-    EXPECT_NEAR(pattanaik::after(once, 7, 7, 1e5).rod_pigment, 0.04 / 7.04, 1e-9);
-    EXPECT_NEAR(pattanaik::after(once, 7, 7, 0).cones, once.cones, 1e-12);
+    EXPECT_NEAR(vision::pattanaik::after(once, 7, 7, 1e5).rod_pigment, 0.04 / 7.04, 1e-9);
+    EXPECT_NEAR(vision::pattanaik::after(once, 7, 7, 0).cones, once.cones, 1e-12);
 }
 
 // The observer of the display sees what it shows: adapted to 25 cd/m^2 without rods the picture is the scene over 125
 // cd/m^2.
 TEST(Pattanaik, TheDisplaysObserverSeesTheSceneAsItIs) {
-    pattanaik::State state = pattanaik::adapted(25, 25);
+    vision::pattanaik::State state = vision::pattanaik::adapted(25, 25);
     state.rod_pigment = 0, state.cone_pigment = 1;
-    const pattanaik::Appearance appearance(state);
+    const vision::pattanaik::Appearance appearance(state);
     for (double luminance : {4.0, 25.0, 100.0, 120.0})
         EXPECT_NEAR(appearance(luminance, luminance).luminance, luminance / 125, 1e-9) << luminance;
     EXPECT_EQ(appearance(10, 10).cone_share, 1);
@@ -51,7 +51,8 @@ TEST(Pattanaik, TheDisplaysObserverSeesTheSceneAsItIs) {
 
 // What is brighter for rods is shown brighter and greyer, in dim light and not by day.
 TEST(Pattanaik, RodsSeeScotopicLuminance) {
-    const pattanaik::Appearance night(pattanaik::adapted(0.01, 0.02)), day(pattanaik::adapted(1000, 2000));
+    const vision::pattanaik::Appearance night(vision::pattanaik::adapted(0.01, 0.02)),
+        day(vision::pattanaik::adapted(1000, 2000));
     EXPECT_GT(night(0.01, 0.04).luminance, 1.3 * night(0.01, 0.01).luminance);
     EXPECT_LT(night(0.01, 0.04).cone_share, night(0.01, 0.01).cone_share);
     EXPECT_NEAR(day(1000, 4000).luminance / day(1000, 1000).luminance, 1, 1e-3);
@@ -60,7 +61,7 @@ TEST(Pattanaik, RodsSeeScotopicLuminance) {
 
 TEST(Pattanaik, IsMonotoneAndGoesGreyInTheDark) {
     for (double adaptation : {0.01, 1.0, 100.0, 1e4}) {
-        const pattanaik::Appearance appearance(pattanaik::adapted(adaptation, 2.5 * adaptation));
+        const vision::pattanaik::Appearance appearance(vision::pattanaik::adapted(adaptation, 2.5 * adaptation));
         double before = -1;
         for (double l = -4; l < 7; l += 0.1) {
             const double shown = appearance(std::pow(10, l), 2.5 * std::pow(10, l)).luminance;
@@ -68,8 +69,8 @@ TEST(Pattanaik, IsMonotoneAndGoesGreyInTheDark) {
             before = shown;
         }
     }
-    EXPECT_LT(pattanaik::Appearance(pattanaik::adapted(0.01, 0.01))(0.01, 0.01).cone_share, 0.1);
-    EXPECT_GT(pattanaik::Appearance(pattanaik::adapted(1000, 1000))(1000, 1000).cone_share, 0.95);
+    EXPECT_LT(vision::pattanaik::Appearance(vision::pattanaik::adapted(0.01, 0.01))(0.01, 0.01).cone_share, 0.1);
+    EXPECT_GT(vision::pattanaik::Appearance(vision::pattanaik::adapted(1000, 1000))(1000, 1000).cone_share, 0.95);
 }
 
 }  // namespace

@@ -29,18 +29,18 @@ std::vector<double> street(double middle = -1) {
     for (double& l : all) l = std::pow(10, log(random));
     return all;
 }
-double scale_of(const std::vector<float>& rgb) { return plausible_scale(relative_luminance(rgb)); }
+double scale_of(const std::vector<float>& rgb) { return vision::plausible_scale(vision::relative_luminance(rgb)); }
 
 // Floats hold seven digits, the scale has six.
 constexpr double kDigits = 1e-5;
 
 TEST(RelativePicture, OfOneLuminanceIsAsBrightAsTheBrightestScene) {
     for (const double l : {1e-6, 0.18, 1.0, 4e5}) {
-        const RelativeLuminance found = relative_luminance(uniform(640, l));
+        const vision::RelativeLuminance found = vision::relative_luminance(uniform(640, l));
         EXPECT_NEAR(found.log_average / l, 1, kDigits);
         EXPECT_NEAR(found.highlights / l, 1, kDigits);
-        EXPECT_EQ(plausible_luminance(found), 3000);
-        EXPECT_NEAR(plausible_scale(found) * l / 3000, 1, kDigits);
+        EXPECT_EQ(vision::plausible_luminance(found), 3000);
+        EXPECT_NEAR(vision::plausible_scale(found) * l / 3000, 1, kDigits);
     }
 }
 
@@ -48,21 +48,21 @@ TEST(RelativePicture, OfTwoLuminancesFollowsTheRule) {
     // 900 of 1 and 100 of 100: the log average is 10^(0.1 2), a tenth of a thousandth of 1000 pixels is left out.
     std::vector<double> two(1000, 1.0);
     std::fill(two.begin(), two.begin() + 100, 100.0);
-    const RelativeLuminance found = relative_luminance(greys(two));
+    const vision::RelativeLuminance found = vision::relative_luminance(greys(two));
     EXPECT_NEAR(found.log_average, std::pow(10, 2 * 99 / 999.0), 1e-5)
         << "of 999 pixels, as the brightest thousandth does not count";
     EXPECT_NEAR(found.highlights, 100, 1e-3);
-    EXPECT_NEAR(plausible_luminance(found), std::pow(10, 3.5 - 0.75 * (2 - 2 * 99 / 999.0)), 1e-3);
-    EXPECT_NEAR(plausible_scale(found), plausible_luminance(found) / found.log_average,
-                kDigits * plausible_scale(found));
-    EXPECT_EQ(plausible_luminance({1, 1e9}), 0.1) << "no darker than a night";
+    EXPECT_NEAR(vision::plausible_luminance(found), std::pow(10, 3.5 - 0.75 * (2 - 2 * 99 / 999.0)), 1e-3);
+    EXPECT_NEAR(vision::plausible_scale(found), vision::plausible_luminance(found) / found.log_average,
+                kDigits * vision::plausible_scale(found));
+    EXPECT_EQ(vision::plausible_luminance({1, 1e9}), 0.1) << "no darker than a night";
 }
 
 // Half of the brightest hundredth, less the brightest thousandth: 4 of 9 logarithms of 2.
 TEST(RelativePicture, HighlightsAreALogAverage) {
     std::vector<double> lamps(1000, 1.0);
     std::fill(lamps.begin(), lamps.begin() + 5, 100.0);
-    EXPECT_NEAR(relative_luminance(greys(lamps)).highlights, std::pow(10, 2 * 4 / 9.0), 1e-4);
+    EXPECT_NEAR(vision::relative_luminance(greys(lamps)).highlights, std::pow(10, 2 * 4 / 9.0), 1e-4);
 }
 
 TEST(RelativePicture, BordersSunsAndDamageDoNotCount) {
@@ -79,7 +79,7 @@ TEST(RelativePicture, BordersSunsAndDamageDoNotCount) {
     // hundredth is brightest.
     std::vector<float> noisy = rgb;
     append(noisy, 1000, 1e-9f, 1e-9f, 1e-9f);
-    EXPECT_NEAR(relative_luminance(noisy).log_average / relative_luminance(rgb).log_average, 1, 2e-3);
+    EXPECT_NEAR(vision::relative_luminance(noisy).log_average / vision::relative_luminance(rgb).log_average, 1, 2e-3);
     EXPECT_NEAR(scale_of(noisy) / scale, 1, 0.05);
     // A sun of less than a thousandth takes the place of as many highlights that did not count either.
     std::vector<float> sunny = uniform(5000, 0.2);
@@ -144,9 +144,9 @@ TEST(RelativePicture, NothingJumps) {
 
 // What the rule says of scenes people know: the order is that of the hours.
 TEST(RelativePicture, HighlightsThatStandOutAreNight) {
-    EXPECT_NEAR(plausible_luminance({1, 10}), 562, 1) << "a street by day";
-    EXPECT_NEAR(plausible_luminance({1, 1e3}), 17.8, 0.1) << "a room with a window";
-    EXPECT_NEAR(plausible_luminance({1, 1e5}), 0.562, 0.001) << "a street with lamps";
+    EXPECT_NEAR(vision::plausible_luminance({1, 10}), 562, 1) << "a street by day";
+    EXPECT_NEAR(vision::plausible_luminance({1, 1e3}), 17.8, 0.1) << "a room with a window";
+    EXPECT_NEAR(vision::plausible_luminance({1, 1e5}), 0.562, 0.001) << "a street with lamps";
 }
 
 }  // namespace

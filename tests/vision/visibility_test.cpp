@@ -6,6 +6,8 @@
 namespace vesper::test {
 namespace {
 
+using vision::target_threshold;
+
 // tone-mapping.md, section 8: k = 2.6, 10 arc minutes, 0.2 s, 23 years. Six digits.
 TEST(Visibility, ThresholdsAreThoseOfTheTable) {
     const double table[][2]{{0.1, 0.0244061}, {0.5, 0.0542973}, {1, 0.0807713},
@@ -19,9 +21,9 @@ TEST(Visibility, ThresholdsAreThoseOfTheTable) {
 }
 
 TEST(Visibility, LevelIsDifferenceOverThreshold) {
-    EXPECT_NEAR(visibility_level(1 + 3 * 0.0807713, 1), 3, 1e-4);
-    EXPECT_NEAR(visibility_level(1 - 2 * 0.0476494, 1), -2, 1e-4) << "darker";
-    EXPECT_EQ(visibility_level(1, 1), 0);
+    EXPECT_NEAR(vision::visibility_level(1 + 3 * 0.0807713, 1), 3, 1e-4);
+    EXPECT_NEAR(vision::visibility_level(1 - 2 * 0.0476494, 1), -2, 1e-4) << "darker";
+    EXPECT_EQ(vision::visibility_level(1, 1), 0);
 }
 
 // The three pieces over background luminance meet within 2 %, and older eyes see less.

@@ -10,31 +10,34 @@
 
 #include "gpu/memory.h"
 
-namespace vesper {
+namespace vesper::test {
 namespace {
+
+using window::Scaling;
 
 class PresenterTest : public testing::Test {
 protected:
     std::string complaints;
-    Device device{{.select = "", .validation = true, .on_message = [this](const std::string& message) {
-                       complaints += message + "\n";
-                   }}};
+    gpu::Device device{{.select = "", .validation = true, .on_message = [this](const std::string& message) {
+                            complaints += message + "\n";
+                        }}};
     std::vector<uint8_t> letters = std::vector<uint8_t>(4, 255);
-    Presenter presenter{device, {2, 2}, letters};
+    window::Presenter presenter{device, {2, 2}, letters};
 
     ~PresenterTest() override { EXPECT_EQ(complaints, ""); }
 
     /// What an image of a window would hold, as words of its format.
-    std::vector<uint32_t> drawn(VkFormat format, VkExtent2D window, const Picture& picture, Scaling scaling,
-                                const Overlay& overlay = {}, bool hdr10 = false) {
-        const OwnedImage image = make_image(
+    std::vector<uint32_t> drawn(VkFormat format, VkExtent2D window, const window::Picture& picture, Scaling scaling,
+                                const window::Overlay& overlay = {}, bool hdr10 = false) {
+        const gpu::OwnedImage image = gpu::make_image(
             device,
-            image_info(format, window, 1, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
-        Arena arena(device);
+            gpu::image_info(format, window, 1, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
+        gpu::Arena arena(device);
         arena.bind(image.get());
-        const OwnedImageView view = make_view(device, image.get(), format);
+        const gpu::OwnedImageView view = gpu::make_view(device, image.get(), format);
         const uint64_t bytes = uint64_t(window.width) * window.height * 4;
-        const HostBuffer back(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, HostBuffer::Direction::FromDevice);
+        const gpu::HostBuffer back(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                   gpu::HostBuffer::Direction::FromDevice);
         device.run_once([&](VkCommandBuffer commands) {
             const auto change = [&](VkImageLayout from, VkImageLayout to) {
                 const VkImageMemoryBarrier2 barrier{
@@ -87,7 +90,7 @@ std::vector<uint32_t> words_of(VkExtent2D extent, uint32_t bits) {
     return words;
 }
 
-Picture picture_of(const std::vector<uint32_t>& words, VkExtent2D extent, uint32_t bits = 8) {
+window::Picture picture_of(const std::vector<uint32_t>& words, VkExtent2D extent, uint32_t bits = 8) {
     return {{reinterpret_cast<const uint8_t*>(words.data()), words.size() * 4}, extent, bits};
 }
 
@@ -142,7 +145,7 @@ TEST_F(PresenterTest, AFlatPictureStaysFlatAtAnySize) {
     const VkExtent2D extent{13, 9};
     const std::vector<uint32_t> words(13 * 9, 0xff5a3c11u);
     for (const VkExtent2D window : {VkExtent2D{1, 1}, VkExtent2D{5, 3}, VkExtent2D{31, 57}}) {
-        const Placement at = place(extent, window, Scaling::Fit);
+        const window::Placement at = window::place(extent, window, Scaling::Fit);
         const auto shown = drawn(VK_FORMAT_R8G8B8A8_UNORM, window, picture_of(words, extent), Scaling::Fit);
         for (uint32_t y = 0; y < window.height; ++y)
             for (uint32_t x = 0; x < window.width; ++x) {
@@ -157,12 +160,12 @@ TEST_F(PresenterTest, InstrumentsLieOverThePictureWithinTheirClips) {
     const VkExtent2D extent{8, 4};
     const std::vector<uint32_t> words(32, 0xff000000u);
     // A square over all, half opaque white, in a clip that leaves the window.
-    const Overlay overlay{.vertices = {{{0, 0}, {0.5f, 0.5f}, 0x80ffffffu},
-                                       {{8, 0}, {0.5f, 0.5f}, 0x80ffffffu},
-                                       {{8, 4}, {0.5f, 0.5f}, 0x80ffffffu},
-                                       {{0, 4}, {0.5f, 0.5f}, 0x80ffffffu}},
-                          .indices = {0, 1, 2, 0, 2, 3},
-                          .batches = {{0, 6, {{2, 1}, {100, 2}}}, {0, 6, {{8, 0}, {1, 1}}}}};
+    const window::Overlay overlay{.vertices = {{{0, 0}, {0.5f, 0.5f}, 0x80ffffffu},
+                                               {{8, 0}, {0.5f, 0.5f}, 0x80ffffffu},
+                                               {{8, 4}, {0.5f, 0.5f}, 0x80ffffffu},
+                                               {{0, 4}, {0.5f, 0.5f}, 0x80ffffffu}},
+                                  .indices = {0, 1, 2, 0, 2, 3},
+                                  .batches = {{0, 6, {{2, 1}, {100, 2}}}, {0, 6, {{8, 0}, {1, 1}}}}};
     const auto shown = drawn(VK_FORMAT_R8G8B8A8_UNORM, extent, picture_of(words, extent), Scaling::Fit, overlay);
     for (uint32_t y = 0; y < 4; ++y)
         for (uint32_t x = 0; x < 8; ++x)
@@ -171,7 +174,7 @@ TEST_F(PresenterTest, InstrumentsLieOverThePictureWithinTheirClips) {
 
 TEST_F(PresenterTest, WhiteOfInstrumentsIsGraphicsWhiteInHdr10) {
     const VkExtent2D extent{2, 2};
-    const Overlay overlay{
+    const window::Overlay overlay{
         .vertices = {{{-2, -2}, {0.5f, 0.5f}, ~0u}, {{6, -2}, {0.5f, 0.5f}, ~0u}, {{-2, 6}, {0.5f, 0.5f}, ~0u}},
         .indices = {0, 1, 2},
         .batches = {{0, 3, {{0, 0}, {2, 2}}}}};
@@ -181,20 +184,20 @@ TEST_F(PresenterTest, WhiteOfInstrumentsIsGraphicsWhiteInHdr10) {
 }
 
 TEST(Placement, IsCentredAndNeverEmpty) {
-    const auto is = [](const Placement& p, VkRect2D area, uint32_t times) {
+    const auto is = [](const window::Placement& p, VkRect2D area, uint32_t times) {
         EXPECT_EQ(p.area.offset.x, area.offset.x);
         EXPECT_EQ(p.area.offset.y, area.offset.y);
         EXPECT_EQ(p.area.extent.width, area.extent.width);
         EXPECT_EQ(p.area.extent.height, area.extent.height);
         EXPECT_EQ(p.times, times);
     };
-    is(place({100, 50}, {100, 50}, Scaling::Fit), {{0, 0}, {100, 50}}, 1);
-    is(place({100, 50}, {200, 200}, Scaling::Fit), {{0, 50}, {200, 100}}, 2);
-    is(place({100, 50}, {250, 200}, Scaling::Fit), {{0, 37}, {250, 125}}, 0);
-    is(place({100, 50}, {250, 200}, Scaling::Whole), {{25, 50}, {200, 100}}, 2);
-    is(place({100, 50}, {60, 300}, Scaling::Whole), {{0, 135}, {60, 30}}, 0);
-    is(place({4000, 10}, {20, 20}, Scaling::Fit), {{0, 9}, {20, 1}}, 0);
+    is(window::place({100, 50}, {100, 50}, Scaling::Fit), {{0, 0}, {100, 50}}, 1);
+    is(window::place({100, 50}, {200, 200}, Scaling::Fit), {{0, 50}, {200, 100}}, 2);
+    is(window::place({100, 50}, {250, 200}, Scaling::Fit), {{0, 37}, {250, 125}}, 0);
+    is(window::place({100, 50}, {250, 200}, Scaling::Whole), {{25, 50}, {200, 100}}, 2);
+    is(window::place({100, 50}, {60, 300}, Scaling::Whole), {{0, 135}, {60, 30}}, 0);
+    is(window::place({4000, 10}, {20, 20}, Scaling::Fit), {{0, 9}, {20, 1}}, 0);
 }
 
 }  // namespace
-}  // namespace vesper
+}  // namespace vesper::test

@@ -5,7 +5,7 @@
 
 #include "render/operators/operator.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct DevlinSettings {
     static constexpr OperatorTraits traits{.form = 10, .chromatic = true};
@@ -29,9 +29,9 @@ struct DevlinSettings {
               chromatic_adaptation);
     }
     bool counts_finely() const { return true; }
-    OperatorBlock block(const Display&) const {
+    OperatorBlock block(const vision::Display&) const {
         return {glm::vec4(std::exp(-intensity), contrast, light_adaptation, chromatic_adaptation)};
     }
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

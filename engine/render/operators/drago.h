@@ -5,7 +5,7 @@
 
 #include "render/operators/operator.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct DragoSettings {
     static constexpr OperatorTraits traits{};
@@ -17,7 +17,7 @@ struct DragoSettings {
         visit(OperatorOption{"--bias", "drago: less lifts dark parts, more keeps the contrast of bright ones", 0.5, 1},
               bias);
     }
-    OperatorBlock block(const Display&) const { return {glm::vec4(std::log(bias) / std::log(0.5f), 0, 0, 0)}; }
+    OperatorBlock block(const vision::Display&) const { return {glm::vec4(std::log(bias) / std::log(0.5f), 0, 0, 0)}; }
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -3,12 +3,12 @@
 
 #include "render/operators/operator.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct DurandSettings : NoOptions {
     static constexpr OperatorTraits traits{.form = shared::kToneRods, .remembers = true, .chromatic = true};
 
-    OperatorBlock block(const Display&) const { return {glm::vec4(1.05f, 0.97f, 1.27f, 0)}; }  // rods add blue
+    OperatorBlock block(const vision::Display&) const { return {glm::vec4(1.05f, 0.97f, 1.27f, 0)}; }  // rods add blue
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -3,12 +3,12 @@
 
 #include "render/operators/operator.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct FerwerdaSettings : NoOptions {
     static constexpr OperatorTraits traits{.form = shared::kToneRods, .ceiling = shared::kCeilingHuman};
 
-    OperatorBlock block(const Display&) const { return {glm::vec4(1, 1, 1, 0)}; }  // rods add grey
+    OperatorBlock block(const vision::Display&) const { return {glm::vec4(1, 1, 1, 0)}; }  // rods add grey
     /// By its luminance as an eye sees it that is adapted to colours, and what rods add.
     static double shown(const shared::ToneCurve& curve, double luminance) {
         const auto sum = [](glm::vec4 row) { return row.x + row.y + row.z; };
@@ -20,4 +20,4 @@ struct FerwerdaSettings : NoOptions {
     }
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

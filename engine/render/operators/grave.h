@@ -3,10 +3,10 @@
 
 #include "render/operators/operator.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct GraveSettings : NoOptions {
     static constexpr OperatorTraits traits{.ceiling = shared::kCeilingCones, .histogram = true, .bands = true};
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

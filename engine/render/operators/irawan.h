@@ -3,10 +3,10 @@
 
 #include "render/operators/operator.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct IrawanSettings : NoOptions {
     static constexpr OperatorTraits traits{.remembers = true, .histogram = true};
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

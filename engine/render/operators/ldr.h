@@ -3,7 +3,7 @@
 
 #include "render/operators/operator.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct LdrSettings : NoOptions {
     static constexpr OperatorTraits traits{.form = shared::kToneLdr};
@@ -11,4 +11,4 @@ struct LdrSettings : NoOptions {
     static double shown(const shared::ToneCurve&, double luminance) { return luminance; }
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "render/operators/operator.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct LinearSettings {
     static constexpr OperatorTraits traits{.form = shared::kToneLinear};
@@ -22,10 +22,10 @@ struct LinearSettings {
     void check() const {
         if (high > 0 && high <= low) throw Error("--linear-max must be more than --linear-min");
     }
-    OperatorBlock block(const Display&) const { return {glm::vec4(low, high, 0, 0)}; }
+    OperatorBlock block(const vision::Display&) const { return {glm::vec4(low, high, 0, 0)}; }
     static double shown(const shared::ToneCurve& curve, double luminance) {
         return (luminance - double(curve.block[0].x)) * double(curve.block[0].y);
     }
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

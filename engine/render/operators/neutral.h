@@ -3,7 +3,7 @@
 
 #include "render/operators/operator.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct NeutralSettings {
     static constexpr OperatorTraits traits{.form = 11};
@@ -17,7 +17,7 @@ struct NeutralSettings {
                              0, 1e9, false},
               white);
     }
-    OperatorBlock block(const Display&) const { return {glm::vec4(white, 0, 0, 0)}; }
+    OperatorBlock block(const vision::Display&) const { return {glm::vec4(white, 0, 0, 0)}; }
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

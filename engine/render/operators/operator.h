@@ -19,7 +19,7 @@
 #include "shared/tone.h"
 #include "vision/display.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct OperatorTraits {
     uint32_t form = shared::kToneCurve;      ///< how pixels are mapped: shared::kTone*, or the operator's own value
@@ -56,4 +56,4 @@ struct NoOptions {
     void options(const Visit&) {}
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

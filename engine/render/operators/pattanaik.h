@@ -3,7 +3,7 @@
 
 #include "render/operators/operator.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct PattanaikSettings {
     static constexpr OperatorTraits traits{
@@ -16,7 +16,7 @@ struct PattanaikSettings {
         visit(OperatorOption{"--rod-constant", "pattanaik: constant of the rods (pfstmo_pattanaik00: 5e4)", 1, 1e9},
               rod_constant);
     }
-    OperatorBlock block(const Display&) const { return {glm::vec4(rod_constant, 0, 0, 0)}; }
+    OperatorBlock block(const vision::Display&) const { return {glm::vec4(rod_constant, 0, 0, 0)}; }
     static double shown(const shared::ToneCurve& curve, double luminance) {
         const glm::dvec4 node = node_at(curve, luminance);
         const double seen = std::clamp(node.x + node.z + double(curve.block[0].x), 0.0, 0.9999999);
@@ -24,4 +24,4 @@ struct PattanaikSettings {
     }
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -3,7 +3,7 @@
 
 #include "render/operators/operator.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct ReinhardSettings {
     static constexpr OperatorTraits traits{.form = shared::kToneReinhard};
@@ -31,11 +31,11 @@ struct ReinhardSettings {
               white);
     }
     bool counts_finely() const { return automatic; }
-    OperatorBlock block(const Display&) const { return {glm::vec4(key, white, automatic ? 1 : 0, 0)}; }
+    OperatorBlock block(const vision::Display&) const { return {glm::vec4(key, white, automatic ? 1 : 0, 0)}; }
     static double shown(const shared::ToneCurve& curve, double luminance) {
         const double x = double(curve.block[0].x) * luminance;
         return x * (1 + x * double(curve.block[0].y)) / (1 + x);
     }
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

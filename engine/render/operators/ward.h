@@ -3,11 +3,11 @@
 
 #include "render/operators/operator.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct WardSettings : NoOptions {
     static constexpr OperatorTraits traits{
         .ceiling = shared::kCeilingHuman, .adapt_to = shared::kAdaptAverage, .histogram = true};
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -5,14 +5,17 @@
 #include "shaders/adapt/adapt.comp.inc"
 #include "shared/photometry.h"
 
-namespace vesper {
+namespace vesper::render {
 namespace {
 
-constexpr Shader kAdapt{"adapt.comp", adapt_comp};
+using graph::load, graph::store;
+
+constexpr gpu::Shader kAdapt{"adapt.comp", adapt_comp};
 constexpr const char* kEyeHistory = "eye";  // on the device, from frame to frame
 
-shared::ReceptorParameters receptors_of(ReceptorKind kind, const Receptors& r, ThresholdBreaks breaks) {
-    const ReceptorModel model(kind, r, breaks);
+shared::ReceptorParameters receptors_of(vision::ReceptorKind kind, const vision::Receptors& r,
+                                        vision::ThresholdBreaks breaks) {
+    const vision::ReceptorModel model(kind, r, breaks);
     return {.response_step = float(model.response_step()),
             .dark_sigma = float(model.dark_sigma()),
             .factor = float(r.threshold_factor),
@@ -26,12 +29,13 @@ shared::ReceptorParameters receptors_of(ReceptorKind kind, const Receptors& r, T
 }  // namespace
 
 shared::ToneParameters tone_parameters(const OperatorInfo& op, const HistogramSettings& bins, const ToneSettings& tone,
-                                       const Display& display, const FovealView& fovea, float seconds) {
+                                       const vision::Display& display, const FovealView& fovea, float seconds) {
     const uint32_t ceiling = tone.ceiling.value_or(op.ceiling);
     // What others have computed with the published curves is to be met; an eye that adapts needs continuous ones.
-    const ThresholdBreaks breaks =
-        ceiling == shared::kCeilingEye || op.bands ? ThresholdBreaks::continuous() : ThresholdBreaks::published();
-    const ReceptorModel viewer(ReceptorKind::Cones, Receptors::cones());
+    const vision::ThresholdBreaks breaks = ceiling == shared::kCeilingEye || op.bands
+                                               ? vision::ThresholdBreaks::continuous()
+                                               : vision::ThresholdBreaks::published();
+    const vision::ReceptorModel viewer(vision::ReceptorKind::Cones, vision::Receptors::cones());
     const float texel = float(1u << fovea.level);
     const OperatorBlock block = tone.operators.block(op.tone_operator, display);
     return {.bins = bins.bins,
@@ -54,8 +58,8 @@ shared::ToneParameters tone_parameters(const OperatorInfo& op, const HistogramSe
             .colour_tiles = {},
             .viewer_sigma = float(viewer.adapted_sigma(double(display.high()) * double(shared::kViewerOfWhite))),
             .viewer_step = float(viewer.response_step()),
-            .cones = receptors_of(ReceptorKind::Cones, tone.observer.observed_cones(), breaks),
-            .rods = receptors_of(ReceptorKind::Rods, tone.observer.observed_rods(), breaks),
+            .cones = receptors_of(vision::ReceptorKind::Cones, tone.observer.observed_cones(), breaks),
+            .rods = receptors_of(vision::ReceptorKind::Rods, tone.observer.observed_rods(), breaks),
             .settings = {block[0], block[1]}};
 }
 
@@ -63,18 +67,18 @@ Adaptation add_adaptation(const FrameContext& frame, const AdaptationInputs& inp
                           shared::ToneParameters parameters) {
     const auto& [pyramid, foveal_level, histogram, colours, eye] = inputs;
     parameters.colour_tiles = {colours.extent.width, colours.extent.height};
-    const Resource curve =
-        frame.graph.transient("tone curve", buffer_shape(sizeof(shared::ToneCurve), VK_FORMAT_R32G32B32A32_SFLOAT));
-    const History history = frame.graph.history(kEyeHistory, buffer_shape(sizeof(shared::EyeState)));
+    const graph::Resource curve = frame.graph.transient(
+        "tone curve", graph::buffer_shape(sizeof(shared::ToneCurve), VK_FORMAT_R32G32B32A32_SFLOAT));
+    const graph::History history = frame.graph.history(kEyeHistory, graph::buffer_shape(sizeof(shared::EyeState)));
     // Declared in both cases: frames with the same resources keep their memory.
-    const Resource value = frame.graph.upload("eye of the host", std::vector{eye.value});
+    const graph::Resource value = frame.graph.upload("eye of the host", std::vector{eye.value});
     frame.graph.dispatch("adapt", frame.kernels.get(kAdapt, {uint32_t(op.tone_operator)}),
                          {load(pyramid.levels.back()), load(pyramid.levels.at(foveal_level - 1)), load(histogram),
                           load(frame.graph.upload("tone parameters", std::vector{parameters})),
                           load(eye.on_device ? history.previous : value), store(history.current), store(curve),
                           load(colours.tiles ? colours.tiles : pyramid.levels.back())},
-                         Groups{});
+                         graph::Groups{});
     return {curve, history.current};
 }
 
-}  // namespace vesper
+}  // namespace vesper::render

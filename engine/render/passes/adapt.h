@@ -13,7 +13,7 @@
 #include "vision/display.h"
 #include "vision/eye.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct ToneSettings {
     OperatorSettings operators;
@@ -24,7 +24,7 @@ struct ToneSettings {
                                  ///< colour, and of white for what the eye adapts to
     uint32_t gamut =
         shared::kGamutLuminance;  ///< shared::kGamut*: what gives way where the display is not as bright in a colour
-    Observer observer;            ///< whose eye it is
+    vision::Observer observer;    ///< whose eye it is
     glm::vec2 gaze{0.5f};         ///< where it looks, parts of the image from its top left
     std::optional<uint32_t> adapt_to;  ///< shared::kAdapt*; default: as the operator has it
     std::optional<uint32_t> ceiling;   ///< shared::kCeiling*; default: as the operator has it
@@ -39,19 +39,19 @@ struct FovealView {
 };
 
 shared::ToneParameters tone_parameters(const OperatorInfo&, const HistogramSettings&, const ToneSettings&,
-                                       const Display&, const FovealView&, float seconds);
+                                       const vision::Display&, const FovealView&, float seconds);
 
 struct AdaptationInputs {
     const Pyramid& pyramid;
     uint32_t foveal_level;
-    Resource histogram;
+    graph::Resource histogram;
     Colours colours = {};  ///< of operators whose eye adapts to colour
     EyeState eye = {};
 };
 
 struct Adaptation {
-    Resource curve;  ///< shared::ToneCurve
-    Resource eye;    ///< shared::EyeState after the frame
+    graph::Resource curve;  ///< shared::ToneCurve
+    graph::Resource eye;    ///< shared::EyeState after the frame
 };
 
 /// Lets the eye adapt to the light where it looks (vision/eye.h; exact for any time step, at once in the first frame),
@@ -60,4 +60,4 @@ struct Adaptation {
 Adaptation add_adaptation(const FrameContext& frame, const AdaptationInputs& inputs, const OperatorInfo& op,
                           shared::ToneParameters parameters);
 
-}  // namespace vesper
+}  // namespace vesper::render

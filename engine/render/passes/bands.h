@@ -4,7 +4,7 @@
 #include "render/passes/pyramid.h"
 #include "shared/tone.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct BandsSettings {
     bool on = true;
@@ -17,7 +17,7 @@ struct BandsSettings {
 /// and on the display cones adapted to 0.3 of its white (Ferwerda et al. 1996; Grave and Bremond 2008, reconstructed),
 /// linear between such texels; never more contrast than in the scene. Luminance above the bands is mapped by `curve`.
 /// rgba32f, cd/m^2 on the display, before its limits. Where bands are not on, returns `scene`.
-Resource add_bands(const FrameContext& frame, Resource scene, const Pyramid& pyramid, uint32_t foveal_level,
-                   Resource curve, const BandsSettings& settings);
+graph::Resource add_bands(const FrameContext& frame, graph::Resource scene, const Pyramid& pyramid,
+                          uint32_t foveal_level, graph::Resource curve, const BandsSettings& settings);
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -4,10 +4,12 @@
 #include "shaders/blocks/merge_lamps.comp.inc"
 #include "shared/blocks.h"
 
-namespace vesper {
+namespace vesper::render {
 namespace {
 
-constexpr Shader kCullLamps{"cull_lamps.comp", cull_lamps_comp}, kMergeLamps{"merge_lamps.comp", merge_lamps_comp};
+using graph::load, graph::sample, graph::store, graph::update;
+
+constexpr gpu::Shader kCullLamps{"cull_lamps.comp", cull_lamps_comp}, kMergeLamps{"merge_lamps.comp", merge_lamps_comp};
 
 constexpr uint32_t kBlockCapacity = 256;  // lamps of a block of pixels; more, and its pixels evaluate all lamps
 
@@ -25,10 +27,10 @@ std::vector<uint32_t> empty_classes() {
 }  // namespace
 
 Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, float tolerance) {
-    FrameGraph& graph = frame.graph;
+    graph::FrameGraph& graph = frame.graph;
     const VkExtent2D extent = frame.view.extent;
     const LampKinds kinds = lamp_kinds(clusters);
-    const Groups grid = cover(extent.width, extent.height, shared::kBlockSize, shared::kBlockSize);
+    const graph::Groups grid = graph::cover(extent.width, extent.height, shared::kBlockSize, shared::kBlockSize);
     const glm::uvec2 pixels{extent.width, extent.height};
     const uint32_t count = grid.x * grid.y;
     if ((count + shared::kBlocksPerGroup - 1) / shared::kBlocksPerGroup >
@@ -36,7 +38,7 @@ Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clus
         throw Error("an image of " + std::to_string(extent.width) + " x " + std::to_string(extent.height) +
                     " has more blocks than the device can shade in one dispatch");
     const auto words = [&](const char* name, uint64_t number) {
-        return graph.transient(name, buffer_shape(number * kWord, kWords));
+        return graph.transient(name, graph::buffer_shape(number * kWord, kWords));
     };
     const Blocks blocks{
         .columns = grid.x,
@@ -44,21 +46,22 @@ Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clus
         .capacity = kBlockCapacity,
         .counts = words("block counts", count * 2),
         .entries = words("block entries", uint64_t(count) * kBlockCapacity),
-        .sums = graph.transient("block sums", buffer_shape(uint64_t(count) * shared::kMergedTexels * sizeof(glm::vec4),
-                                                           VK_FORMAT_R32G32B32A32_SFLOAT)),
+        .sums = graph.transient("block sums",
+                                graph::buffer_shape(uint64_t(count) * shared::kMergedTexels * sizeof(glm::vec4),
+                                                    VK_FORMAT_R32G32B32A32_SFLOAT)),
         .class_counts = words("class counts", shared::kBlockClasses * shared::kClassWords),
         .class_blocks = words("class blocks", uint64_t(count) * shared::kBlockClasses)};
 
-    const Kernel& cull = frame.kernels.get(kCullLamps, {kinds.powers, kinds.tables});
+    const gpu::Kernel& cull = frame.kernels.get(kCullLamps, {kinds.powers, kinds.tables});
     graph.dispatch(
         "cull lamps", cull,
         {load(surfaces.surface), sample(clusters.lamps), sample(clusters.counts), sample(clusters.indices),
          store(blocks.counts), store(blocks.entries), sample(clusters.tables.texels), sample(clusters.block_slices)},
         shared::CullPush{clusters.push, pixels, grid.x, kBlockCapacity},
-        cover(grid.x, grid.y, cull.group[0], cull.group[1]));
+        graph::cover(grid.x, grid.y, cull.group[0], cull.group[1]));
 
     graph.copy("begin classes", graph.upload("no blocks", empty_classes(), kWords), blocks.class_counts);
-    const Kernel& merge = frame.kernels.get(kMergeLamps, {kinds.cones, kinds.powers, kinds.tables, kinds.roads});
+    const gpu::Kernel& merge = frame.kernels.get(kMergeLamps, {kinds.cones, kinds.powers, kinds.tables, kinds.roads});
     graph.dispatch("merge lamps", merge,
                    {load(surfaces.reflectance), load(surfaces.surface), sample(clusters.lamps), update(blocks.counts),
                     update(blocks.entries), store(blocks.sums), sample(clusters.tables.texels),
@@ -70,8 +73,8 @@ Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clus
                                      .capacity = kBlockCapacity,
                                      .roads = clusters.tables.roads,
                                      .tolerance = tolerance},
-                   cover(grid.x, grid.y, merge.group[0], 1));
+                   graph::cover(grid.x, grid.y, merge.group[0], 1));
     return blocks;
 }
 
-}  // namespace vesper
+}  // namespace vesper::render

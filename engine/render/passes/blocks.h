@@ -5,15 +5,15 @@
 #include "render/passes/gbuffer.h"
 #include "shared/blocks.h"
 
-namespace vesper {
+namespace vesper::render {
 
 /// The image in blocks of shared::kBlockSize pixels, in classes by their surfaces and lamps (shared/blocks.h).
 struct Blocks {
     uint32_t columns = 0, count = 0;
-    uint32_t capacity = 0;     ///< of a block's list
-    Resource counts, entries;  ///< lists of the lamps that its pixels evaluate one by one (shared/shade.h)
-    Resource sums;             ///< merged light of the other lamps
-    Resource class_counts, class_blocks;
+    uint32_t capacity = 0;            ///< of a block's list
+    graph::Resource counts, entries;  ///< lists of the lamps that its pixels evaluate one by one (shared/shade.h)
+    graph::Resource sums;             ///< merged light of the other lamps
+    graph::Resource class_counts, class_blocks;
 };
 
 /// Culls the lamps that cannot light any surface of a block. Where a block is one matt plane or one plane of road,
@@ -24,4 +24,4 @@ struct Blocks {
 /// more blocks than the device can shade in one dispatch.
 Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, float tolerance);
 
-}  // namespace vesper
+}  // namespace vesper::render

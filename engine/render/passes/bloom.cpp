@@ -6,10 +6,13 @@
 #include "shaders/bloom/bloom_blur.comp.inc"
 #include "shaders/bloom/bloom_bright.comp.inc"
 
-namespace vesper {
+namespace vesper::render {
 namespace {
 
-constexpr Shader kBloomBright{"bloom_bright.comp", bloom_bright_comp}, kBloomBlur{"bloom_blur.comp", bloom_blur_comp};
+using graph::load, graph::sample, graph::store;
+
+constexpr gpu::Shader kBloomBright{"bloom_bright.comp", bloom_bright_comp},
+    kBloomBlur{"bloom_blur.comp", bloom_blur_comp};
 
 constexpr uint32_t kMaxRadius = 256;  // texels
 
@@ -30,19 +33,19 @@ std::vector<float> gaussian(double sigma) {
 
 }  // namespace
 
-Resource add_bloom(const FrameContext& frame, Resource scene, Resource curve, uint32_t tone, const Display& display,
-                   const BloomSettings& settings) {
+graph::Resource add_bloom(const FrameContext& frame, graph::Resource scene, graph::Resource curve, uint32_t tone,
+                          const vision::Display& display, const BloomSettings& settings) {
     if (settings.gain == 0) return {};
-    FrameGraph& graph = frame.graph;
-    const View& view = frame.view;
-    const Kernel& blur = frame.kernels.get(kBloomBlur);
+    graph::FrameGraph& graph = frame.graph;
+    const gpu_scene::View& view = frame.view;
+    const gpu::Kernel& blur = frame.kernels.get(kBloomBlur);
     constexpr uint32_t shrink = shared::kBloomShrink;
     const VkExtent2D small{(view.extent.width + shrink - 1) / shrink, (view.extent.height + shrink - 1) / shrink};
     const glm::uvec2 size{small.width, small.height};
-    const Shape shape = image_shape(kBloomFormat, small);
-    const Groups groups = cover(small.width, small.height, blur.group[0], blur.group[1]);
+    const graph::Shape shape = graph::image_shape(kBloomFormat, small);
+    const graph::Groups groups = graph::cover(small.width, small.height, blur.group[0], blur.group[1]);
 
-    const Resource bright = graph.transient("bright", shape);
+    const graph::Resource bright = graph.transient("bright", shape);
     graph.dispatch(
         "bright", frame.kernels.get(kBloomBright, {tone}), {load(scene), sample(curve), store(bright)},
         shared::BloomBrightPush{
@@ -52,8 +55,8 @@ Resource add_bloom(const FrameContext& frame, Resource scene, Resource curve, ui
     const std::vector<float> weights =
         gaussian(std::max(1e-3, settings.sigma_degrees / view.degrees_per_pixel() / shrink));
     const uint32_t radius = uint32_t(weights.size()) - 1;
-    const Resource taps = graph.upload("glare weights", weights, VK_FORMAT_R32_SFLOAT);
-    const Resource across = graph.transient("glare across", shape), bloom = graph.transient("glare", shape);
+    const graph::Resource taps = graph.upload("glare weights", weights, VK_FORMAT_R32_SFLOAT);
+    const graph::Resource across = graph.transient("glare across", shape), bloom = graph.transient("glare", shape);
     graph.dispatch("glare across", blur, {load(bright), sample(taps), store(across)},
                    shared::BloomBlurPush{size, {1, 0}, radius}, groups);
     graph.dispatch("glare", blur, {load(across), sample(taps), store(bloom)},
@@ -61,4 +64,4 @@ Resource add_bloom(const FrameContext& frame, Resource scene, Resource curve, ui
     return bloom;
 }
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -5,7 +5,7 @@
 #include "shared/bloom.h"
 #include "vision/display.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct BloomSettings {
     float threshold = 0.9f;       ///< light of its brightest channel, relative to white, from which a pixel glares
@@ -16,7 +16,7 @@ struct BloomSettings {
 /// The paper's glare: the tone-mapped image where it reaches `threshold`, blurred by a normalised Gaussian. Displayed
 /// light (relative), rgba16f at a quarter of the resolution. `tone` is one of shared::kTone*. Without gain there is
 /// none.
-Resource add_bloom(const FrameContext& frame, Resource scene, Resource curve, uint32_t tone, const Display& display,
-                   const BloomSettings& settings);
+graph::Resource add_bloom(const FrameContext& frame, graph::Resource scene, graph::Resource curve, uint32_t tone,
+                          const vision::Display& display, const BloomSettings& settings);
 
-}  // namespace vesper
+}  // namespace vesper::render

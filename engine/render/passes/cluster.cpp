@@ -8,10 +8,13 @@
 #include "shaders/cluster/cluster.comp.inc"
 #include "shared/shade.h"
 
-namespace vesper {
+namespace vesper::render {
 namespace {
 
-constexpr Shader kActiveClusters{"active_clusters.comp", active_clusters_comp}, kCluster{"cluster.comp", cluster_comp};
+using graph::load, graph::sample, graph::store, graph::update;
+
+constexpr gpu::Shader kActiveClusters{"active_clusters.comp", active_clusters_comp},
+    kCluster{"cluster.comp", cluster_comp};
 
 constexpr float kNear = 1;  // m, where slice 1 begins
 constexpr uint32_t kMaxSlices = 32, kMaxCapacity = 4096;
@@ -22,7 +25,7 @@ constexpr uint64_t kCoarseIndices = 8u << 20;  // bound on the memory of the coa
 uint32_t divide_up(uint32_t a, uint32_t b) { return (a + b - 1) / b; }
 
 // The greatest depth at which any lamp still gives the threshold.
-float lit_depth(const LampList& list, float threshold) {
+float lit_depth(const gpu_scene::LampList& list, float threshold) {
     float far = 2 * kNear;
     for (uint32_t i = 0; i < list.placed(); ++i)
         far = std::max(far, std::sqrt(list.lamps[i].intensity / threshold) - list.lamps[i].position.z);
@@ -35,13 +38,13 @@ void check_limits(uint32_t lamps, const ClusterSettings& settings) {
             throw Error("clusters: " + std::to_string(value) + " " + what + "; " + std::to_string(low) + " to " +
                         std::to_string(high) + " are possible");
     };
-    in_range("lamps", lamps, 0, kMaxLamps);
+    in_range("lamps", lamps, 0, scene::kMaxLamps);
     in_range("slices", settings.slices, 2, kMaxSlices);
     in_range("lamps in a list", settings.capacity, 1, kMaxCapacity);
 }
 
 struct LampLists {
-    Resource counts, indices;
+    graph::Resource counts, indices;
 };
 
 }  // namespace
@@ -51,10 +54,10 @@ LampKinds lamp_kinds(const Clusters& clusters) {
     return {lamps.cones != 0, lamps.powers != 0, lamps.tables != 0, clusters.tables.has_roads};
 }
 
-Clusters add_clusters(const FrameContext& frame, Resource surface, const LampList& list, const TableTexels& tables,
-                      const ClusterSettings& settings) {
-    FrameGraph& graph = frame.graph;
-    const View& view = frame.view;
+Clusters add_clusters(const FrameContext& frame, graph::Resource surface, const gpu_scene::LampList& list,
+                      const TableTexels& tables, const ClusterSettings& settings) {
+    graph::FrameGraph& graph = frame.graph;
+    const gpu_scene::View& view = frame.view;
     const uint32_t lamps = list.placed();
     check_limits(lamps, settings);
     float far = lit_depth(list, settings.threshold);
@@ -80,17 +83,18 @@ Clusters add_clusters(const FrameContext& frame, Resource surface, const LampLis
     clusters.lamps = graph.upload("lamps", padded, VK_FORMAT_R32G32B32A32_SFLOAT);
 
     const shared::ClusterGrid& grid = clusters.push.grid;
-    const Groups blocks = cover(view.extent.width, view.extent.height, shared::kBlockSize, shared::kBlockSize);
+    const graph::Groups blocks =
+        graph::cover(view.extent.width, view.extent.height, shared::kBlockSize, shared::kBlockSize);
     const auto words = [&](const std::string& name, uint64_t number) {
-        return graph.transient(name, buffer_shape(number * sizeof(uint32_t), VK_FORMAT_R32_UINT));
+        return graph.transient(name, graph::buffer_shape(number * sizeof(uint32_t), VK_FORMAT_R32_UINT));
     };
     clusters.block_slices = words("block slices", blocks.x * blocks.y);
-    const Resource tile_slices = words("tile slices", grid.tiles_x * grid.tiles_y);
+    const graph::Resource tile_slices = words("tile slices", grid.tiles_x * grid.tiles_y);
     graph.clear("clear tile slices", tile_slices);
-    const Kernel& active = frame.kernels.get(kActiveClusters);
+    const gpu::Kernel& active = frame.kernels.get(kActiveClusters);
     graph.dispatch("active clusters", active, {load(surface), store(clusters.block_slices), update(tile_slices)},
                    shared::ActiveClustersPush{grid, {view.extent.width, view.extent.height}, blocks.x},
-                   cover(blocks.x, blocks.y, active.group[0], active.group[1]));
+                   graph::cover(blocks.x, blocks.y, active.group[0], active.group[1]));
 
     // The root is one cell that lists every lamp; coarse cells choose from it, froxels from coarse cells.
     std::vector<uint32_t> every_lamp(std::max(1u, lamps));
@@ -100,11 +104,11 @@ Clusters add_clusters(const FrameContext& frame, Resource surface, const LampLis
                      VK_FORMAT_R32_UINT),
         graph.upload("root indices", every_lamp, VK_FORMAT_R32_UINT)};
 
-    clusters.report = graph.transient("cluster report", buffer_shape(sizeof(shared::ClusterReport)));
+    clusters.report = graph.transient("cluster report", graph::buffer_shape(sizeof(shared::ClusterReport)));
     graph.clear("clear cluster report", clusters.report);
 
     const LampKinds kinds = lamp_kinds(clusters);
-    const Kernel& kernel = frame.kernels.get(kCluster, {kinds.powers, kinds.tables});
+    const gpu::Kernel& kernel = frame.kernels.get(kCluster, {kinds.powers, kinds.tables});
     const auto add_level = [&](const char* name, const LampLists& parents, shared::ClusterLevelPush push) {
         push.view = clusters.push;
         const uint32_t cells = push.cells_x * push.cells_y * push.cells_z;
@@ -113,7 +117,7 @@ Clusters add_clusters(const FrameContext& frame, Resource surface, const LampLis
         graph.dispatch(name, kernel,
                        {sample(clusters.lamps), sample(parents.counts), sample(parents.indices), store(lists.counts),
                         store(lists.indices), update(clusters.report), sample(tables.texels), sample(tile_slices)},
-                       push, cover(cells, 1, kernel.group[0], 1));
+                       push, graph::cover(cells, 1, kernel.group[0], 1));
         return lists;
     };
 
@@ -152,4 +156,4 @@ Clusters add_clusters(const FrameContext& frame, Resource surface, const LampLis
     return clusters;
 }
 
-}  // namespace vesper
+}  // namespace vesper::render

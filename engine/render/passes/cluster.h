@@ -5,7 +5,7 @@
 #include "render/frame_context.h"
 #include "shared/cluster.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct ClusterSettings {
     float threshold =
@@ -17,27 +17,28 @@ struct ClusterSettings {
 
 /// The texels of IntensityTables (rgba32f), and the index of the first cell of the first road table.
 struct TableTexels {
-    Resource texels;
+    graph::Resource texels;
     uint32_t roads = 0;
     bool has_roads = false;
 };
 
 struct Clusters {
     TableTexels tables;
-    Resource lamps;    ///< rgba32f texels, kTexelsPerLamp per lamp
-    Resource counts;   ///< r32ui, two per froxel: cones, then cosine powers and tables; kAllLamps if they did not fit
-    Resource indices;  ///< r32ui, grid.capacity per froxel: indices of cones, then of the others, each ascending
-    Resource report;   ///< shared::ClusterReport
-    Resource block_slices;     ///< r32ui, for each block of shared::kBlockSize pixels the slices that have a surface, a
-                               ///< bit each
+    graph::Resource lamps;  ///< rgba32f texels, kTexelsPerLamp per lamp
+    graph::Resource
+        counts;  ///< r32ui, two per froxel: cones, then cosine powers and tables; kAllLamps if they did not fit
+    graph::Resource indices;  ///< r32ui, grid.capacity per froxel: indices of cones, then of the others, each ascending
+    graph::Resource report;   ///< shared::ClusterReport
+    graph::Resource block_slices;  ///< r32ui, for each block of shared::kBlockSize pixels the slices that have a
+                                   ///< surface, a bit each
     shared::ClusterPush push;  ///< grid, counts, threshold and far
 };
 
 /// Lists, for every froxel that has a surface (`surface`: GBuffer::surface), all lamps that may give `threshold` lx
 /// somewhere in it: exactly these or more, never fewer. Slices are of equal ratio from the nearest metre to the
 /// farthest depth where any lamp gives `threshold` (d = sqrt(I / threshold)), or to `far` if that is nearer.
-Clusters add_clusters(const FrameContext& frame, Resource surface, const LampList& lamps, const TableTexels& tables,
-                      const ClusterSettings& settings);
+Clusters add_clusters(const FrameContext& frame, graph::Resource surface, const gpu_scene::LampList& lamps,
+                      const TableTexels& tables, const ClusterSettings& settings);
 
 /// The kinds of lamps and surfaces in a frame. Kernels have code for these alone.
 struct LampKinds {
@@ -46,4 +47,4 @@ struct LampKinds {
 };
 LampKinds lamp_kinds(const Clusters& clusters);
 
-}  // namespace vesper
+}  // namespace vesper::render

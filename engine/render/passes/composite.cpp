@@ -6,18 +6,21 @@
 #include "shared/gamut.h"
 #include "shared/photometry.h"
 
-namespace vesper {
+namespace vesper::render {
 namespace {
 
-constexpr Shader kComposite{"composite.comp", composite_comp}, kDisplayLight{"display_light.comp", display_light_comp};
+using graph::load, graph::sample, graph::store;
+
+constexpr gpu::Shader kComposite{"composite.comp", composite_comp},
+    kDisplayLight{"display_light.comp", display_light_comp};
 
 struct Cones {
     glm::mat3 rows;       // of gamut.h, for colours of the display, and 1 to its white
     glm::vec3 luminance;  // of each primary, over that of white
 };
 
-Cones cones_of(const Primaries& primaries) {
-    const glm::dmat3 to709 = to_rec709(primaries);
+Cones cones_of(const io::Primaries& primaries) {
+    const glm::dmat3 to709 = io::to_rec709(primaries);
     const glm::dmat3 rows(shared::kOklabLong, shared::kOklabMiddle, shared::kOklabShort);
     glm::dmat3 own = glm::transpose(to709) * rows;  // columns are the rows for the display's colours
     for (int i = 0; i < 3; ++i) own[i] /= own[i].x + own[i].y + own[i].z;
@@ -25,21 +28,21 @@ Cones cones_of(const Primaries& primaries) {
 }
 
 struct Shown {
-    const Kernel& kernel;
+    const gpu::Kernel& kernel;
     shared::CompositePush push;
-    Resource bloom;  // a binding that the kernel does not read still has to be bound: the scene stands in
-    Groups groups;
+    graph::Resource bloom;  // a binding that the kernel does not read still has to be bound: the scene stands in
+    graph::Groups groups;
 };
 
 Shown show(const FrameContext& frame, const CompositeInputs& in, const CompositeSettings& settings,
-           const Shader& shader, bool primaries, bool blue_first) {
+           const gpu::Shader& shader, bool primaries, bool blue_first) {
     const uint32_t rows_of_one =
         frame.kernels.device().is_cpu() ? 4 : 1;  // pixels of a column that one invocation does
-    const Kernel& kernel =
+    const gpu::Kernel& kernel =
         frame.kernels.get(shader, {settings.tone, bool(in.bloom), rows_of_one, primaries, blue_first});
-    const Display& display = settings.display;
+    const vision::Display& display = settings.display;
     const auto [width, height] = frame.view.extent;
-    const glm::mat3 rows(glm::transpose(glm::inverse(to_rec709(display.primaries))));
+    const glm::mat3 rows(glm::transpose(glm::inverse(io::to_rec709(display.primaries))));
     const Cones cones = cones_of(display.primaries);
     return {kernel,
             {{width, height},
@@ -55,32 +58,34 @@ Shown show(const FrameContext& frame, const CompositeInputs& in, const Composite
              cones.rows[1],
              cones.rows[2]},
             in.bloom ? in.bloom : in.scene,
-            cover(width, height, kernel.group[0], kernel.group[1] * rows_of_one)};
+            graph::cover(width, height, kernel.group[0], kernel.group[1] * rows_of_one)};
 }
 
 }  // namespace
 
-Resource add_composite(const FrameContext& frame, const CompositeInputs& in, const CompositeSettings& settings) {
-    Shown shown = show(frame, in, settings, kComposite, settings.display.primaries != kRec709, settings.blue_first);
-    const Encoding encoding = make_encoding(settings.display);
+graph::Resource add_composite(const FrameContext& frame, const CompositeInputs& in, const CompositeSettings& settings) {
+    Shown shown = show(frame, in, settings, kComposite, settings.display.primaries != io::kRec709, settings.blue_first);
+    const gpu_scene::Encoding encoding = gpu_scene::make_encoding(settings.display);
     shown.push.encode = encoding.push;
-    const Resource cells = frame.graph.upload("code cells", encoding.cells, VK_FORMAT_R32G32B32A32_SFLOAT);
-    const Resource image = frame.graph.transient("display", image_shape(kDisplayFormat, frame.view.extent));
+    const graph::Resource cells = frame.graph.upload("code cells", encoding.cells, VK_FORMAT_R32G32B32A32_SFLOAT);
+    const graph::Resource image =
+        frame.graph.transient("display", graph::image_shape(kDisplayFormat, frame.view.extent));
     frame.graph.dispatch("composite", shown.kernel,
                          {load(in.scene), sample(in.curve), sample(shown.bloom), sample(cells), store(image)},
                          shown.push, shown.groups);
     return image;
 }
 
-Resource add_display_light(const FrameContext& frame, const CompositeInputs& in, const CompositeSettings& settings,
-                           bool wanted) {
+graph::Resource add_display_light(const FrameContext& frame, const CompositeInputs& in,
+                                  const CompositeSettings& settings, bool wanted) {
     if (!wanted) return {};
     const Shown shown = show(frame, in, settings, kDisplayLight, false, false);
-    const Resource image = frame.graph.transient("display light", image_shape(kDisplayLightFormat, frame.view.extent));
+    const graph::Resource image =
+        frame.graph.transient("display light", graph::image_shape(kDisplayLightFormat, frame.view.extent));
     frame.graph.dispatch("display light", shown.kernel,
                          {load(in.scene), sample(in.curve), sample(shown.bloom), store(image)}, shown.push,
                          shown.groups);
     return image;
 }
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -5,17 +5,17 @@
 #include "shared/composite.h"
 #include "vision/display.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct CompositeInputs {
-    Resource scene;  ///< cd/m^2
-    Resource curve;
-    Resource bloom;  ///< optional: of add_bloom; added after the curve
+    graph::Resource scene;  ///< cd/m^2
+    graph::Resource curve;
+    graph::Resource bloom;  ///< optional: of add_bloom; added after the curve
 };
 
 struct CompositeSettings {
     uint32_t tone = 0;  ///< shared::kTone* and shared::kGamut*
-    Display display;
+    vision::Display display;
     float bloom_gain = 1;
     bool blue_first = false;  ///< codes have blue in their lowest bits, and red in the highest
 };
@@ -25,11 +25,12 @@ struct CompositeSettings {
 /// and the codes of the display. One word per pixel, r32ui, red in its lowest bits: 8 bits a channel and alpha 255, or
 /// 10 bits and alpha 3. A channel's code is the whole number nearest to the exact value. Pixels that are not finite
 /// show the darkest.
-Resource add_composite(const FrameContext& frame, const CompositeInputs& inputs, const CompositeSettings& settings);
+graph::Resource add_composite(const FrameContext& frame, const CompositeInputs& inputs,
+                              const CompositeSettings& settings);
 
 /// The same without the limits of the display, rgba32f, cd/m^2 in Rec. 709: the light that it would emit and reflect if
 /// it had every colour and no peak. Where it is not wanted there is none.
-Resource add_display_light(const FrameContext& frame, const CompositeInputs& inputs, const CompositeSettings& settings,
-                           bool wanted = true);
+graph::Resource add_display_light(const FrameContext& frame, const CompositeInputs& inputs,
+                                  const CompositeSettings& settings, bool wanted = true);
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -6,17 +6,17 @@
 #include "render/passes/gbuffer.h"
 #include "scene/tunnel.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct DaylightSettings {
-    std::vector<Tunnel> tunnels;
+    std::vector<scene::Tunnel> tunnels;
     glm::vec3 illuminance{0};  ///< RGB lx, on any surface in the open
     float lambert = 0;         ///< as in ShadeSettings
 };
 
 /// Adds uniform light to shaded luminance, in place: E rho lambert. In a tunnel only light through its ends arrives;
 /// interreflection is not counted. Without tunnels returns `scene`: ShadeSettings::ambient is the same light.
-Resource add_daylight(const FrameContext& frame, const GBuffer& surfaces, Resource scene,
-                      const DaylightSettings& settings);
+graph::Resource add_daylight(const FrameContext& frame, const GBuffer& surfaces, graph::Resource scene,
+                             const DaylightSettings& settings);
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -9,17 +9,21 @@
 #include "shaders/eye_scatter/scatter_up.comp.inc"
 #include "shared/eye_scatter.h"
 
-namespace vesper {
+namespace vesper::render {
 namespace {
 
-constexpr Shader kScatterUp{"scatter_up.comp", scatter_up_comp}, kScatterTop{"scatter_top.comp", scatter_top_comp},
+using graph::Resource, graph::load, graph::sample, graph::store, graph::update;
+
+constexpr gpu::Shader kScatterUp{"scatter_up.comp", scatter_up_comp}, kScatterTop{"scatter_top.comp", scatter_top_comp},
     kScatterDown{"scatter_down.comp", scatter_down_comp}, kScatterEdge{"scatter_edge.comp", scatter_edge_comp};
 
 // Texels that one invocation of scatter_up.comp does.
-VkExtent2D scatter_up_strip(const Device& device) { return device.is_cpu() ? VkExtent2D{4, 32} : VkExtent2D{1, 1}; }
+VkExtent2D scatter_up_strip(const gpu::Device& device) {
+    return device.is_cpu() ? VkExtent2D{4, 32} : VkExtent2D{1, 1};
+}
 
-Groups cover_strips(VkExtent2D size, const Kernel& kernel, VkExtent2D strip) {
-    return cover(size.width, size.height, kernel.group[0] * strip.width, kernel.group[1] * strip.height);
+graph::Groups cover_strips(VkExtent2D size, const gpu::Kernel& kernel, VkExtent2D strip) {
+    return graph::cover(size.width, size.height, kernel.group[0] * strip.width, kernel.group[1] * strip.height);
 }
 
 VkExtent2D with_margin(VkExtent2D size, uint32_t margin) { return {size.width + 2 * margin, size.height + 2 * margin}; }
@@ -29,13 +33,13 @@ VkExtent2D with_margin(VkExtent2D size, uint32_t margin) { return {size.width + 
 Resource add_eye_scatter(const FrameContext& frame, Resource scene, const ScatterInputs& inputs) {
     using namespace shared;
     if (!inputs.fit) return scene;
-    FrameGraph& graph = frame.graph;
-    const GpuScatter& fit = *inputs.fit;
-    const glm::ivec2 down = scatter_down_strip(frame.kernels.device());
+    graph::FrameGraph& graph = frame.graph;
+    const gpu_scene::GpuScatter& fit = *inputs.fit;
+    const glm::ivec2 down = gpu_scene::scatter_down_strip(frame.kernels.device());
     const VkExtent2D up_strip = scatter_up_strip(frame.kernels.device()),
                      down_strip{uint32_t(down.x), uint32_t(down.y)};
     const int top = fit.levels();
-    const auto texels = [&](const char* name, GpuScatter::Texels t, VkFormat format) {
+    const auto texels = [&](const char* name, gpu_scene::GpuScatter::Texels t, VkFormat format) {
         return graph.external(name, t.buffer, t.bytes, format);
     };
     const auto at_least_one = [](std::vector<glm::vec4> list) {
@@ -56,8 +60,8 @@ Resource add_eye_scatter(const FrameContext& frame, Resource scene, const Scatte
         const Resource others =
             graph.upload(name + " pictures", more ? inputs.pictures->levels[size_t(l)] : at_least_one({}),
                          VK_FORMAT_R32G32B32A32_SFLOAT);
-        const Resource image = graph.transient(name, image_shape(kSceneFormat, to));
-        const Kernel& kernel = frame.kernels.get(kScatterUp, {up_strip.width, up_strip.height, l == 1});
+        const Resource image = graph.transient(name, graph::image_shape(kSceneFormat, to));
+        const gpu::Kernel& kernel = frame.kernels.get(kScatterUp, {up_strip.width, up_strip.height, l == 1});
         graph.dispatch(
             name, kernel, {load(levels.back()), sample(list), sample(others), store(image)},
             ScatterUpPush{
@@ -68,23 +72,23 @@ Resource add_eye_scatter(const FrameContext& frame, Resource scene, const Scatte
     }
 
     const VkExtent2D takes = with_margin(sizes.back(), kScatterDownMargin);
-    Resource seen = graph.transient("scatter top", image_shape(kSceneFormat, takes));
+    Resource seen = graph.transient("scatter top", graph::image_shape(kSceneFormat, takes));
     const Resource weights = texels("scatter weights", fit.top(), VK_FORMAT_R32G32B32A32_SFLOAT);
     std::vector<glm::vec4> far = fit.far_veil(inputs.lamps);
     if (inputs.pictures)
         std::transform(far.begin(), far.end(), inputs.pictures->veil.begin(), far.begin(), std::plus());
     const Resource veil = graph.upload("veil of far lamps", far, VK_FORMAT_R32G32B32A32_SFLOAT);
-    const Kernel& top_kernel = frame.kernels.get(kScatterTop);
+    const gpu::Kernel& top_kernel = frame.kernels.get(kScatterTop);
     graph.dispatch("scatter top", top_kernel, {load(levels.back()), sample(weights), sample(veil), store(seen)},
                    ScatterTopPush{{sizes.back().width, sizes.back().height}},
-                   cover((takes.width * takes.height + 3) / 4, 1, top_kernel.group[0], 1));
+                   graph::cover((takes.width * takes.height + 3) / 4, 1, top_kernel.group[0], 1));
 
     for (int l = top - 1; l >= 0; --l) {
         const VkExtent2D size = l == 0 ? sizes[0] : with_margin(sizes[size_t(l)], kScatterDownMargin);
         const std::string name = "scatter down " + std::to_string(l);
-        const Resource image = graph.transient(name, image_shape(kSceneFormat, size));
-        const Kernel& kernel = frame.kernels.get(kScatterDown, {down_strip.width, l == 0, uint32_t(fit.reach())});
-        const auto rows = uint32_t(scatter_strip(fit.image(), fit.nodes(), l, int(down_strip.height)));
+        const Resource image = graph.transient(name, graph::image_shape(kSceneFormat, size));
+        const gpu::Kernel& kernel = frame.kernels.get(kScatterDown, {down_strip.width, l == 0, uint32_t(fit.reach())});
+        const auto rows = uint32_t(vision::scatter_strip(fit.image(), fit.nodes(), l, int(down_strip.height)));
         const glm::vec2 scale =
             glm::vec2(fit.nodes() - 1) * float(1 << l) / glm::vec2(fit.image().width, fit.image().height);
         graph.dispatch(name, kernel, {load(levels[size_t(l)]), load(seen), sample(taps), store(image)},
@@ -93,18 +97,18 @@ Resource add_eye_scatter(const FrameContext& frame, Resource scene, const Scatte
                        cover_strips(size, kernel, {down_strip.width, rows}));
         seen = image;
     }
-    const EdgeLight::Axis &x = fit.edge_x(), &y = fit.edge_y();
+    const vision::EdgeLight::Axis &x = fit.edge_x(), &y = fit.edge_y();
     const ScatterEdgePush edge{{sizes[0].width, sizes[0].height},
                                {uint32_t(x.deep), uint32_t(y.deep)},
                                {uint32_t(x.between), uint32_t(y.between)}};
     const uint32_t pixels = 2 * (edge.deep.y * edge.size.x + edge.deep.x * (edge.size.y - 2 * edge.deep.y));
-    const Kernel& edge_kernel = frame.kernels.get(kScatterEdge);
+    const gpu::Kernel& edge_kernel = frame.kernels.get(kScatterEdge);
     if (pixels > 0)
         graph.dispatch(
             "scatter edge", edge_kernel,
             {load(scene), sample(texels("scatter edge light", fit.edge(), VK_FORMAT_R32_SFLOAT)), update(seen)}, edge,
-            cover(pixels, 1, edge_kernel.group[0], 1));
+            graph::cover(pixels, 1, edge_kernel.group[0], 1));
     return seen;
 }
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -7,18 +7,18 @@
 #include "render/frame_context.h"
 #include "vision/light_elsewhere.h"
 
-namespace vesper {
+namespace vesper::render {
 
 /// Light that scatters into a picture.
 struct ScatterInputs {
-    const GpuScatter* fit = nullptr;           ///< of the size of the scene; none: no light is scattered
-    std::vector<OffscreenLamp> lamps;          ///< outside of the picture
-    const OffscreenLight* pictures = nullptr;  ///< of the other pictures of the same eye
+    const gpu_scene::GpuScatter* fit = nullptr;        ///< of the size of the scene; none: no light is scattered
+    std::vector<gpu_scene::OffscreenLamp> lamps;       ///< outside of the picture
+    const vision::OffscreenLight* pictures = nullptr;  ///< of the other pictures of the same eye
 };
 
 /// The scene as it falls on the retina: every pixel keeps a part of its light and scatters the rest, as `fit` has it,
 /// and light from outside of the picture scatters into it. rgba32f, cd/m^2. A picture loses the light that falls beside
 /// it. A pixel that is not finite stays and scatters nothing. Without a fit returns `scene`.
-Resource add_eye_scatter(const FrameContext& frame, Resource scene, const ScatterInputs& inputs);
+graph::Resource add_eye_scatter(const FrameContext& frame, graph::Resource scene, const ScatterInputs& inputs);
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -11,22 +11,24 @@
 #include "shaders/gbuffer/gbuffer.vert.inc"
 #include "shared/gbuffer.h"
 
-namespace vesper {
+namespace vesper::render {
 namespace {
+
+using gpu_scene::GpuScene;
 
 constexpr VkDescriptorType kTexture = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
 constexpr VkDescriptorType kTextures[]{kTexture, kTexture, kTexture};
-constexpr VkVertexInputBindingDescription kBuffers[]{{0, sizeof(Vertex), VK_VERTEX_INPUT_RATE_VERTEX},
+constexpr VkVertexInputBindingDescription kBuffers[]{{0, sizeof(scene::Vertex), VK_VERTEX_INPUT_RATE_VERTEX},
                                                      {1, sizeof(shared::Instance), VK_VERTEX_INPUT_RATE_INSTANCE}};
 constexpr VkVertexInputAttributeDescription kAttributes[]{
-    {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, position)},
-    {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(Vertex, normal)},
-    {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(Vertex, uv)},
-    {3, 0, VK_FORMAT_R16G16B16A16_UNORM, offsetof(Vertex, colour)},
+    {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(scene::Vertex, position)},
+    {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(scene::Vertex, normal)},
+    {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(scene::Vertex, uv)},
+    {3, 0, VK_FORMAT_R16G16B16A16_UNORM, offsetof(scene::Vertex, colour)},
     {4, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_x)},
     {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_y)},
     {6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_z)}};
-constexpr GraphicsShaders kShaders{
+constexpr gpu::GraphicsShaders kShaders{
     "gbuffer.frag", gbuffer_vert, gbuffer_frag, kTextures, sizeof(shared::GBufferPush), VK_SHADER_STAGE_VERTEX_BIT,
     kBuffers,       kAttributes};
 
@@ -40,17 +42,18 @@ enum Variant : uint32_t {
     kEmits = 16
 };
 
-uint32_t variant_of(const Material& m) {
+uint32_t variant_of(const scene::Material& m) {
     uint32_t variant = 0;
-    if (m.base_colour_texture.image != kNone) variant |= kBaseTexture;
-    if (m.metallic_roughness_texture.image != kNone) variant |= kMetallicRoughnessTexture;
-    if (m.alpha == Material::Alpha::Mask) variant |= kMask;
+    if (m.base_colour_texture.image != scene::kNone) variant |= kBaseTexture;
+    if (m.metallic_roughness_texture.image != scene::kNone) variant |= kMetallicRoughnessTexture;
+    if (m.alpha == scene::Material::Alpha::Mask) variant |= kMask;
     if (m.emission == glm::vec3(0)) return variant;
-    if (m.emission_picture.image != kNone || m.emission_texture.image != kNone) variant |= kEmissionTexture;
+    if (m.emission_picture.image != scene::kNone || m.emission_texture.image != scene::kNone)
+        variant |= kEmissionTexture;
     return variant | kEmits;
 }
 
-const GraphicsPipeline& pipeline_of(const GraphicsPipelineCache& pipelines, uint32_t variant) {
+const gpu::GraphicsPipeline& pipeline_of(const gpu::GraphicsPipelineCache& pipelines, uint32_t variant) {
     return pipelines.get(
         kShaders, {.targets = {{kReflectanceFormat}, {kSurfaceFormat}, {kEmissionFormat, (variant & kEmits) != 0}},
                    .depth = kDepthFormat,
@@ -61,16 +64,16 @@ const GraphicsPipeline& pipeline_of(const GraphicsPipelineCache& pipelines, uint
 // How the surfaces of one material are drawn.
 struct SurfacePipeline {
     uint32_t variant;
-    const GraphicsPipeline* pipeline;
+    const gpu::GraphicsPipeline* pipeline;
 };
 
 // By material, also of those out of view: none is to be compiled when it comes into view.
-std::vector<SurfacePipeline> pipelines_of(const GraphicsPipelineCache& cache, const GpuScene& scene) {
-    std::map<uint32_t, const GraphicsPipeline*> known;
+std::vector<SurfacePipeline> pipelines_of(const gpu::GraphicsPipelineCache& cache, const GpuScene& scene) {
+    std::map<uint32_t, const gpu::GraphicsPipeline*> known;
     std::vector<SurfacePipeline> pipelines;
     for (const GpuScene::Surface& surface : scene.surfaces()) {
         const uint32_t variant = variant_of(surface.material);
-        const GraphicsPipeline*& pipeline = known[variant];
+        const gpu::GraphicsPipeline*& pipeline = known[variant];
         if (!pipeline) pipeline = &pipeline_of(cache, variant);
         pipelines.push_back({variant, pipeline});
     }
@@ -80,7 +83,7 @@ std::vector<SurfacePipeline> pipelines_of(const GraphicsPipelineCache& cache, co
 // Instances of one part, drawn at once.
 struct Batch {
     uint32_t part;
-    const GraphicsPipeline* pipeline;
+    const gpu::GraphicsPipeline* pipeline;
     bool mirrored;
     uint32_t layer;
     uint32_t first_instance, instance_count;
@@ -94,7 +97,7 @@ struct DrawnPart {
 };
 
 // Whether a sphere of the view frame may be seen: it is in front of the near plane and inside the four sides.
-bool visible(const View& view, const Sphere& sphere) {
+bool visible(const gpu_scene::View& view, const gpu_scene::Sphere& sphere) {
     const auto [centre, radius] = sphere;
     if (-centre.z + radius < view.near) return false;
     const auto beyond = [z = centre.z, r = radius](float tangent, float across, float sign) {
@@ -107,7 +110,7 @@ bool visible(const View& view, const Sphere& sphere) {
 // A rough order from front to back, in shells of distance of a ratio of 1.5, so that few instances are drawn apart:
 // what is beside the eye, such as one's own bonnet, hides most; sheets under everything, such as terrain, are hidden by
 // most.
-uint32_t layer_of(const Sphere& sphere) {
+uint32_t layer_of(const gpu_scene::Sphere& sphere) {
     constexpr uint32_t kFarthest = 9;
     const float depth = -sphere.centre.z;
     if (sphere.radius > 50) return kFarthest;
@@ -115,7 +118,7 @@ uint32_t layer_of(const Sphere& sphere) {
     return std::min(kFarthest - 1, uint32_t(1 + std::max(0.0f, std::log(depth / 10) / std::log(1.5f))));
 }
 
-std::vector<DrawnPart> cull(const GpuScene& scene, const SceneFrame& frame, const View& view) {
+std::vector<DrawnPart> cull(const GpuScene& scene, const gpu_scene::SceneFrame& frame, const gpu_scene::View& view) {
     std::vector<DrawnPart> drawn;
     for (const GpuScene::Placement& placement : scene.placements()) {
         const glm::mat4 m = view.from(frame.world[placement.node]);
@@ -123,7 +126,7 @@ std::vector<DrawnPart> cull(const GpuScene& scene, const SceneFrame& frame, cons
         const glm::mat4 rows = glm::transpose(m);
         for (uint32_t i = placement.first_part; i < placement.first_part + placement.part_count; ++i) {
             const GpuScene::Part& part = scene.parts()[i];
-            const Sphere sphere = sphere_of(part, m);
+            const gpu_scene::Sphere sphere = gpu_scene::sphere_of(part, m);
             if (part.index_count == 0 || !visible(view, sphere)) continue;
             drawn.push_back({i, mirrored, layer_of(sphere), {rows[0], rows[1], rows[2]}});
         }
@@ -131,8 +134,8 @@ std::vector<DrawnPart> cull(const GpuScene& scene, const SceneFrame& frame, cons
     return drawn;
 }
 
-void record_batches(const Recording& recording, const Device& device, const GpuScene& scene, const View& view,
-                    Resource instances, const std::vector<Batch>& batches) {
+void record_batches(const graph::Recording& recording, const gpu::Device& device, const GpuScene& scene,
+                    const gpu_scene::View& view, graph::Resource instances, const std::vector<Batch>& batches) {
     const VkCommandBuffer commands = recording.commands();
     const VkBuffer buffers[] = {scene.vertices(), recording.buffer(instances)};
     const VkDeviceSize offsets[] = {0, recording.offset(instances)};
@@ -140,12 +143,12 @@ void record_batches(const Recording& recording, const Device& device, const GpuS
     vkCmdBindIndexBuffer(commands, scene.indices(), 0, VK_INDEX_TYPE_UINT32);
     const glm::vec2 scale = 2.0f / (view.tangent_high - view.tangent_low);
     const glm::vec2 offset = (view.tangent_high + view.tangent_low) / (view.tangent_high - view.tangent_low);
-    uint32_t last_material = kNone;
-    const GraphicsPipeline* last_pipeline = nullptr;
+    uint32_t last_material = scene::kNone;
+    const gpu::GraphicsPipeline* last_pipeline = nullptr;
     for (const Batch& batch : batches) {
         const GpuScene::Part& part = scene.parts()[batch.part];
         const GpuScene::Surface& surface = scene.surfaces()[part.material];
-        const Material& m = surface.material;
+        const scene::Material& m = surface.material;
         const VkPipelineLayout layout = batch.pipeline->layout();
         if (batch.pipeline != last_pipeline)
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, batch.pipeline->pipeline());
@@ -173,9 +176,9 @@ void record_batches(const Recording& recording, const Device& device, const GpuS
 
 }  // namespace
 
-GBuffer add_gbuffer(const FrameContext& frame, const GpuScene& scene, const SceneFrame& poses) {
-    FrameGraph& graph = frame.graph;
-    const View& view = frame.view;
+GBuffer add_gbuffer(const FrameContext& frame, const GpuScene& scene, const gpu_scene::SceneFrame& poses) {
+    graph::FrameGraph& graph = frame.graph;
+    const gpu_scene::View& view = frame.view;
     const std::vector<SurfacePipeline> pipelines = pipelines_of(frame.pipelines, scene);
     std::vector<DrawnPart> drawn = cull(scene, poses, view);
     std::stable_sort(drawn.begin(), drawn.end(), [&](const DrawnPart& a, const DrawnPart& b) {
@@ -197,22 +200,22 @@ GBuffer add_gbuffer(const FrameContext& frame, const GpuScene& scene, const Scen
     }
     if (instances.empty()) instances.emplace_back();  // an upload is never empty
 
-    const Resource placed = graph.upload("instances", instances);
-    const GBuffer g{graph.transient("reflectance", image_shape(kReflectanceFormat, view.extent)),
-                    graph.transient("surface", image_shape(kSurfaceFormat, view.extent)),
-                    graph.transient("emission", image_shape(kEmissionFormat, view.extent)),
-                    graph.transient("depth", image_shape(kDepthFormat, view.extent))};
+    const graph::Resource placed = graph.upload("instances", instances);
+    const GBuffer g{graph.transient("reflectance", graph::image_shape(kReflectanceFormat, view.extent)),
+                    graph.transient("surface", graph::image_shape(kSurfaceFormat, view.extent)),
+                    graph.transient("emission", graph::image_shape(kEmissionFormat, view.extent)),
+                    graph.transient("depth", graph::image_shape(kDepthFormat, view.extent))};
     graph.raster("gbuffer",
-                 {{placed, Access::Vertices},
-                  {g.reflectance, Access::ColorTarget},
-                  {g.surface, Access::ColorTarget},
-                  {g.emission, Access::ColorTarget},
-                  {g.depth, Access::DepthTarget}},
+                 {{placed, graph::Access::Vertices},
+                  {g.reflectance, graph::Access::ColorTarget},
+                  {g.surface, graph::Access::ColorTarget},
+                  {g.emission, graph::Access::ColorTarget},
+                  {g.depth, graph::Access::DepthTarget}},
                  [&device = frame.kernels.device(), &scene, view, placed,
-                  batches = std::move(batches)](const Recording& recording) {
+                  batches = std::move(batches)](const graph::Recording& recording) {
                      if (!batches.empty()) record_batches(recording, device, scene, view, placed, batches);
                  });
     return g;
 }
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -8,7 +8,7 @@
 #include "render/passes/pyramid.h"
 #include "shared/tone.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct HistogramSettings {
     uint32_t bins = 100;   ///< 1 .. 256
@@ -34,7 +34,7 @@ struct HistogramSettings {
 
 /// Votes of ln luminance over the texels of one pyramid level (1-based), and of level 1 as settings say. A
 /// shared::Histogram.
-Resource add_histogram(const FrameContext& frame, const Pyramid& pyramid, uint32_t level,
-                       const HistogramSettings& settings);
+graph::Resource add_histogram(const FrameContext& frame, const Pyramid& pyramid, uint32_t level,
+                              const HistogramSettings& settings);
 
-}  // namespace vesper
+}  // namespace vesper::render

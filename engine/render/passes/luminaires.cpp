@@ -4,22 +4,26 @@
 
 #include "shaders/luminaires/luminaires.comp.inc"
 
-namespace vesper {
+namespace vesper::render {
 namespace {
 
-constexpr Shader kLuminaires{"luminaires.comp", luminaires_comp};
+using graph::load, graph::sample, graph::update;
+
+constexpr gpu::Shader kLuminaires{"luminaires.comp", luminaires_comp};
 
 }  // namespace
 
-Resource add_luminaires(const FrameContext& frame, Resource scene, Resource surface, const LuminaireList& list) {
+graph::Resource add_luminaires(const FrameContext& frame, graph::Resource scene, graph::Resource surface,
+                               const gpu_scene::LuminaireList& list) {
     if (list.tiles.empty()) return scene;
-    FrameGraph& graph = frame.graph;
+    graph::FrameGraph& graph = frame.graph;
     const VkExtent2D image = frame.view.extent;
     const auto tiles = uint32_t(list.tiles.size());
-    const Resource luminaires = graph.upload("luminaires", list.luminaires, VK_FORMAT_R32G32B32A32_SFLOAT);
-    const Resource silhouettes = graph.upload("luminaire silhouettes", list.silhouettes, VK_FORMAT_R32G32_SFLOAT);
-    const Resource touched = graph.upload("luminaire tiles", list.tiles, VK_FORMAT_R32G32B32A32_UINT);
-    const Resource entries = graph.upload("luminaire entries", list.entries, VK_FORMAT_R32_UINT);
+    const graph::Resource luminaires = graph.upload("luminaires", list.luminaires, VK_FORMAT_R32G32B32A32_SFLOAT);
+    const graph::Resource silhouettes =
+        graph.upload("luminaire silhouettes", list.silhouettes, VK_FORMAT_R32G32_SFLOAT);
+    const graph::Resource touched = graph.upload("luminaire tiles", list.tiles, VK_FORMAT_R32G32B32A32_UINT);
+    const graph::Resource entries = graph.upload("luminaire entries", list.entries, VK_FORMAT_R32_UINT);
     graph.dispatch(
         "luminaires", frame.kernels.get(kLuminaires),
         {load(surface), update(scene), sample(luminaires), sample(silhouettes), sample(touched), sample(entries)},
@@ -28,4 +32,4 @@ Resource add_luminaires(const FrameContext& frame, Resource scene, Resource surf
     return scene;
 }
 
-}  // namespace vesper
+}  // namespace vesper::render

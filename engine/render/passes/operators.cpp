@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace vesper {
+namespace vesper::render {
 namespace {
 
 constexpr OperatorInfo kOperators[]{
@@ -45,7 +45,8 @@ std::span<const OperatorInfo> operators() { return kOperators; }
 
 const OperatorInfo& operator_info(Operator tone_operator) { return kOperators[size_t(tone_operator)]; }
 
-double shown_luminance(Operator wanted, const shared::ToneCurve& curve, double luminance, const Display& display) {
+double shown_luminance(Operator wanted, const shared::ToneCurve& curve, double luminance,
+                       const vision::Display& display) {
     const double low = display.low(), high = display.high();
     double shown = 0;
     // A form is the number of the first operator that has it.
@@ -58,7 +59,7 @@ double shown_luminance(Operator wanted, const shared::ToneCurve& curve, double l
     return shown;
 }
 
-OperatorBlock OperatorSettings::block(Operator wanted, const Display& display) const {
+OperatorBlock OperatorSettings::block(Operator wanted, const vision::Display& display) const {
     OperatorBlock made{};
     visit_one(*this, wanted, [&](const auto& settings) {
         if constexpr (requires { settings.block(display); }) made = settings.block(display);
@@ -81,4 +82,4 @@ void OperatorSettings::check() const {
         });
 }
 
-}  // namespace vesper
+}  // namespace vesper::render

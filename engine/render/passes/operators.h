@@ -8,7 +8,7 @@
 #include <vesper/operators.h>
 #include <render/operators/all.inc>
 
-namespace vesper {
+namespace vesper::render {
 
 /// How scene luminance becomes display luminance.
 enum class Operator : uint8_t {
@@ -29,7 +29,7 @@ const OperatorInfo& operator_info(Operator);
 
 /// Luminance of the display, cd/m^2, for a grey pixel of `luminance`, cd/m^2, with the curve that the operator made of
 /// a frame. Of operators that map contrast in bands: where there is none.
-double shown_luminance(Operator, const shared::ToneCurve&, double luminance, const Display&);
+double shown_luminance(Operator, const shared::ToneCurve&, double luminance, const vision::Display&);
 
 /// The settings of every operator.
 struct OperatorSettings {
@@ -46,11 +46,11 @@ struct OperatorSettings {
     }
 
     /// Of one operator, as its shader reads them.
-    OperatorBlock block(Operator, const Display&) const;
+    OperatorBlock block(Operator, const vision::Display&) const;
     /// Whether its picture depends on the bins of the histogram.
     bool uses_histogram(Operator) const;
     /// Throws Error where settings contradict each other.
     void check() const;
 };
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -3,9 +3,9 @@
 
 #include "render/frame_context.h"
 
-namespace vesper {
+namespace vesper::render {
 
 /// The RGB of an external picture times `scale`, rgba32f, cd/m^2 (alpha 1).
-Resource add_picture(const FrameContext& frame, Resource picture, float scale);
+graph::Resource add_picture(const FrameContext& frame, graph::Resource picture, float scale);
 
-}  // namespace vesper
+}  // namespace vesper::render

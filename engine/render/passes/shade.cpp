@@ -6,10 +6,12 @@
 #include "render/pixel_groups.h"
 #include "shaders/shade/shade.comp.inc"
 
-namespace vesper {
+namespace vesper::render {
 namespace {
 
-constexpr Shader kShade{"shade.comp", shade_comp};
+using graph::load, graph::sample, graph::update;
+
+constexpr gpu::Shader kShade{"shade.comp", shade_comp};
 
 // What a kernel has code for, as bits.
 enum ShadeVariant : uint32_t {
@@ -31,7 +33,7 @@ uint32_t frame_variant(const Clusters& clusters, bool retro) {
            (kinds.roads ? kRoads : 0u) | (retro ? kRetro : 0u);
 }
 
-const Kernel& shade_kernel(const KernelCache& kernels, const PixelGroups& groups, uint32_t variant) {
+const gpu::Kernel& shade_kernel(const gpu::KernelCache& kernels, const PixelGroups& groups, uint32_t variant) {
     const auto has = [variant](ShadeVariant bit) -> uint32_t { return variant & bit ? 1 : 0; };
     return kernels.get(kShade, {groups.width, groups.height, groups.rows, has(kEveryLamp), has(kCones), has(kPowers),
                                 has(kTables), has(kListed), has(kMerged), has(kGlossy), has(kRoads), has(kRetro)});
@@ -55,8 +57,8 @@ constexpr std::array<BlockClass, shared::kBlockClasses> kClasses{{
 
 }  // namespace
 
-Resource add_shading(const FrameContext& frame, const GBuffer& g, const Clusters& clusters,
-                     const ShadeSettings& settings) {
+graph::Resource add_shading(const FrameContext& frame, const GBuffer& g, const Clusters& clusters,
+                            const ShadeSettings& settings) {
     const PixelGroups groups = pixel_groups(frame.kernels.device());
     const Blocks blocks = add_blocks(frame, g, clusters, settings.all_lamps ? -1 : settings.merge_tolerance);
     shared::ShadePush push{.size = {frame.view.extent.width, frame.view.extent.height},
@@ -72,7 +74,8 @@ Resource add_shading(const FrameContext& frame, const GBuffer& g, const Clusters
                            .roads = clusters.tables.roads,
                            .blocks = blocks.count,
                            .block_class = 0};
-    const Resource retro = settings.retro ? settings.retro : clusters.tables.texels;  // the binding must hold something
+    const graph::Resource retro =
+        settings.retro ? settings.retro : clusters.tables.texels;  // the binding must hold something
     const uint32_t present = frame_variant(clusters, bool(settings.retro));
     for (push.block_class = 0; push.block_class < kClasses.size(); ++push.block_class) {
         const BlockClass& c = kClasses[push.block_class];
@@ -87,9 +90,10 @@ Resource add_shading(const FrameContext& frame, const GBuffer& g, const Clusters
             {load(g.reflectance), load(g.surface), update(g.emission), sample(clusters.lamps), sample(blocks.counts),
              sample(blocks.entries), sample(clusters.tables.texels), sample(retro), sample(blocks.sums),
              sample(blocks.class_counts), sample(blocks.class_blocks)},
-            push, Arguments{blocks.class_counts, uint64_t(push.block_class) * shared::kClassWords * sizeof(uint32_t)});
+            push,
+            graph::Arguments{blocks.class_counts, uint64_t(push.block_class) * shared::kClassWords * sizeof(uint32_t)});
     }
     return g.emission;
 }
 
-}  // namespace vesper
+}  // namespace vesper::render

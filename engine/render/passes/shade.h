@@ -10,7 +10,7 @@
 #include "render/passes/gbuffer.h"
 #include "shared/shade.h"
 
-namespace vesper {
+namespace vesper::render {
 
 struct ShadeSettings {
     float lambert = 1 / std::numbers::pi_v<float>;  ///< sr^-1: L = E reflectance / pi; 1: the paper's L = E R
@@ -19,7 +19,7 @@ struct ShadeSettings {
     glm::vec3 sky{0};                                               ///< cd/m^2 RGB
     bool all_lamps = false;         ///< evaluate every lamp in every pixel, for comparison
     float merge_tolerance = 1e-3f;  ///< as in add_blocks
-    Resource retro{};               ///< rgba32f texels of shared/retro.h; without: no surface is retroreflective
+    graph::Resource retro{};        ///< rgba32f texels of shared/retro.h; without: no surface is retroreflective
 };
 
 /// Turns the emission of a G-buffer, in place, into scene luminance, rgba32f, cd/m^2 RGB (alpha 1):
@@ -29,7 +29,7 @@ struct ShadeSettings {
 /// 2007, a = roughness^2) with height-correlated Smith masking (Heitz 2014) and Schlick's Fresnel; F0 is the base
 /// colour of a metal and 0.04 (1 - a^2) of a dielectric, so that roughness 1 is Lambert. Retroreflective surfaces
 /// (photometry/retroreflection.h) add R_A I / d^2 / cos(view) times their base colour for every lamp in front of them.
-Resource add_shading(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters,
-                     const ShadeSettings& settings);
+graph::Resource add_shading(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters,
+                            const ShadeSettings& settings);
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -4,17 +4,19 @@
 #include "shaders/sky/sky.comp.inc"
 #include "shared/sky.h"
 
-namespace vesper {
+namespace vesper::render {
 namespace {
 
-constexpr Shader kSky{"sky.comp", sky_comp};
+using graph::load, graph::sample, graph::update;
+
+constexpr gpu::Shader kSky{"sky.comp", sky_comp};
 
 }  // namespace
 
-Resource add_sky(const FrameContext& frame, const GBuffer& surfaces, Resource scene, const SkyTexels& sky,
-                 float lambert) {
+graph::Resource add_sky(const FrameContext& frame, const GBuffer& surfaces, graph::Resource scene, const SkyTexels& sky,
+                        float lambert) {
     if (!sky.texels) return scene;
-    const View& view = frame.view;
+    const gpu_scene::View& view = frame.view;
     const PixelGroups groups = pixel_groups(frame.kernels.device());
     const glm::mat3 world_from_view = glm::transpose(glm::mat3(view.world_to_view));
     const shared::SkyPush push{.size = {view.extent.width, view.extent.height},
@@ -31,4 +33,4 @@ Resource add_sky(const FrameContext& frame, const GBuffer& surfaces, Resource sc
     return scene;
 }
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -3,17 +3,17 @@
 
 #include "render/passes/gbuffer.h"
 
-namespace vesper {
+namespace vesper::render {
 
 /// A sky map on the device.
 struct SkyTexels {
-    Resource texels;          ///< rgba32f, as shared/sky.h says; none: there is no such sky
+    graph::Resource texels;   ///< rgba32f, as shared/sky.h says; none: there is no such sky
     uint32_t sharp_side = 0;  ///< of its sharp map
 };
 
 /// Adds the sky to shaded luminance, in place: the sky itself where there is no surface; E(normal) rho lambert and
 /// specular reflection on surfaces. Without a sky returns `scene`.
-Resource add_sky(const FrameContext& frame, const GBuffer& surfaces, Resource scene, const SkyTexels& sky,
-                 float lambert);
+graph::Resource add_sky(const FrameContext& frame, const GBuffer& surfaces, graph::Resource scene, const SkyTexels& sky,
+                        float lambert);
 
-}  // namespace vesper
+}  // namespace vesper::render

@@ -69,7 +69,7 @@ dvec3 devlin_rgb(const shared::ToneCurve& curve, dvec3 rgb) {
     return receptor_of(curve).light(glm::max(rgb, dvec3(0)));
 }
 
-const KnownReference kKnown(Operator::Devlin, {.frame = devlin_frame, .rgb = devlin_rgb});
+const KnownReference kKnown(render::Operator::Devlin, {.frame = devlin_frame, .rgb = devlin_rgb});
 
 /// Statistics as pfstmo_reinhard05 takes them: it adds up all pixels but the first, and divides by all.
 Receptor of_pfstmo(const std::vector<dvec3>& row, double brightness, double c, double a) {
@@ -148,12 +148,12 @@ namespace vesper::test::devlin_test {
 namespace {
 
 TEST(Devlin, TheDeviceEqualsTheReference) {
-    OperatorSettings settings;
-    expect_reference(Operator::Devlin, settings);
+    render::OperatorSettings settings;
+    expect_reference(render::Operator::Devlin, settings);
     settings.devlin = {.intensity = 1, .contrast = 0.4f, .light_adaptation = 0.6f, .chromatic_adaptation = 0.3f};
-    expect_reference(Operator::Devlin, settings);
+    expect_reference(render::Operator::Devlin, settings);
     settings.devlin = {.intensity = -2, .contrast = 0, .light_adaptation = 0, .chromatic_adaptation = 1};
-    expect_reference(Operator::Devlin, settings);
+    expect_reference(render::Operator::Devlin, settings);
 }
 
 }  // namespace

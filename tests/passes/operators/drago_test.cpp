@@ -21,7 +21,7 @@ void drago_frame(const OperatorFrame& f, Adapted& out) {
     write_table(f.in.parameters, out.tone, [&](double l) { return drago(l, f.log_average, most, bias); });
 }
 
-const KnownReference kKnown(Operator::Drago, {.frame = drago_frame});
+const KnownReference kKnown(render::Operator::Drago, {.frame = drago_frame});
 
 /// Log average as pfstmo_drago03 has it.
 double average_of(const std::vector<double>& luminances) {
@@ -64,10 +64,10 @@ namespace vesper::test::drago_test {
 namespace {
 
 TEST(Drago, TheDeviceEqualsTheReference) {
-    OperatorSettings settings;
+    render::OperatorSettings settings;
     for (const float bias : {0.6f, 0.85f, 1.0f}) {
         settings.drago.bias = bias;
-        expect_reference(Operator::Drago, settings);
+        expect_reference(render::Operator::Drago, settings);
     }
 }
 

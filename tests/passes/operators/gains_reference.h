@@ -42,7 +42,7 @@ inline glm::dmat3 chromatic_adaptation(dvec3 chroma, double luminance) {
 inline void gains_frame(const OperatorFrame& f, Adapted& out) {
     const shared::ToneParameters& p = f.in.parameters;
     const bool in_state = p.ceiling == shared::kCeilingEye;
-    const double shown = cone_threshold(p.display_high / 2.0, f.breaks);
+    const double shown = vision::cone_threshold(p.display_high / 2.0, f.breaks);
     const double cone_gain =
         shown / (in_state ? f.cones.threshold(f.adaptation, f.cone_sigma) : f.cones.adapted_threshold(f.adaptation));
     const double rod_gain =

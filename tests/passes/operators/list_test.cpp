@@ -19,11 +19,11 @@ namespace {
 /// "`--key`, `--white`", by the name of an operator.
 std::map<std::string, std::string> options_of_operators() {
     std::map<std::string, std::string> made;
-    OperatorSettings all;
+    render::OperatorSettings all;
     size_t index = 0;
     all.each([&](auto& settings) {
-        std::string& list = made[std::string(operators()[index++].name)];
-        settings.options([&](const OperatorOption& option, auto&) {
+        std::string& list = made[std::string(render::operators()[index++].name)];
+        settings.options([&](const render::OperatorOption& option, auto&) {
             list += (list.empty() ? "`" : ", `") + std::string(option.name) + "`";
         });
     });
@@ -37,7 +37,7 @@ std::string table() {
     std::string text =
         "| `--operator` | source | earlier frames | `--adapt-to` | `--ceiling` | options |\n"
         "| --- | --- | --- | --- | --- | --- |\n";
-    for (const OperatorInfo& op : operators()) {
+    for (const render::OperatorInfo& op : render::operators()) {
         const std::string name(op.name);
         text += "| `" + name + "` | " + std::string(op.summary) + " | " + (op.remembers ? "yes" : "no") + " | `" +
                 adapt_to[op.adapt_to] + "` | `" + ceiling[op.ceiling] + "` | " + options.at(name) + " |\n";
@@ -56,13 +56,13 @@ TEST(Operators, TheDocumentListsThem) {
 
 TEST(Operators, HaveNamesAndOptionsOfTheirOwn) {
     std::set<std::string> names, options;
-    for (const OperatorInfo& op : operators()) {
+    for (const render::OperatorInfo& op : render::operators()) {
         EXPECT_TRUE(names.emplace(op.name).second) << op.name;
         EXPECT_FALSE(op.summary.empty()) << op.name;
     }
-    OperatorSettings all;
+    render::OperatorSettings all;
     all.each([&](auto& settings) {
-        settings.options([&](const OperatorOption& option, auto&) {
+        settings.options([&](const render::OperatorOption& option, auto&) {
             EXPECT_TRUE(options.emplace(option.name).second) << option.name;
             EXPECT_NE(std::string(option.help), "");
         });
@@ -75,12 +75,12 @@ TEST(Operators, KeepTheirValues) {
                                                   {VESPER_LINEAR, 3}, {VESPER_PATTANAIK, 5}, {VESPER_FERWERDA, 6},
                                                   {VESPER_DURAND, 7}, {VESPER_GRAVE, 8}};
     for (const auto& [value, wanted] : values) EXPECT_EQ(int(value), wanted);
-    EXPECT_EQ(operator_info(Operator::Pattanaik).name, "pattanaik");
-    EXPECT_EQ(operator_info(Operator::Grave).name, "grave");
+    EXPECT_EQ(render::operator_info(render::Operator::Pattanaik).name, "pattanaik");
+    EXPECT_EQ(render::operator_info(render::Operator::Grave).name, "grave");
 }
 
 TEST(Operators, SettingsThatContradictEachOtherAreRefused) {
-    OperatorSettings all;
+    render::OperatorSettings all;
     EXPECT_NO_THROW(all.check());
     all.linear = {.low = 5, .high = 5};
     EXPECT_THROW(all.check(), Error);

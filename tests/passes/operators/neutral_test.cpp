@@ -32,7 +32,7 @@ dvec3 neutral_rgb(const shared::ToneCurve& curve, dvec3 rgb) {
     return neutral(glm::max(double(curve.block[0].x) * rgb, dvec3(0)));
 }
 
-const KnownReference kKnown(Operator::Neutral, {.frame = neutral_frame, .rgb = neutral_rgb});
+const KnownReference kKnown(render::Operator::Neutral, {.frame = neutral_frame, .rgb = neutral_rgb});
 
 // By its specification: greys and colours between 0.08 and 0.8 lose 0.04 and nothing else; 0.04, the reflection of a
 // black dielectric, becomes 0.01.
@@ -63,10 +63,10 @@ namespace vesper::test::neutral_test {
 namespace {
 
 TEST(Neutral, TheDeviceEqualsTheReference) {
-    OperatorSettings settings;
-    expect_reference(Operator::Neutral, settings);
+    render::OperatorSettings settings;
+    expect_reference(render::Operator::Neutral, settings);
     settings.neutral.white = 50;
-    expect_reference(Operator::Neutral, settings);
+    expect_reference(render::Operator::Neutral, settings);
 }
 
 }  // namespace

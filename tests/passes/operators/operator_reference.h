@@ -21,17 +21,17 @@ struct AdaptInputs {
     PyramidLevel fovea;
     shared::EyeState previous{};
     shared::ToneParameters parameters{};
-    Observer observer;
-    Operator tone_operator = Operator::Irawan;
+    vision::Observer observer;
+    render::Operator tone_operator = render::Operator::Irawan;
     PyramidLevel colours;  ///< tiles; empty: the eye does not adapt to colour
 };
 
 /// Everything the pass writes, in double where it matters.
 struct Adapted {
     Adjusted adjusted;
-    ReceptorState cones, rods;
+    vision::ReceptorState cones, rods;
     std::vector<double> share;
-    pattanaik::State pattanaik;
+    vision::pattanaik::State pattanaik;
     shared::ToneCurve tone{};
     shared::EyeState eye{};
 };
@@ -41,9 +41,9 @@ struct OperatorFrame {
     const AdaptInputs& in;
     bool empty, first;
     double log_average, mean, maximum, adaptation, scotopic;
-    const ReceptorModel &cones, &rods;
+    const vision::ReceptorModel &cones, &rods;
     double cone_sigma, rod_sigma;
-    ThresholdBreaks breaks;
+    vision::ThresholdBreaks breaks;
 };
 
 /// A table that does not depend on the histogram: `shown`, relative to the display's range, of 1e-4 to 1e8 cd/m^2.
@@ -64,13 +64,13 @@ struct OperatorReference {
     void (*frame)(const OperatorFrame&, Adapted&) = nullptr;
     dvec3 (*rgb)(const shared::ToneCurve&, dvec3 rgb) = nullptr;
 };
-inline std::map<Operator, OperatorReference>& operator_references() {
-    static std::map<Operator, OperatorReference> all;
+inline std::map<render::Operator, OperatorReference>& operator_references() {
+    static std::map<render::Operator, OperatorReference> all;
     return all;
 }
 /// A variable of this type makes a reference known.
 struct KnownReference {
-    KnownReference(Operator op, OperatorReference reference) { operator_references()[op] = reference; }
+    KnownReference(render::Operator op, OperatorReference reference) { operator_references()[op] = reference; }
 };
 
 }  // namespace vesper::reference

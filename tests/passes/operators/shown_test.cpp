@@ -14,11 +14,11 @@
 namespace vesper::test {
 namespace {
 
-const Display kDisplays[]{{}, {.peak = 1000, .black = 0.01f, .ambient = 300}};
+const vision::Display kDisplays[]{{}, {.peak = 1000, .black = 0.01f, .ambient = 300}};
 
 // A grey pixel as the display shows it; 1e-5, since curves and displays are in float, and logarithms make much of that.
 TEST(Shown, IsTheLuminanceOfAGreyPixel) {
-    for (const Display& display : kDisplays)
+    for (const vision::Display& display : kDisplays)
         for (const uint32_t tone : kEveryTone) {
             shared::ToneCurve curve = crooked_curve_of(tone, display);
             // Grey stays grey, since a display cannot show white's luminance in another colour.
@@ -29,8 +29,10 @@ TEST(Shown, IsTheLuminanceOfAGreyPixel) {
                 const double luminance = std::pow(10, exponent);
                 const double want = low + (high - low) * reference::luminance(reference::displayed(
                                                              glm::dvec3(luminance), tone, curve, low, high));
-                EXPECT_NEAR(shown_luminance(Operator(tone & shared::kToneForm), curve, luminance, display) / want, 1,
-                            1e-5)
+                EXPECT_NEAR(
+                    render::shown_luminance(render::Operator(tone & shared::kToneForm), curve, luminance, display) /
+                        want,
+                    1, 1e-5)
                     << "tone " << tone << ", " << luminance << " cd/m^2";
             }
         }
@@ -40,29 +42,31 @@ TEST(Shown, IsTheLuminanceOfAGreyPixel) {
 // maps colours by a formula is straight between nodes that are 2.7 % of luminance apart.
 TEST(Shown, IsWhatTheCompositeShows) {
     PassRig rig;
-    ToneMapper mapper(rig.device());
+    render::ToneMapper mapper(rig.device());
     constexpr VkExtent2D extent{211, 3};
     std::vector<glm::vec4> pixels;
     for (uint32_t i = 0; i < extent.width * extent.height; ++i)
         pixels.emplace_back(glm::vec3(std::pow(10.0f, -3 + 8 * float(i % extent.width) / float(extent.width))), 1);
-    for (const Display& display : kDisplays)
-        for (const OperatorInfo& op : operators()) {
-            ToneChainSettings settings;
+    for (const vision::Display& display : kDisplays)
+        for (const render::OperatorInfo& op : render::operators()) {
+            render::ToneChainSettings settings;
             settings.tone_operator = op.tone_operator, settings.display = display;
             const std::span<const float> rgba(&pixels.front().x, pixels.size() * 4);
             mapper.reset_adaptation();
             const shared::ToneCurve curve =
                 mapper.map(settings, {.extent = extent, .values = rgba, .channels = 4}, 0).curve;
-            FrameGraph graph;
-            const CompositeInputs inputs{rig.image(graph, "scene", kSceneFormat, extent, pixels),
-                                         graph.upload("curve", std::vector{curve}, VK_FORMAT_R32G32B32A32_SFLOAT)};
-            const Resource light = keep<glm::vec4>(
-                graph, add_display_light(rig.frame(graph, extent), inputs, {.tone = op.form, .display = display}));
+            graph::FrameGraph graph;
+            const render::CompositeInputs inputs{
+                rig.image(graph, "scene", render::kSceneFormat, extent, pixels),
+                graph.upload("curve", std::vector{curve}, VK_FORMAT_R32G32B32A32_SFLOAT)};
+            const graph::Resource light = keep<glm::vec4>(
+                graph,
+                render::add_display_light(rig.frame(graph, extent), inputs, {.tone = op.form, .display = display}));
             rig.run(graph);
             const std::vector<glm::vec4> composite = rig.got<glm::vec4>(light);
             for (size_t i = 0; i < extent.width; ++i) {
                 const double want = std::min(luminance(glm::vec3(composite[i])), double(display.high()));
-                const double got = shown_luminance(op.tone_operator, curve, double(pixels[i].x), display);
+                const double got = render::shown_luminance(op.tone_operator, curve, double(pixels[i].x), display);
                 ASSERT_NEAR(got / want, 1, 5e-4)
                     << op.name << ", " << pixels[i].x << " cd/m^2 at a peak of " << display.peak << " cd/m^2";
             }

@@ -12,6 +12,7 @@ namespace vesper::apps {
 namespace {
 
 constexpr size_t kMostBytes = 4000;               // of a text within a line
+constexpr size_t kMostLines = 400;                // of a report
 constexpr size_t kMostOfAKind = 20, kMost = 100;  // notes
 
 /// The text of one conversion such as "%-24s"; `stars` of the values are widths or precisions.
@@ -110,6 +111,15 @@ void print_text(const std::string& lines) {
         if (end < lines.size()) std::fputc('\n', stdout);
         at = end + 1;
     }
+}
+
+void print_report(const std::string& lines) {
+    size_t end = 0, count = 0;
+    for (; count < kMostLines && end < lines.size(); ++count)
+        end = std::min(lines.find('\n', end), lines.size() - 1) + 1;
+    print_text(lines.substr(0, end));
+    const auto more = std::count(lines.begin() + std::ptrdiff_t(end), lines.end(), '\n');
+    if (more > 0) print("and %zu more lines\n", size_t(more));
 }
 
 void print_note(const std::string& text) { print_line(stderr, "note: ", text); }

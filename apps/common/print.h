@@ -16,6 +16,9 @@ namespace vesper::apps {
 /// Prints lines that are formatted already to standard output; control characters in them are replaced.
 void print_text(const std::string& lines);
 
+/// The same of what a file holds: 400 lines at most, then how many more there are.
+void print_report(const std::string& lines);
+
 /// Prints "note: TEXT" or "warning: TEXT" to standard error; TEXT is made plain.
 void print_note(const std::string& text);
 void print_warning(const std::string& text);

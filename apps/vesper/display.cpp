@@ -80,9 +80,12 @@ void run_fit(const FitArguments& a) {
         "\nresiduals: root mean square %.2f %%, largest %.2f %%\n  line   code    measured     profile  residual\n",
         100 * fit.rms, 100 * fit.largest);
     const vision::DisplayCurve curve(d);
+    std::string rows;
     for (size_t i = 0; i < measured.size(); ++i)
-        apps::print("%6zu %6u %11.5g %11.5g %8.2f%%\n", measured[i].line, measured[i].code, measured[i].luminance,
-                    curve.emitted(double(measured[i].code) / d.largest_code()), 100 * fit.residuals[i]);
+        rows +=
+            apps::format("%6zu %6u %11.5g %11.5g %8.2f%%\n", measured[i].line, measured[i].code, measured[i].luminance,
+                         curve.emitted(double(measured[i].code) / d.largest_code()), 100 * fit.residuals[i]);
+    apps::print_report(rows);
     if (d.eotf == vision::Eotf::Table && fit.largest > 0.03)
         apps::print_note(
             one_line(a.measurements) +

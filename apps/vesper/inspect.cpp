@@ -4,14 +4,15 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "command_line.h"
 
 #include "arguments.h"
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/lower.h"
+#include "base/one_line.h"
 #include "commands.h"
 #include "io/file_gate.h"
 #include "io/read_file.h"
@@ -27,10 +28,8 @@ enum class Kind : uint8_t { Scene, Distribution, Table, Picture };
 
 /// A grid may be damaged: its reader will say.
 bool is_grid(const std::string& file) {
-    std::vector<char> start(1u << 20);  // the header is in it
-    std::ifstream in(file, std::ios::binary);
-    in.read(start.data(), std::streamsize(start.size()));
-    return photometry::is_grid_exr({reinterpret_cast<const uint8_t*>(start.data()), size_t(in.gcount())});
+    const std::vector<uint8_t> start = io::read_start(file, 1u << 20);  // the header is in it
+    return photometry::is_grid_exr(start);
 }
 
 Kind kind_of(const std::string& file) {
@@ -47,6 +46,7 @@ Kind kind_of(const std::string& file) {
 }
 
 void run(const InspectArguments& a) {
+    const Budget budget("inspecting " + one_line(a.file));
     io::announce_read(a.file);
     io::announce_write("--json", a.json);
     if (!a.picture.empty() && !a.picture.ends_with(".png"))
@@ -76,7 +76,7 @@ void run(const InspectArguments& a) {
             found = inspect_picture(a);
             break;
     }
-    apps::print_text(found.text);
+    apps::print_report(found.text);
     if (!a.json.empty())
         apps::write_text(a.json,
                          found.json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");

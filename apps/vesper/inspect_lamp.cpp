@@ -86,7 +86,7 @@ Inspection inspect_distribution(const InspectArguments& arguments) {
     const photometry::Distribution d = photometry::read_distribution(arguments.file);
     const photometry::BeamFigures f = photometry::beam_figures(d);
     Inspection made;
-    made.text = arguments.file + "\n  " + apps::column(d.name, 100) + "\n";
+    made.text = one_line(arguments.file) + "\n  " + apps::column(d.name, 100) + "\n";
     while (made.text.ends_with(" \n")) made.text.erase(made.text.size() - 2, 1);
     made.text += format("  goniometry   %s\n", name_of(d.goniometry)) + ranges_text(d);
     made.text += format("  symmetry     %s\n  flux         %.1f lm", photometry::name_of(f.symmetry), f.flux);
@@ -133,7 +133,7 @@ Inspection inspect_table(const InspectArguments& arguments) {
     const photometry::ReflectionTable t = photometry::read_reflection_table(arguments.file);
     const double q0 = photometry::average_luminance_coefficient(t), s1 = photometry::specular_factor(t);
     Inspection made;
-    made.text = arguments.file + "\n  " + t.name +
+    made.text = one_line(arguments.file) + "\n  " + t.name +
                 format(": r-table of %zu tan gamma to %g and %zu beta\n", t.tan_gamma.size(), t.tan_gamma.back(),
                        t.beta.size());
     made.text +=

@@ -116,7 +116,7 @@ Inspection inspect_scene(const InspectArguments& arguments) {
     const scene::LoadedScene loaded = scene::read_gltf(arguments.file);
     const scene::Scene& scene = loaded.scene;
     const scene::SceneReport report = scene::report_scene(scene);
-    std::string text = arguments.file + "\n";
+    std::string text = one_line(arguments.file) + "\n";
     text += format("%.4g x %.4g x %.4g m (x, up, z), %llu triangles, %zu materials\n", report.extent.x, report.extent.y,
                    report.extent.z, static_cast<unsigned long long>(report.triangles), report.materials.size());
     text += format("ambient %.4g lx, sky %.4g cd/m2, textures by ", static_cast<double>(scene.ambient_illuminance),

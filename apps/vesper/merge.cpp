@@ -9,6 +9,7 @@
 
 #include "command_line.h"
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "commands.h"
@@ -198,6 +199,7 @@ void run(const MergeArguments& arguments) {
     io::announce_write("--response", arguments.response);
     const KnownLuminance known = arguments.luminance.empty() ? KnownLuminance{} : parse_luminance(arguments.luminance);
 
+    const Budget budget("merging " + pictures_of(arguments));
     std::vector<photometry::Exposure> exposures = read_exposures(arguments);
     photometry::estimate_shifts(exposures);
     report_exposures(arguments, exposures);

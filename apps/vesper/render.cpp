@@ -133,7 +133,6 @@ void check_arguments(RenderArguments& arguments) {
         if (!exr && !output.ends_with(".png")) throw Error("-o " + output + ": a .png or .exr file is expected");
         if (exr && settings.tone_operator == render::Operator::Ldr)
             throw Error("-o " + output + ": the ldr operator has no luminances to write; use .png");
-        io::announce_write("-o", file_of_frame(output, 0, arguments.frames));
     }
     io::announce_write("--stats-json", arguments.statistics_file);
     for (const auto& [option, file] :
@@ -215,6 +214,9 @@ void run(RenderArguments& arguments) {
 
     const std::vector<FrameTime> moments = moments_of(arguments);
     arguments.frames = unsigned(moments.size());
+    for (const std::string& output : arguments.outputs)
+        for (unsigned index = 0; index < arguments.frames; ++index)
+            io::announce_write("-o", file_of_frame(output, index, arguments.frames));
     scene::LoadedScene loaded = scene::read_gltf(arguments.scene);
     loaded.scene.name = arguments.scene;
     check_wanted(arguments);  // a scene that cannot be read is said first

@@ -28,6 +28,7 @@ std::vector<std::string> check_arguments(const StudyArguments& arguments) {
         names.push_back(fs::path(input).stem().string());
         if (!seen.insert(names.back()).second)
             throw Error(one_line(input) + ": a second picture of the name " + one_line(names.back()));
+        io::announce_read(input);
         if (!fs::is_regular_file(input)) throw Error(one_line(input) + ": there is no such file");
     }
     apps::parse_size(arguments.source.size);

@@ -11,7 +11,7 @@
 
 namespace vesper::gpu_scene {
 
-/// Lights in the view frame, sorted by kind as shared::LampCounts says.
+/// Lamps in the view frame, sorted by kind as shared::LampCounts says.
 struct LampList {
     std::vector<shared::Lamp> lamps;
     shared::LampCounts counts{0, 0, 0, 0};
@@ -27,7 +27,7 @@ struct PlacedLamp {
 };
 std::vector<PlacedLamp> placed_lamps(const scene::Scene& scene);
 
-/// Lights at the poses of a frame, as the view sees them. Lamps of no intensity are left out.
+/// Lamps at the poses of a frame, as the view sees them. Lamps of no intensity are left out.
 LampList lamp_list(const std::vector<PlacedLamp>& lamps, const IntensityTables& tables, const SceneFrame& frame,
                    const View& view);
 

@@ -39,6 +39,7 @@ Descriptor open_part(const fs::path& part) {
         if (made.is_open()) continue;  // another program took it for a remnant
         // A link is no file that grows: it is opened by nobody.
         const Descriptor old(::open(part.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+        if (!old.is_open() && errno == EACCES) fail(part, kDoing, errno);  // nobody can tell whether it grows
         if (old.is_open() && ::flock(old.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
             throw Error(one_line(part.string()) + ": is being written by another program");
         if (old.is_open() && !leads_to(part, old)) continue;

@@ -202,6 +202,13 @@ HdrImage decode_exr(std::span<const uint8_t> bytes, const std::string& name, con
         check_size("OpenEXR: tile", exr.tileDescription().xSize, exr.tileDescription().ySize,
                    {limits.max_side, std::min(limits.max_pixels, uint64_t{1} << 24)});
 
+    // OpenEXR unpacks all channels of a block of lines or tiles, wanted or not.
+    uint64_t channels = 0;
+    for (auto channel = exr.channels().begin(); channel != exr.channels().end(); ++channel) ++channels;
+    constexpr uint64_t kLinesOfABlock = 256, kCopies = 2;
+    const TemporaryMemory of_blocks(channels * sizeof(float) * kCopies * static_cast<uint64_t>(data.width()) *
+                                    std::min(kLinesOfABlock, static_cast<uint64_t>(data.height())));
+
     HdrImage image{static_cast<uint32_t>(display.width()), static_cast<uint32_t>(display.height())};
     using Kind = ExrLayer::Kind;
     const glm::dmat3 matrix = to_rec709(layer.kind == Kind::Xyz ? kXyz : primaries_of(exr));

@@ -38,7 +38,7 @@ bool acceptable(Job& job, uint64_t width, uint64_t height, uint64_t max_texels_p
     if (width > job.max_side || height > job.max_side)
         why = "is larger than the limit for one side";
     else if (width * height > job.max_texels)
-        why = "takes the images over the limit of texels";
+        why = "takes the images over the limit of texels (VESPER_LIMITS=2 allows twice as many)";
     else if (width * height / max_texels_per_byte > job.bytes.size())
         why = "is cut off";
     if (!why) return true;

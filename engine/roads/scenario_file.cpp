@@ -4,6 +4,7 @@
 
 #include "base/decimal.h"
 #include "base/error.h"
+#include "io/named_file.h"
 #include "io/read_file.h"
 #include "photometry/table.h"
 #include "roads/esmini_parts.h"
@@ -77,9 +78,15 @@ void ScenarioFile::look_for_catalogs() {
         for (const XmlElement& directory : location.children("Directory")) {
             const auto path = resolved(directory, "path", parameters_);
             if (!path) continue;
+            std::filesystem::path named;
+            try {
+                named = io::named_file(folder_, *path);
+            } catch (const Error& error) {
+                directory.fail(error.what());
+            }
             std::error_code none;
-            if (std::filesystem::is_regular_file(folder_ / *path, none)) files.push_back(folder_ / *path);
-            for (std::filesystem::directory_iterator entry(folder_ / *path, none), end; !none && entry != end;
+            if (std::filesystem::is_regular_file(named, none)) files.push_back(named);
+            for (std::filesystem::directory_iterator entry(named, none), end; !none && entry != end;
                  entry.increment(none))
                 if (entry->path().extension() == ".xosc") files.push_back(entry->path());
         }

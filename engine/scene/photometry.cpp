@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/angle.h"
+#include "base/budget.h"
 #include "io/read_file.h"
 #include "scene/colour.h"
 #include "scene/json_value.h"
@@ -181,6 +182,7 @@ Transfer read_transfer(const JsonValue& textures) {
 bool matches(const char* pattern, const char* text, char barrier) {
     const char *star = nullptr, *retry = nullptr;
     while (*text) {
+        check_time();
         if (*pattern == '*') {
             star = pattern++;
             retry = text;

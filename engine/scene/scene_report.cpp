@@ -10,6 +10,7 @@
 #include <tuple>
 #include <unordered_map>
 
+#include "base/budget.h"
 #include "base/srgb.h"
 #include "scene/colour.h"
 #include "scene/lamp.h"
@@ -170,6 +171,7 @@ private:
     void look_at_triangles(const Primitive& primitive, const glm::dmat4& world, bool add_area) {
         const glm::dvec3 none(HUGE_VAL);
         for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+            check_time();
             std::array<glm::dvec3, 3> corner;
             glm::dvec3 low = none, high = -none;
             for (size_t k = 0; k < 3; ++k) {
@@ -181,7 +183,10 @@ private:
                 area_[primitive.material] += glm::length(glm::cross(corner[1] - corner[0], corner[2] - corner[0])) / 2;
             low_ = glm::min(low_, low), high_ = glm::max(high_, high);
             for (auto lamp = first_lamp(low.x); lamp != lamps_.end() && lamp->position.x <= high.x; ++lamp)
-                if (lamp->position.z >= low.z && lamp->position.z <= high.z) look_for(*lamp, corner);
+                if (lamp->position.z >= low.z && lamp->position.z <= high.z) {
+                    check_time();
+                    look_for(*lamp, corner);
+                }
         }
     }
 

@@ -61,7 +61,7 @@ TEST_F(ClosedDoors, ABufferThatAnotherFileNamesIsNotReplaced) {
 }
 
 TEST_F(ClosedDoors, AProfileIsNotReplacedByStatistics) {
-    const std::string profile = R"({"eotf": "srgb", "peak": 100, "black": 0.1})";
+    const std::string profile = R"({"version": 1, "eotf": "srgb", "peak_cd_m2": 100, "black_cd_m2": 0.1})";
     folder.write("p.json", profile);
     expect_refused("render " + kHeadlamps + " --size 33x21 --display p.json --stats-json p.json",
                    {"p.json", kReplaced});
@@ -156,7 +156,7 @@ TEST_F(ClosedDoors, NotesAreCounted) {
 TEST_F(ClosedDoors, WorkAndMemoryOfAFileAreBounded) {
     const std::string little = "VESPER_LIMITS=0.01";  // 0.6 s, 20 MiB
     folder.write("spiral.xodr",
-                 opendrive(road("1", 1e5, geometry(0, 0, 0, 0, 1e5, "<spiral curvStart=\"0.09\" curvEnd=\"0.1\"/>"),
+                 opendrive(road("1", 4e4, geometry(0, 0, 0, 0, 4e4, "<spiral curvStart=\"0.09\" curvEnd=\"0.1\"/>"),
                                 "<laneSection s=\"0\"><center><lane id=\"0\"/></center><right>" + lane(-1, 3) +
                                     "</right></laneSection>")));
     expect_refused("convert spiral.xodr -o s.glb", {"spiral.xodr", "takes more than", "VESPER_LIMITS"}, little);
@@ -179,12 +179,59 @@ TEST_F(ClosedDoors, WorkAndMemoryOfAFileAreBounded) {
     const size_t positions = file.vec3(kTriangle), uv = file.vec2({0, 0, 1, 0, 0, 1});
     file.show({{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", uv}}}, {"material", 0}});
     folder.write("white.gltf", file.text());
-    expect_refused("inspect white.gltf", {"white.gltf", "images/0", "takes more than", "VESPER_LIMITS"}, little);
-    // It can be read with 0.1 of the memory, but not prepared for the device.
+    expect_refused("inspect white.gltf", {"white.gltf", "images/0", "VESPER_LIMITS"}, little);
+    // It can be read with 120 MiB, but not prepared for the device.
     expect_refused("render white.gltf --size 9x9 -o x.png", {"white.gltf", "takes more than", "VESPER_LIMITS"},
                    "VESPER_LIMITS=0.06");
     EXPECT_EQ(run("inspect white.gltf"), 0) << said;
     EXPECT_FALSE(exists("s.glb") || exists("t.glb") || exists("x.png"));
+}
+
+TEST_F(ClosedDoors, EveryPictureOfManyHasItsOwnName) {
+    const std::string frames = "render " + kHeadlamps + " --size 9x9 --frames 3 -o 'f.%d.png' ";
+    for (const char* rest : {"--stats-json f.2.png", "--log f.2.png", "-o 'f.%01d.png'"})
+        expect_refused(frames + rest, {"would be written twice"});
+    // One of them is a picture of the scene: nothing is written.
+    folder.write("f.0.png", "mine");
+    io::write_png(folder / "f.1.png", 1, 1, std::vector<uint8_t>(4, 255), {}, {});
+    GltfFile file;
+    file.root["images"] = {{{"uri", "f.1.png"}}};
+    file.root["textures"] = {{{"source", 0}}};
+    file.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    const size_t positions = file.vec3(kTriangle), uv = file.vec2({0, 0, 1, 0, 0, 1});
+    file.show({{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", uv}}}, {"material", 0}});
+    folder.write("s.gltf", file.text());
+    expect_refused("render s.gltf --size 9x9 --frames 2 -o 'f.%d.png'", {"f.1.png", kReplaced});
+    expect_kept("f.0.png", "mine");
+}
+
+TEST_F(ClosedDoors, ReportsOfFilesEnd) {
+    std::string table = "code,luminance\n";
+    for (int i = 0; i < 1000; ++i) table += std::to_string(i % 256) + "," + std::to_string(0.1 + i % 256) + "\n";
+    folder.write("m.csv", table);
+    ASSERT_EQ(run("display fit m.csv -o d.json"), 0) << said;
+    EXPECT_LT(std::count(printed.begin(), printed.end(), '\n'), 420) << printed;
+    EXPECT_NE(printed.find("and 600 more lines"), printed.npos);
+}
+
+TEST_F(ClosedDoors, PatternsAndPicturesOfASeriesAreBounded) {
+    const std::string little = "VESPER_LIMITS=0.01";
+    GltfFile file;
+    for (int i = 0; i < 100; ++i) file.root["nodes"].push_back({{"name", std::string(4000, 'a')}});
+    folder.write("names.gltf", file.text());
+    nlohmann::json rules = {{"version", 1}, {"lamps", nlohmann::json::array()}};
+    for (int i = 0; i < 20; ++i)
+        rules["lamps"].push_back({{"nodes", "*" + std::string(1990, 'a') + "b" + std::to_string(i)},
+                                  {"type", "point"},
+                                  {"intensity_cd", 1}});
+    folder.write("rules.json", rules.dump());
+    expect_refused("convert names.gltf -p rules.json -o n.glb", {"names.gltf", "takes more than", "VESPER_LIMITS"},
+                   little);
+    const std::vector<uint8_t> white(size_t(2048) * 2048 * 4, 255);
+    for (const char* name : {"a.png", "b.png"}) io::write_png(folder / name, 2048, 2048, white, {}, {});
+    expect_refused("merge a.png b.png -e 1,2 -o m.exr", {"b.png", "takes more than", "VESPER_LIMITS"}, little);
+    ASSERT_EQ(mkfifo((folder / "f.exr").c_str(), 0600), 0);
+    expect_refused("inspect f.exr", {"f.exr", "not a regular file"});
 }
 
 TEST_F(ClosedDoors, APipeThatNobodyReadsIsRefused) {
@@ -287,8 +334,7 @@ TEST_F(ClosedDoors, ExtrasOfAnyKindAreKept) {
 TEST_F(ClosedDoors, RefusalsOfMergeNameFiles) {
     const std::vector<uint8_t> grey(size_t(16) * 16 * 4, 128);
     io::write_png(folder / "a.png", 16, 16, grey, {}, {}), io::write_png(folder / "b.png", 16, 16, grey, {}, {});
-    for (const char* rest :
-         {"-e 1,1 -o m.exr", "-e 1,2 -o m.exr", "-e 1,2 --curve srgb --luminance 99,99,1 -o m.exr", "-o m.exr"})
+    for (const char* rest : {"-e 1,1 -o m.exr", "-e 1,2 --curve srgb --luminance 99,99,1 -o m.exr", "-o m.exr"})
         expect_refused("merge a.png b.png " + std::string(rest), {"a.png"});
 }
 

@@ -225,7 +225,7 @@ TEST_F(DriveProgram, RefusesSettingsThatCannotBeShown) {
         folder.write("d.json",
                      R"({"vesper_drive":1,"scene":"data/rivoli/rivoli.world.json","events":[{"frame":true},)" + step +
                          R"({"set":)" + set + "}," + step + R"({"frame":true}]})");
-        return std::string("--headless --size 16x10 --replay d.json ");
+        return std::string("--headless --allow-outside data --size 16x10 --replay d.json ");
     };
     expect_refused(replay(R"({"age":"50","lamp:strete lamp":"0"})") + "--log l.csv",
                    {"d.json: /events/2/set: ", "strete lamp"});
@@ -238,7 +238,7 @@ TEST_F(DriveProgram, RefusesSettingsThatCannotBeShown) {
     const auto begun = [&](const std::string& settings) {
         folder.write("d.json", R"({"vesper_drive":1,"scene":"data/rivoli/rivoli.world.json","settings":)" + settings +
                                    R"(,"events":[)" + step + R"({"frame":true}]})");
-        return std::string("--headless --size 16x10 --replay d.json ");
+        return std::string("--headless --allow-outside data --size 16x10 --replay d.json ");
     };
     expect_refused(begun(R"({"age":"50","lamp:strete lamp":"0"})") + "--log l.csv",
                    {"d.json: /settings: ", "strete lamp"});
@@ -253,12 +253,13 @@ TEST_F(DriveProgram, RefusesSettingsThatCannotBeShown) {
         R"({"vesper_drive":1,"scene":"data/rivoli/rivoli.world.json","settings":{"operator":"ldr"},"events":[{"set":{"operator":"ward"}},)" +
             shown + step + R"({"set":{"operator":"ldr"}},)" + step + R"({"set":{"age":"40","operator":"ward"}},)" +
             shown + R"({"set":{"operator":"ldr"}},)" + step + R"({"set":{"age":"50"}}]})");
-    EXPECT_EQ(run("--headless --size 16x10 --replay d.json --video u%d.exr"), 0) << said;
+    EXPECT_EQ(run("--headless --allow-outside data --size 16x10 --replay d.json --video u%d.exr"), 0) << said;
     EXPECT_TRUE(exists("u1.exr"));
     folder.write("d.json", R"({"vesper_drive":1,"scene":"data/rivoli/rivoli.world.json","events":[)" + shown +
                                R"({"set":{"operator":"ldr"}},{"set":{"age":"40"}},)" + step + shown +
                                "{\"frame\":true}]}");
-    expect_refused("--headless --size 16x10 --replay d.json --video v%d.exr", {"d.json: /events/1/set: ", "ldr"});
+    expect_refused("--headless --allow-outside data --size 16x10 --replay d.json --video v%d.exr",
+                   {"d.json: /events/1/set: ", "ldr"});
     // What is given beside the recording stands in its place.
     EXPECT_EQ(run(replay(R"({"operator":"ldr"})") + "--operator ward --video %d.exr"), 0) << said;
     EXPECT_TRUE(exists("1.exr"));
@@ -272,7 +273,8 @@ TEST_F(DriveProgram, FramesOfARateBeginAfterWhatIsSet) {
         "d.json",
         R"({"vesper_drive":1,"scene":"data/rivoli/rivoli.world.json","events":[{"set":{"operator":"ldr"}},{"frame":true},{"step":{},"pose":[0,0,0,0]},{"frame":true}]})");
     const auto first_row = [&](const std::string& options) {
-        EXPECT_EQ(run("--headless --size 16x10 --replay d.json --log l.csv " + options), 0) << said;
+        EXPECT_EQ(run("--headless --allow-outside data --size 16x10 --replay d.json --log l.csv " + options), 0)
+            << said;
         const std::string log = read_text(folder / "l.csv");
         const size_t row = log.find('\n') + 1;
         return log.substr(row, log.find('\n', row) - row);

@@ -71,7 +71,7 @@ inline Adapted adapt(const AdaptInputs& in) {
                         0,
                         false};
 
-    // Over time every node of the curve follows, in ln Ld, never more than a tenth away; what is empty, and a pause,
+    // Over time every node of the curve follows, in ln Ld, never more than kLeash away; what is empty, and a pause,
     // leave it as it was.
     constexpr double kLeash = 0.25;
     const Curve& curve = out.adjusted.curve;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "io/named_file.h"
 #include "places.h"
 #include "roads/layout_scene.h"
 #include "roads/road_lighting.h"
@@ -131,7 +132,11 @@ TEST(LayoutFile, NamesThePlaceOfWhatIsWrong) {
     json dark = layout_json();
     dark["luminaires"]["file"] =
         folder.write("dark.ies", "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 1\n0 90\n0\n0 0\n").string();
-    EXPECT_TRUE(contains(complaint_of([&] { layout_of(dark); }), "dark.ies: the luminaire gives no light"));
+    {
+        const io::AllowedFolder allowed(folder.path());
+        EXPECT_TRUE(contains(complaint_of([&] { layout_of(dark); }), "dark.ies: the luminaire gives no light"));
+    }
+    EXPECT_TRUE(contains(complaint_of([&] { layout_of(dark); }), "dark.ies: lies outside the folder"));
     roads::LayoutOverrides narrow;
     narrow.spacing = 1;
     EXPECT_TRUE(

@@ -265,7 +265,7 @@ TEST_F(ConvertTest, WeighsReflectanceThroughTheTransfer) {
 
 TEST_F(ConvertTest, RefusesAndLeavesNothingBehind) {
     EXPECT_TRUE(contains(complaint_with(json::object(), "out.obj"), "out.obj"));
-    EXPECT_TRUE(contains(complaint_with(json::object(), "in.gltf"), "would replace an input"));
+    EXPECT_TRUE(contains(complaint_with(json::object(), "in.gltf"), "would replace what is read"));
     EXPECT_TRUE(contains(complaint_with({{"lamp", 1}}), "p.json: /lamp"));
     json many = json::array();
     for (int i = 0; i <= 21000; ++i)

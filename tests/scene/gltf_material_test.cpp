@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "io/image_file.h"
+#include "io/named_file.h"
 #include "scene/scene_files.h"
 
 namespace vesper::test {
@@ -179,8 +180,11 @@ TEST(GltfMaterial, FindsPicturesByEncodedAndByPlainNames) {
         GltfFile file = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
         add_texture(file, uri);
         EXPECT_EQ(scene::read_gltf(folder.write("s.gltf", file.text())).scene.images.at(0).rgba[0], 9) << uri;
-        // A database may keep its textures beside the folder of its models.
+        // A database may keep its textures beside the folder of its models, where that is allowed.
         file.root["images"][0]["uri"] = "../" + std::string(uri);
+        const std::filesystem::path beside = folder.write("sub/s.gltf", file.text());
+        EXPECT_TRUE(contains(complaint_of([&] { scene::read_gltf(beside); }), "lies outside the folder")) << uri;
+        const io::AllowedFolder allowed(folder.path());
         EXPECT_EQ(scene::read_gltf(folder.write("sub/s.gltf", file.text())).scene.images.size(), 1u) << uri;
     }
 }

@@ -6,6 +6,7 @@
 
 #include "io/hdr_image.h"
 #include "io/image_file.h"
+#include "io/named_file.h"
 #include "io/read_file.h"
 #include "photometry/distribution.h"
 #include "photometry/standard_lamps.h"
@@ -90,6 +91,7 @@ TEST(Threads, ReadersReadTheSameFiles) {
     const TempFolder folder;
     io::write_png(folder / "x.png", 7, 5, std::vector<uint8_t>(7 * 5 * 4, 99));
     const auto read = [&](size_t i) {
+        const io::AllowedFolder allowed(data);  // of this thread
         std::vector<double> seen;
         seen.push_back(double(scene::read_gltf(data / "glare/headlamps.gltf").scene.nodes.size()));
         seen.push_back(double(io::read_hdr_image(data / "rivoli/signs.exr").rgb[1]));

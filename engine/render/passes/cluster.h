@@ -31,7 +31,7 @@ struct Clusters {
     graph::Resource report;   ///< shared::ClusterReport
     graph::Resource block_slices;  ///< r32ui, for each block of shared::kBlockSize pixels the slices that have a
                                    ///< surface, a bit each
-    shared::ClusterPush push;  ///< grid, counts, threshold and far
+    shared::ClusterPush push;      ///< grid, counts, threshold and far
 };
 
 /// Lists, for every froxel that has a surface (`surface`: GBuffer::surface), all lamps that may give `threshold` lx

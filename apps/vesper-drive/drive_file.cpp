@@ -68,8 +68,7 @@ std::string step_text(const DriveEvent& event, const traffic::DriverInput& befor
 // A path as seen from a folder; what came with the program by a name that holds wherever either is moved.
 std::string seen_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
     if (file.empty()) return "";
-    if (const std::string own = apps::own_data_name(file); !own.empty() && apps::own_data_name(folder).empty())
-        return own;
+    if (std::string own = apps::own_data_name(file); !own.empty() && apps::own_data_name(folder).empty()) return own;
     std::error_code failed;
     const std::filesystem::path near =
         std::filesystem::proximate(std::filesystem::absolute(file, failed), folder, failed);
@@ -178,7 +177,10 @@ private:
             throw Error(name_ + ": /" + one_line(key_) + ": has more in it than a drive has");
         if (depth == 1 && at == Event::key) key_ = value.get<std::string>();
         const bool ends = at == Event::value || at == Event::object_end || at == Event::array_end;
-        if (depth == 1 && ends) rest_[key_] = std::move(value);
+        if (depth == 1 && ends) {
+            rest_[key_] = std::move(value);
+            return true;
+        }
         if (depth != 2 || !ends || key_ != "events") return true;
         const scene::JsonFile event(name_, std::move(value), "/events/" + std::to_string(place_));
         read_event(scene::JsonValue(event), place_++, input_, drive_.events);

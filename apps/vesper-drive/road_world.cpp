@@ -44,7 +44,7 @@ std::optional<traffic::Course> course_of(const roads::LaneGraph& graph, const st
     const bool closed = std::find(next.begin(), next.end(), way.front()) != next.end();
     if (closed && std::hypot(points.front().x - points.back().x, points.front().z - points.back().z) < 0.2)
         points.pop_back(), limits.pop_back();
-    return traffic::Course(graph.lanes()[way.front()].name, std::move(points), width, std::move(limits), closed);
+    return traffic::Course(graph.lanes()[way.front()].name, std::move(points), width, limits, closed);
 }
 
 // Ways from every lane that none leads to, and from the first of what these leave out; the longest first.

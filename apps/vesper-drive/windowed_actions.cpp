@@ -20,7 +20,7 @@ constexpr double kAgeStep = 5, kYoungest = 20, kOldest = 90;
 /// The first name with a number that no file has, nor what is left of one.
 std::string free_name(const char* before, const char* after) {
     for (unsigned i = 1;; ++i)
-        if (const std::string name = before + format("%03u", i) + after;
+        if (std::string name = before + format("%03u", i) + after;
             !std::filesystem::exists(name) && !std::filesystem::exists(io::GrowingFile::part_of(name)))
             return name;
 }

@@ -213,7 +213,7 @@ std::optional<uint32_t> Device::queue_family(VkPhysicalDevice device) const {
 }
 
 std::string Device::missing(VkPhysicalDevice device) const {
-    const std::string reason = gpu::missing(device);
+    std::string reason = gpu::missing(device);
     if (!reason.empty() || !presentation_) return reason;
     if (!has_extension(device, VK_KHR_SWAPCHAIN_EXTENSION_NAME)) return "no VK_KHR_swapchain";
     return queue_family(device) ? "" : "cannot show pictures in this window system";

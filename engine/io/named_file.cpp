@@ -28,7 +28,8 @@ bool lies_in(const fs::path& folder, const fs::path& file) {
 }  // namespace
 
 fs::path named_file(const fs::path& folder, const std::string& name) {
-    const fs::path file = folder / name, real = real_path(file);
+    fs::path file = folder / name;
+    const fs::path real = real_path(file);
     bool inside = lies_in(real_path(folder.empty() ? "." : folder), real);
     for (const AllowedFolder* other = allowed; other && !inside; other = other->before())
         inside = lies_in(other->canonical(), real);

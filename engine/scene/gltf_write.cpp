@@ -69,7 +69,7 @@ void embed_profiles(GltfDocument& document) {
 }
 
 std::string type_of(const json& image, std::span<const uint8_t> bytes) {
-    const std::string known = io::media_type(bytes);
+    std::string known = io::media_type(bytes);
     if (!known.empty()) return known;
     const auto stated = image.find("mimeType");
     return stated != image.end() && stated->is_string() ? stated->get<std::string>() : "application/octet-stream";

@@ -66,7 +66,7 @@ void read_picture(const JsonValue& source, const std::filesystem::path& folder, 
 std::vector<std::string> read_lamp_names(const JsonValue& source, const Photometry& made) {
     for (const char* key : {"colour_temperature_K", "colour_rgb", "modulate"})
         if (const auto other = source.find(key)) other->fail("follows from the lamp: leave it out");
-    const std::vector<std::string> names = read_patterns(source, "lamp");
+    std::vector<std::string> names = read_patterns(source, "lamp");
     for (const std::string& name : names) {
         const auto found =
             std::find_if(made.lamps.begin(), made.lamps.end(), [&](const LampRule& r) { return r.name == name; });

@@ -81,7 +81,8 @@ std::vector<bool> find_live_passes(const FrameGraph& graph) {
     const auto& resources = graph.resources();
     std::vector<bool> wanted(resources.size()), live(graph.passes().size());
     for (size_t i = 0; i < resources.size(); ++i)
-        wanted[i] = resources[i].kept || resources[i].origin == Origin::HistoryCurrent;
+        wanted[i] = resources[i].kept || resources[i].origin == Origin::HistoryCurrent ||
+                    resources[i].origin == Origin::Lasting;
     for (size_t p = live.size(); p-- > 0;) {
         const PassInfo& pass = graph.passes()[p];
         live[p] = std::ranges::any_of(pass.uses,
@@ -203,6 +204,7 @@ std::vector<State> start_of_frame(const FrameGraph& graph, const std::vector<Lif
     for (uint32_t i = 0; i < states.size(); ++i) {
         const ResourceInfo& r = graph.resources()[i];
         if (r.external_image.image) states[i].layout = VK_IMAGE_LAYOUT_GENERAL;  // the border of the frame sees to that
+        if (r.origin == Origin::Lasting) states[i].since = states[i].written = lives[i].accesses;  // of the last frame
         if (r.origin != Origin::HistoryPrevious && r.origin != Origin::HistoryCurrent) continue;
         // The other half was in this memory last frame; if it went untouched, this one the frame before.
         const AccessSet other = lives[r.partner].accesses;

@@ -305,7 +305,8 @@ void Executor::realize_uploads(const FrameGraph& graph) {
 void Executor::realize_externals(const FrameGraph& graph) {
     for (uint32_t i = 0; i < graph.resources().size(); ++i) {
         const auto& info = graph.resources()[i];
-        if (info.origin != FrameGraph::Origin::External || info.external_image.image) continue;
+        const bool lasting = info.origin == FrameGraph::Origin::Lasting;
+        if ((info.origin != FrameGraph::Origin::External && !lasting) || info.external_image.image) continue;
         Realized& r = resources_[i];
         r.buffer = info.buffer, r.offset = 0, r.bytes = info.shape.bytes;
         view_borrowed(r, info.shape.format, plan_.usage[i]);

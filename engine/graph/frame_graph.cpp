@@ -231,6 +231,12 @@ Resource FrameGraph::external(std::string_view name, VkBuffer buffer, uint64_t b
     return resource;
 }
 
+Resource FrameGraph::lasting(std::string_view name, VkBuffer buffer, uint64_t bytes, VkFormat texel) {
+    const Resource resource = add(name, buffer_shape(bytes, texel), Origin::Lasting);
+    resources_.back().buffer = buffer;
+    return resource;
+}
+
 Resource FrameGraph::external(std::string_view name, const ExternalImage& image) {
     const Resource resource = add(name, image_shape(image.format, image.extent), Origin::External);
     resources_.back().external_image = image;

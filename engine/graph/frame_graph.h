@@ -99,7 +99,16 @@ using Record = std::function<void(const Recording&)>;
 /// Declares one frame. Throws Error, naming pass and resource, for every misuse that can be seen without a device.
 class FrameGraph {
 public:
-    enum class Origin : uint8_t { Transient, Upload, External, Target, Readback, HistoryPrevious, HistoryCurrent };
+    enum class Origin : uint8_t {
+        Transient,
+        Upload,
+        External,
+        Target,
+        Readback,
+        HistoryPrevious,
+        HistoryCurrent,
+        Lasting
+    };
     enum class PassKind : uint8_t { Dispatch, Raster, Transfer };
 
     struct ResourceInfo {
@@ -108,13 +117,14 @@ public:
         Origin origin = Origin::Transient;
         uint32_t partner = ~0u;            ///< of a history: the other half
         std::vector<std::byte> contents;   ///< of an upload
-        VkBuffer buffer = VK_NULL_HANDLE;  ///< of an external buffer
+        VkBuffer buffer = VK_NULL_HANDLE;  ///< of an external or lasting buffer
         ExternalImage external_image;      ///< of an external image or a target
         bool kept = false;
     };
     /// Whether a resource of this origin holds something before any pass of the frame has written it.
     static bool is_filled(Origin origin) {
-        return origin == Origin::Upload || origin == Origin::External || origin == Origin::HistoryPrevious;
+        return origin == Origin::Upload || origin == Origin::External || origin == Origin::HistoryPrevious ||
+               origin == Origin::Lasting;
     }
     struct PassInfo {
         std::string name;
@@ -139,7 +149,9 @@ public:
     }
     /// A buffer that the engine does not own and that was filled before the frame; passes may only read it.
     Resource external(std::string_view name, VkBuffer buffer, uint64_t bytes, VkFormat texel = VK_FORMAT_UNDEFINED);
-    /// The same for an image, filled by what was handed to the queue earlier.
+    /// A buffer that outlives the frame with all that passes change in it. The frame is made for those passes, too.
+    Resource lasting(std::string_view name, VkBuffer buffer, uint64_t bytes, VkFormat texel = VK_FORMAT_UNDEFINED);
+    /// An external image, filled by what was handed to the queue earlier.
     Resource external(std::string_view name, const ExternalImage& image);
     /// An external image that passes write; it is kept. Its former content is lost.
     Resource target(std::string_view name, const ExternalImage& image);

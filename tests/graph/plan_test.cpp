@@ -231,6 +231,16 @@ TEST(Plan, AHistoryWhosePreviousIsNotReadWaitsForItselfTwoFramesAgo) {
     EXPECT_EQ(f.text(), "adapt\n    eye: compute store -> compute store\nheap 0 of 0 bytes\n");
 }
 
+TEST(Plan, ALastingBufferIsWhatTheFrameIsMadeForAndWaitsForTheLastFrame) {
+    DeclaredFrame f;
+    const Resource maps = f.graph.lasting("maps", VK_NULL_HANDLE, 8);
+    const Resource unread = f.buffer("unread");
+    f.compute("look", {load(maps), store(unread)});
+    f.compute("draw", {update(maps)});
+    EXPECT_EQ(f.text(), "draw\n    maps: compute update -> compute update\ndropped: look\nheap 0 of 0 bytes\n");
+    EXPECT_FALSE(f.plan().steps[0].barriers[0].discard);
+}
+
 TEST(Plan, DropsWhatFeedsNothingKept) {
     DeclaredFrame f;
     const Resource a = f.buffer("a"), b = f.buffer("b"), c = f.buffer("c"), d = f.buffer("d");

@@ -28,12 +28,14 @@ constexpr FeatureField in_core(size_t offset) {
 }
 
 constexpr FeatureField kIndependentBlend = in_core(offsetof(VkPhysicalDeviceFeatures, independentBlend));
+constexpr FeatureField kClipDistance = in_core(offsetof(VkPhysicalDeviceFeatures, shaderClipDistance));
 constexpr FeatureField kAnisotropy = in_core(offsetof(VkPhysicalDeviceFeatures, samplerAnisotropy));
 constexpr VkStructureType k12 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
                           k13 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
 
 constexpr Feature kFeatures[] = {
     {"independentBlend", {kIndependentBlend, kIndependentBlend}},
+    {"shaderClipDistance", {kClipDistance, kClipDistance}},
     {"scalarBlockLayout",
      {{{k12, offsetof(VkPhysicalDeviceVulkan12Features, scalarBlockLayout)},
        {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES,

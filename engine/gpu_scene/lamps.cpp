@@ -88,6 +88,7 @@ LampList lamp_list(const std::vector<PlacedLamp>& lamps, const IntensityTables& 
                           .grid = {}};
         if (measured) place_table(made, tables.intensities[lamp.distribution], x, y, z);
         list.lamps.push_back(made);
+        list.indices.push_back(uint32_t(&placed - lamps.data()));
         switch (order(lamp.kind)) {
             case 0:
                 ++list.counts.cones;

@@ -14,6 +14,7 @@ namespace vesper::gpu_scene {
 /// Lamps in the view frame, sorted by kind as shared::LampCounts says.
 struct LampList {
     std::vector<shared::Lamp> lamps;
+    std::vector<uint32_t> indices;  ///< of each in the PlacedLamps that it was made from
     shared::LampCounts counts{0, 0, 0, 0};
 
     /// Number of lamps that have a place: all but directional ones, which come last.

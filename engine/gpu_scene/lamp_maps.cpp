@@ -1,0 +1,178 @@
+#include "gpu_scene/lamp_maps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "base/angle.h"
+#include "base/error.h"
+#include "scene/lamp.h"
+
+namespace vesper::gpu_scene {
+namespace {
+
+constexpr double kFaintest = 0.001;  // lx: what is lit less may be lit through a wall
+constexpr double kMostZoom = 8;
+constexpr double kLargestFixture = 20;  // m
+constexpr double kMostScale = 12 * 30 * 16;  // of sides, m^1/2
+
+// The largest angle from the lamp's axis at which it shines, rad; half a turn if it shines to all sides.
+double widest_angle(const scene::Scene& scene, const scene::Lamp& lamp) {
+    constexpr double kHalfTurn = kPi;
+    switch (lamp.kind) {
+        case scene::Lamp::Kind::Spot:
+            return double(lamp.outer_cone);
+        case scene::Lamp::Kind::CosinePower:
+            return kHalfTurn / 2;
+        case scene::Lamp::Kind::Measured:
+            break;
+        default:
+            return kHalfTurn;
+    }
+    // Between the angles of the file intensity is linear, so a step of a degree to either side holds what is between.
+    double least_cosine = 1;
+    constexpr int kSteps = 180;
+    for (int i = 0; i <= kSteps; ++i)
+        for (int j = 0; j < 2 * kSteps; ++j) {
+            const double polar = double(i) * kRadiansPerDegree, azimuth = double(j) * kRadiansPerDegree, sine = std::sin(polar);
+            const glm::dvec3 direction(sine * std::cos(azimuth), sine * std::sin(azimuth), -std::cos(polar));
+            if (std::cos(polar) < least_cosine &&
+                scene::luminous_intensity(lamp, scene.distributions, direction) > 0)
+                least_cosine = std::cos(polar);
+        }
+    return std::min(std::acos(std::clamp(least_cosine, -1.0, 1.0)) + kRadiansPerDegree, kHalfTurn);
+}
+
+// How much of the square of a hemisphere a cone takes: its edge is farthest out along the diagonals of x and y.
+double zoom_of(double angle) {
+    const double sine = std::numbers::sqrt2 * std::sin(angle), farthest = sine / (sine + std::max(std::cos(angle), 0.0));
+    return angle >= kPi / 2 ? 1 : std::clamp(0.98 / farthest, 1.0, kMostZoom);
+}
+
+double largest_candela(const scene::Scene& scene, const scene::Lamp& lamp) {
+    return double(lamp.intensity) * (lamp.kind == scene::Lamp::Kind::Measured
+                                         ? photometry::largest_intensity(scene.distributions.at(lamp.distribution))
+                                         : 1.0);
+}
+
+MapLayout layout_of(const scene::Scene& scene, const scene::Lamp& lamp, double angle) {
+    const double candela = largest_candela(scene, lamp);
+    if (lamp.kind == scene::Lamp::Kind::Directional || !(candela > 0)) return {};
+    const double range = std::sqrt(candela / kFaintest);
+    return {.side = 0,
+            .hemispheres = angle > kPi / 2 + 1e-3 ? 2u : 1u,
+            .zoom = float(zoom_of(angle)),
+            .range = float(range),
+            .radius = float(std::sqrt(lamp.opening.area() / kPi))};
+}
+
+// The nearest node, of this one and those above it, with a mesh at or below it.
+uint32_t fixture_node(const scene::Scene& scene, const std::vector<bool>& has_mesh, uint32_t node) {
+    while (node != scene::kNone && !has_mesh[node]) node = scene.nodes[node].parent;
+    return node;
+}
+
+bool lies_below(const scene::Scene& scene, uint32_t node, uint32_t root) {
+    while (node != scene::kNone && node != root) node = scene.nodes[node].parent;
+    return node == root;
+}
+
+std::vector<MapLayout> layouts_of(const scene::Scene& scene, const std::vector<PlacedLamp>& lamps) {
+    std::vector<MapLayout> layouts;
+    std::map<uint32_t, double> angles;  // of distributions
+    for (const auto& [lamp, node] : lamps) {
+        const auto known = angles.find(lamp.distribution);
+        const bool measured = lamp.kind == scene::Lamp::Kind::Measured;
+        const double angle = measured && known != angles.end() ? known->second : widest_angle(scene, lamp);
+        if (measured) angles[lamp.distribution] = angle;
+        layouts.push_back(layout_of(scene, lamp, angle));
+    }
+    return layouts;
+}
+
+std::vector<std::vector<uint32_t>> fixtures_of(const scene::Scene& scene, const GpuScene& resident,
+                                               const std::vector<PlacedLamp>& lamps, std::span<const glm::dmat4> world) {
+    std::vector<bool> has_mesh(scene.nodes.size());
+    for (uint32_t i = uint32_t(scene.nodes.size()); i-- > 0;) {  // children come after their parents
+        has_mesh[i] = has_mesh[i] || scene.nodes[i].mesh != scene::kNone;
+        if (has_mesh[i] && scene.nodes[i].parent != scene::kNone) has_mesh[scene.nodes[i].parent] = true;
+    }
+    std::vector<std::vector<uint32_t>> by_root(scene.nodes.size());  // of nodes that are a fixture
+    std::vector<bool> known(scene.nodes.size());
+    std::vector<std::vector<uint32_t>> own;
+    for (const PlacedLamp& lamp : lamps) {
+        own.emplace_back();
+        const uint32_t root = fixture_node(scene, has_mesh, lamp.node);
+        if (root == scene::kNone) continue;
+        if (!known[root])
+            for (uint32_t p = 0; p < resident.placements().size(); ++p)
+                if (lies_below(scene, resident.placements()[p].node, root)) by_root[root].push_back(p);
+        known[root] = true;
+        const glm::dvec3 place(world[lamp.node][3]);
+        const bool small = std::ranges::all_of(by_root[root], [&](uint32_t p) {
+            const GpuScene::Placement& placement = resident.placements()[p];
+            return std::all_of(resident.parts().begin() + placement.first_part,
+                               resident.parts().begin() + placement.first_part + placement.part_count,
+                               [&](const GpuScene::Part& part) {
+                                   const glm::dvec3 centre(world[placement.node] * glm::dvec4(part.centre, 1));
+                                   return glm::distance(centre, place) < kLargestFixture;
+                               });
+        });
+        if (small) own.back() = by_root[root];
+    }
+    return own;
+}
+
+}  // namespace
+
+MapPlan map_plan(const scene::Scene& scene, const GpuScene& resident, const std::vector<PlacedLamp>& lamps) {
+    return {layouts_of(scene, lamps), fixtures_of(scene, resident, lamps, scene::world_transforms(scene, 0))};
+}
+
+void choose_sides(std::vector<MapLayout>& layouts, const std::vector<double>& distances, uint64_t most_texels) {
+    constexpr double kStep = std::numbers::sqrt2;
+    const auto with = [&](double scale) {
+        uint64_t texels = 0;
+        for (size_t i = 0; i < layouts.size(); ++i) {
+            const double side = scale * std::sqrt(double(layouts[i].range)) / std::max(distances[i], 1.0);
+            const double power = std::exp2(std::round(std::log2(std::max(side, 1.0))));
+            layouts[i].side = !(layouts[i].range > 0)
+                                  ? 0
+                                  : uint32_t(std::clamp(power, double(kLeastMapSide), double(kMostMapSide)));
+            texels += layouts[i].texels();
+        }
+        return texels;
+    };
+    for (double scale = kMostScale; with(scale) > most_texels; scale /= kStep)
+        if (scale < 1)
+            throw Error("shadows of " + std::to_string(layouts.size()) + " lamps take distance maps of more than " +
+                        std::to_string(most_texels) + " texels; without shadows the scene can be rendered");
+}
+
+MapFrame map_frame(const glm::dmat4& world) {
+    const auto unit = [](glm::dvec3 v, glm::dvec3 otherwise) {
+        const double length = glm::length(v);
+        return length > 0 ? v / length : otherwise;
+    };
+    const glm::dvec3 z = unit(-glm::dvec3(world[2]), {0, -1, 0});
+    const glm::dvec3 across = std::abs(z.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 x0(world[0]);
+    const glm::dvec3 x = unit(x0 - glm::dot(x0, z) * z, glm::normalize(glm::cross(z, across)));
+    return {glm::dvec3(world[3]), glm::transpose(glm::dmat3(x, glm::cross(z, x), z))};
+}
+
+shared::LampMap lamp_map(const MapLayout& layout, const MapFrame& frame, const View& view) {
+    const glm::dmat3 view_to_map = frame.rotation * glm::transpose(glm::dmat3(view.world_to_view));
+    const glm::dquat turn = glm::normalize(glm::quat_cast(view_to_map));
+    return {.turn = glm::vec4(float(turn.x), float(turn.y), float(turn.z), float(turn.w)),
+            .first = float(layout.first / shared::kMapUnit),
+            .side = float(layout.side),
+            .zoom = layout.hemispheres == 2 ? -layout.zoom : layout.zoom,
+            .radius = layout.radius};
+}
+
+}  // namespace vesper::gpu_scene

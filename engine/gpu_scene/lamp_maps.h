@@ -1,0 +1,53 @@
+// Distance maps of lamps: their sizes and places, and what is drawn into them. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gpu_scene/gpu_scene.h"
+#include "gpu_scene/lamps.h"
+#include "scene/scene.h"
+#include "shared/distance_map.h"
+
+namespace vesper::gpu_scene {
+
+/// The distance map of a lamp (shared/distance_map.h).
+struct MapLayout {
+    uint32_t side = 0;         ///< texels; 0: the lamp has no map, nothing hides it
+    uint32_t hemispheres = 1;  ///< 1: about its axis; 2: all directions
+    float zoom = 1;            ///< at least 1: the share of the hemisphere's square that the map has is its inverse
+    float range = 0;           ///< m: no farther surface matters
+    float radius = 0;          ///< of a disc of the area of its opening, m; 0 without
+    uint32_t first = 0;        ///< texel, a multiple of shared::kMapUnit
+
+    uint32_t texels() const { return hemispheres * side * side; }
+};
+
+/// The maps of all lamps of a scene, in the order of placed_lamps().
+struct MapPlan {
+    std::vector<MapLayout> layouts;  ///< without sides and places, which depend on the view
+    /// For each lamp the placements that belong to its fixture and never hide it, ascending: the meshes below the
+    /// nearest node, of the lamp's own and those above it, that has any; none if a part of them is over 20 m away.
+    std::vector<std::vector<uint32_t>> fixtures;
+};
+MapPlan map_plan(const scene::Scene& scene, const GpuScene& resident, const std::vector<PlacedLamp>& lamps);
+
+constexpr uint32_t kLeastMapSide = shared::kRegion, kMostMapSide = 2048;  ///< texels
+/// Sets the sides of maps that an eye at these distances (m) sees: powers of two within the limits above, nearest to
+/// c I^1/4 / distance, I the largest intensity, with the largest c at which all of them take at most `most_texels`; 0 for
+/// lamps without a map. Throws Error if they cannot.
+void choose_sides(std::vector<MapLayout>& layouts, const std::vector<double>& distances, uint64_t most_texels);
+
+/// A frame of axes that a map is drawn in: z along the axis of its first hemisphere.
+struct MapFrame {
+    glm::dvec3 position{0};  ///< m, world
+    glm::dmat3 rotation{1};  ///< from the world's axes to the map's: rows are its x, y and z
+};
+/// Of a lamp at a node of this pose.
+MapFrame map_frame(const glm::dmat4& world);
+
+/// The map of a lamp, as shaders see it in a frame of `view`.
+shared::LampMap lamp_map(const MapLayout& layout, const MapFrame& frame, const View& view);
+
+}  // namespace vesper::gpu_scene

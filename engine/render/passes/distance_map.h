@@ -1,0 +1,30 @@
+// Distance maps of lamps, drawn. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "gpu_scene/lamp_maps.h"
+#include "render/frame_context.h"
+
+namespace vesper::render {
+
+/// The map of a lamp that is to be drawn.
+struct MapToDraw {
+    gpu_scene::MapLayout layout;
+    gpu_scene::MapFrame frame;
+    std::span<const uint32_t> fixture;  ///< placements that do not hide the lamp, ascending
+};
+
+/// Texels of all maps and their bounds (shared/distance_map.h), r32ui: two halves a word.
+struct MapWords {
+    graph::Resource distances, bounds;
+};
+
+/// Draws what stands around lamps, at the poses of `poses`, into their maps and finds the bounds of these. Surfaces hide
+/// a lamp from both sides; masked ones where they are drawn. Parts smaller than half a texel, and what is farther than
+/// the range of a map, are left out. Distances are rounded to halves, 0.1 %. Returns the number of triangles drawn.
+uint64_t add_distance_maps(const FrameContext& frame, const gpu_scene::GpuScene& scene,
+                           const gpu_scene::SceneFrame& poses, std::span<const MapToDraw> maps, const MapWords& words);
+
+}  // namespace vesper::render

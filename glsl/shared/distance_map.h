@@ -1,0 +1,59 @@
+// Distance maps: how far a lamp sees in each direction. SPDX-License-Identifier: MIT
+// A hemisphere around an axis (z) is a square of texels. A direction p lies at o = p / (|x| + |y| + |z|), and o at
+// (u, v) = zoom (o.x + o.y, o.x - o.y), from -1 to 1 over the square. Within a quadrant of x and y this is a
+// perspective projection, so that triangles are drawn as they are. With a zoom above 1 the square holds the middle of the
+// hemisphere alone, for beams. The other hemisphere of a lamp that has it follows, with z mirrored.
+// A texel holds the distance to the first surface along its middle as the norm |x| + |y| + |z|, m; infinite without one.
+#ifndef VESPER_SHARED_DISTANCE_MAP_H
+#define VESPER_SHARED_DISTANCE_MAP_H
+#include "types.h"
+SHARED_BEGIN
+
+const uint kMapTexels = 2u;        // rgba32f per lamp, see LampMap
+const uint kMapUnit = 64u;         // maps begin at multiples of that many texels
+const uint kRegion = 64u;          // texels, side of what a workgroup stores; the smallest side of a map
+const uint kGroup = 4u;            // texels, side of a group of the lowest level of bounds
+const uint kBoundLevels = 5u;      // groups of 4, 8, 16, 32 and 64 texels
+// How far a surface may be off its plane, or a distance off the truth, before it counts as before the surface: kMapBias (m)
+// and, times the distance, half a texel and kMapRounding, what halves take. Nothing nearer than this to a surface shades it.
+const float kMapBias = 0.015625;
+const float kMapRounding = 0.0009765625;
+const float kMapNear = 0.03125;       // m in the norm above: nothing nearer to a lamp is drawn
+
+// The map of a lamp, as a frame sees it.
+struct LampMap {
+    vec4 turn;         // quaternion from the view frame to that of the map
+    float first;       // texel, in units of kMapUnit
+    float side;        // texels; 0: nothing hides the lamp
+    float zoom;        // negative: there are two hemispheres
+    float radius;      // of the luminous opening, m; 0: a point
+};
+SHARED_SIZE(LampMap, 32)
+
+// Texels of one level of bounds of a hemisphere before level k: (side^2 - (side >> k)^2) / 12; of all its levels at most
+// side^2 / 12, in a place of side^2 / 8. Each is two halves: the least and the greatest distance, the least negative if
+// the texels, with those around them, are not one smooth surface.
+
+// One square of kRegion texels of a hemisphere that was drawn.
+struct MapRegion {
+    uint drawn_x, drawn_y;    // its corner in the image, texels
+    uint x, y;                // and in the hemisphere, texels
+    uint side;                // of the hemisphere, texels
+    uint first;               // texel of the hemisphere, in units of kMapUnit
+    float zoom;
+    uint unused;
+};
+SHARED_SIZE(MapRegion, 32)
+
+// One instance of a part, drawn into a quadrant of a hemisphere.
+struct MapInstance {
+    vec4 row_x;        // rows of the matrix from its mesh to the frame of the map, m
+    vec4 row_y;
+    vec4 row_z;
+    vec4 place;        // clip space: scale of (u, v); middle of the square (2); zoom, negative in quadrants of x < 0
+    float y_sign;      // of the quadrant
+};
+SHARED_SIZE(MapInstance, 68)
+
+SHARED_END
+#endif

@@ -1,0 +1,80 @@
+// Layouts of distance maps, and the frames that they are drawn in. SPDX-License-Identifier: MIT
+#include "gpu_scene/lamp_maps.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "base/error.h"
+#include "passes/distance_map_reference.h"
+
+namespace vesper::test::lamp_maps_test {
+namespace {
+
+using gpu_scene::MapLayout;
+
+TEST(LampMaps, AMapLooksAlongItsLamp) {
+    const glm::dmat4 node = glm::translate(glm::dmat4(1), glm::dvec3(1e6, 2, -5e6)) *
+                            glm::mat4_cast(glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3)))) *
+                            glm::scale(glm::dmat4(1), glm::dvec3(2, -3, 0.5));  // mirrored
+    const gpu_scene::MapFrame frame = gpu_scene::map_frame(node);
+    const glm::dmat3 should_be_one = frame.rotation * glm::transpose(frame.rotation);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) EXPECT_NEAR(should_be_one[i][j], i == j ? 1 : 0, 1e-12);
+    EXPECT_NEAR(glm::determinant(frame.rotation), 1, 1e-12);
+    const glm::dvec3 along = frame.rotation * -glm::normalize(glm::dvec3(node[2]));
+    EXPECT_NEAR(along.z, 1, 1e-12);
+    EXPECT_EQ(frame.position, glm::dvec3(node[3]));
+    // A node that is squeezed flat still has a frame.
+    EXPECT_NEAR(glm::determinant(gpu_scene::map_frame(glm::dmat4(0)).rotation), 1, 1e-12);
+}
+
+TEST(LampMaps, TheShadersTurnIsThatOfTheFrame) {
+    const glm::dmat4 node = glm::mat4_cast(glm::angleAxis(2.5, glm::normalize(glm::dvec3(-1, 0.3, 0.4))));
+    const gpu_scene::MapFrame frame = gpu_scene::map_frame(node);
+    gpu_scene::View view;
+    view.world_to_view = glm::mat4_cast(glm::angleAxis(-1.1, glm::normalize(glm::dvec3(0.2, 1, -0.7))));
+    const shared::LampMap map =
+        gpu_scene::lamp_map({.side = 128, .hemispheres = 2, .zoom = 1.5f, .range = 1, .radius = 0.25f, .first = 640}, frame, view);
+    const glm::dquat turn(double(map.turn.w), double(map.turn.x), double(map.turn.y), double(map.turn.z));
+    for (const glm::dvec3 world : {glm::dvec3(1, 0, 0), {0, 1, 0}, {0.3, -0.4, 0.8}}) {
+        const glm::dvec3 in_view(view.world_to_view * glm::dvec4(world, 0));
+        EXPECT_NEAR(glm::distance(turn * in_view, frame.rotation * world), 0, 1e-6);
+    }
+    EXPECT_EQ(map.first, 10);
+    EXPECT_EQ(map.side, 128);
+    EXPECT_EQ(map.zoom, -1.5f);
+    EXPECT_EQ(map.radius, 0.25f);
+}
+
+TEST(LampMaps, SidesFallWithDistanceAndFillTheMemory) {
+    std::vector<MapLayout> layouts(200, {.side = 0, .hemispheres = 1, .zoom = 1, .range = 1000, .radius = 0, .first = 0});
+    layouts[7].hemispheres = 2;
+    layouts[9].range = 0;  // does not shine
+    std::vector<double> distances;
+    for (int i = 0; i < 200; ++i) distances.push_back(5.0 + 5.0 * i);
+    for (const uint64_t most : {uint64_t(48) << 20, uint64_t(4) << 20, uint64_t(201) << 12}) {
+        gpu_scene::choose_sides(layouts, distances, most);
+        uint64_t texels = 0;
+        for (size_t i = 0; i < layouts.size(); ++i) {
+            texels += layouts[i].texels();
+            if (i == 9) {
+                EXPECT_EQ(layouts[i].side, 0u);
+                continue;
+            }
+            EXPECT_TRUE(std::has_single_bit(layouts[i].side));
+            EXPECT_GE(layouts[i].side, 64u);
+            EXPECT_LE(layouts[i].side, 2048u);
+            EXPECT_TRUE(i <= 10 || layouts[i].side <= layouts[i - 1].side);
+        }
+        EXPECT_LE(texels, most);
+        EXPECT_GT(4 * texels, most / 2) << "a step of the scale at most doubles a map's side";
+    }
+    EXPECT_THROW(gpu_scene::choose_sides(layouts, distances, 199 << 12), Error);
+}
+
+}  // namespace
+}  // namespace vesper::test::lamp_maps_test

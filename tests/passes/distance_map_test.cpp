@@ -1,0 +1,184 @@
+// Distance maps on the device: against rays through the middle of each texel. SPDX-License-Identifier: MIT
+#include "passes/distance_map_reference.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/packing.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "render/passes/distance_map.h"
+#include "support/occluders.h"
+#include "support/ray_caster.h"
+#include "support/texels.h"
+
+namespace vesper::test::distance_map_test {
+namespace {
+
+struct Drawn {
+    std::vector<float> distances;
+    std::vector<glm::vec2> bounds;
+};
+
+Drawn draw(PassRig& rig, const scene::Scene& scene, std::span<const render::MapToDraw> maps, uint32_t texels) {
+    const gpu_scene::GpuScene resident(rig.device(), scene);
+    gpu::Arena arena(rig.device());
+    const std::vector<uint32_t> nothing(texels / 2, 0x12341234);
+    const auto buffer = gpu_scene::upload_buffer(rig.device(), arena, std::as_bytes(std::span(nothing)),
+                                                 VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    const auto more = gpu_scene::upload_buffer(rig.device(), arena, std::as_bytes(std::span(nothing).first(texels / 8)),
+                                               VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    graph::FrameGraph graph;
+    const render::MapWords words{graph.lasting("distances", buffer.get(), texels * 2, VK_FORMAT_R32_UINT),
+                                 graph.lasting("bounds", more.get(), texels / 2, VK_FORMAT_R32_UINT)};
+    render::add_distance_maps(rig.frame(graph, VkExtent2D{1, 1}), resident, {scene::world_transforms(scene, 0), {}, {}, {}}, maps, words);
+    const graph::Resource distances = PassRig::want<uint32_t>(graph, words.distances, texels / 2),
+                          bounds = PassRig::want<uint32_t>(graph, words.bounds, texels / 8);
+    rig.run(graph);
+    Drawn drawn;
+    for (const uint32_t word : rig.got<uint32_t>(distances)) {
+        const glm::vec2 two = glm::unpackHalf2x16(word);
+        drawn.distances.push_back(two.x), drawn.distances.push_back(two.y);
+    }
+    for (const uint32_t word : rig.got<uint32_t>(bounds)) drawn.bounds.push_back(glm::unpackHalf2x16(word));
+    return drawn;
+}
+
+OccluderScene room() {
+    OccluderScene s;
+    s.plate({0, -4, 0}, {30, 0, 0}, {0, 0, 30});
+    s.box({3, -3, -2}, {0.9f, 1, 2});
+    s.box({-4, -2, 1}, {0.2f, 2, 0.2f});
+    s.box({0.5f, 2, 0.3f}, {0.6f, 0.1f, 0.6f});
+    s.plate({-8, 0, 0}, {0, 6, 0}, {0, 0.5f, 9});
+    return s;
+}
+
+// Texels agree with rays but for those where a ray a hair beside meets something else.
+void expect_rays(const RayCaster& rays, const render::MapToDraw& map, bool second, const float* texels,
+                 reference::HemisphereMap& want) {
+    const auto& [layout, frame, fixture] = map;
+    want = {layout.side, {}};
+    const auto norm_at = [&](glm::dvec2 texel) {
+        glm::dvec3 o = reference::map_direction(texel, layout.side, double(layout.zoom));
+        o.z = second ? -o.z : o.z;
+        const glm::dvec3 way = glm::transpose(frame.rotation) * o;
+        return rays.hit(frame.position, frame.position + way, double(shared::kMapNear), 1e9, [&](uint32_t node) {
+            return std::find(fixture.begin(), fixture.end(), node) == fixture.end();
+        });
+    };
+    size_t compared = 0;
+    for (uint32_t y = 0; y < layout.side; ++y)
+        for (uint32_t x = 0; x < layout.side; ++x) {
+            const glm::dvec2 middle(x + 0.5, y + 0.5);
+            const double norm = norm_at(middle);
+            want.norms.push_back(norm);
+            bool certain = true;
+            for (const glm::dvec2 aside : {glm::dvec2(0.01, 0), {-0.01, 0}, {0, 0.01}, {0, -0.01}}) {
+                const double other = norm_at(middle + aside);
+                certain = certain && (std::isinf(norm) ? std::isinf(other) : std::abs(other - norm) < 0.02 * norm);
+            }
+            if (!certain) continue;
+            ++compared;
+            const double got = double(texels[size_t(y) * layout.side + x]);
+            // A half has 11 bits; vertices are snapped to 1/256 of a texel, which moves steep surfaces.
+            if (std::isinf(norm) || norm > 5e4) {
+                EXPECT_GE(got, 5e4) << x << " " << y;
+            } else {
+                EXPECT_NEAR(got, norm, 2e-3 * norm) << x << " " << y << (second ? " second" : "");
+            }
+        }
+    EXPECT_GT(compared, size_t(layout.side) * layout.side * 9 / 10);
+}
+
+TEST(DistanceMap, HoldsTheFirstSurfaceAlongEachRay) {
+    PassRig rig;
+    OccluderScene s = room();
+    const RayCaster rays(s.scene(), scene::world_transforms(s.scene(), 0));
+    const glm::dmat4 tilted = glm::translate(glm::dmat4(1), glm::dvec3(0.2, 1, -0.3)) *
+                              glm::mat4_cast(glm::angleAxis(-1.4, glm::normalize(glm::dvec3(1, 0.1, 0.2))));
+    const uint32_t own[] = {3};  // the box above is its fixture
+    // Two hemispheres, a beam, and a lamp with a fixture: of different sides, so that they share the image.
+    const render::MapToDraw maps[] = {
+        {{.side = 64, .hemispheres = 2, .zoom = 1, .range = 100, .radius = 0, .first = 0}, gpu_scene::map_frame(tilted), {}},
+        {{.side = 128, .hemispheres = 1, .zoom = 3, .range = 100, .radius = 0, .first = 8192}, gpu_scene::map_frame(tilted), {}},
+        {{.side = 64, .hemispheres = 2, .zoom = 1, .range = 100, .radius = 0, .first = 8192 + 16384}, gpu_scene::map_frame(glm::translate(glm::dmat4(1), glm::dvec3(0.5, 1.9, 0.3))), own}};
+    const Drawn drawn = draw(rig, s.scene(), maps, 8192 + 16384 + 8192);
+    for (const render::MapToDraw& map : maps)
+        for (uint32_t h = 0; h < map.layout.hemispheres; ++h) {
+            const uint32_t side = map.layout.side, first = map.layout.first + h * side * side;
+            SCOPED_TRACE("map from " + std::to_string(first));
+            reference::HemisphereMap unused;
+            expect_rays(rays, map, h == 1, &drawn.distances[first], unused);
+            // Bounds, level by level, of what was stored.
+            reference::HemisphereMap stored{side, {}};
+            for (uint32_t i = 0; i < side * side; ++i) stored.norms.push_back(double(drawn.distances[first + i]));
+            uint32_t place = first / 8, edges = 0;
+            for (uint32_t size = shared::kGroup; size <= shared::kRegion; size *= 2) {
+                for (uint32_t y = 0; y < side; y += size)
+                    for (uint32_t x = 0; x < side; x += size, ++place) {
+                        const reference::MapBounds want = reference::map_bounds(stored, x, y, size);
+                        EXPECT_EQ(double(std::abs(drawn.bounds[place].x)), want.least);
+                        EXPECT_EQ(double(drawn.bounds[place].y), want.greatest);
+                        // Halves bend a plane by up to a thousandth: what is an edge beyond doubt must be one.
+                        bool certain = false;
+                        for (uint32_t j = y; j < y + size; ++j)
+                            for (uint32_t i = x; i < x + size; ++i)
+                                certain = certain || (i + 1 < side && std::abs(stored.at(int(i), int(j)) - stored.at(int(i) + 1, int(j))) > 0.5 * stored.at(int(i), int(j)));
+                        EXPECT_TRUE(drawn.bounds[place].x < 0 || !certain);
+                        edges += drawn.bounds[place].x < 0 && size == shared::kGroup ? 1 : 0;
+                    }
+            }
+            EXPECT_GT(edges, 0u);
+            EXPECT_LT(edges, side * side / 16 / 2) << "most of the room is smooth";
+        }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// 40 maps of 512 texels need three images.
+TEST(DistanceMap, ManyMapsTakeSeveralImages) {
+    PassRig rig;
+    OccluderScene s;
+    s.box({0, 0, 0}, glm::vec3(10));  // all around, at 10 m along the axes
+    std::vector<render::MapToDraw> maps;
+    uint32_t first = 0;
+    for (uint32_t i = 0; i < 40; ++i) {
+        const uint32_t side = i % 3 == 0 ? 512u : 64u << i % 3u;
+        maps.push_back({{.side = side, .hemispheres = 1, .zoom = 1, .range = 100, .radius = 0, .first = first}, gpu_scene::map_frame(glm::dmat4(1)), {}});
+        first += side * side;
+    }
+    const Drawn drawn = draw(rig, s.scene(), maps, first);
+    for (const render::MapToDraw& map : maps) {
+        const uint32_t side = map.layout.side;
+        EXPECT_NEAR(drawn.distances[map.layout.first + side / 2 * side + side / 2], 10, 12.0 / side);  // half a texel off the axis
+        for (uint32_t i = 0; i < side * side; ++i) {  // a box has no holes
+            ASSERT_GE(drawn.distances[map.layout.first + i], 9.9f) << i << " of " << side;
+            ASSERT_LE(drawn.distances[map.layout.first + i], 30.1f) << i << " of " << side;
+        }
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// The opacity of a mask's texture decides texel by texel.
+TEST(DistanceMap, MasksLetLightThrough) {
+    PassRig rig;
+    OccluderScene s;
+    s.plate({0, 0, -2}, {2, 0, 0}, {0, 2, 0});
+    s.scene().images = {{"half", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}}};
+    scene::Material& m = s.scene().materials[0];
+    m.alpha = scene::Material::Alpha::Mask;
+    m.base_colour_texture = {.image = 0, .wrap_u = scene::Wrap::Clamp, .wrap_v = scene::Wrap::Clamp, .nearest = true};
+    const render::MapToDraw map{{.side = 64, .hemispheres = 1, .zoom = 1, .range = 100, .radius = 0, .first = 0}, gpu_scene::map_frame(glm::dmat4(1)), {}};
+    const Drawn drawn = draw(rig, s.scene(), {&map, 1}, 4096);
+    const auto at = [&](glm::dvec3 p) {
+        const glm::ivec2 t(reference::map_texel(map.frame.rotation * p, 64, 1));
+        return drawn.distances[size_t(t.y) * 64 + size_t(t.x)];
+    };
+    EXPECT_NEAR(at({-0.5, 0.3, -2}), 2.8, 0.1);
+    EXPECT_GT(at({0.5, 0.3, -2}), 5e4f);
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+}  // namespace
+}  // namespace vesper::test::distance_map_test

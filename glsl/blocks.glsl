@@ -12,6 +12,6 @@ uint slice_bit(ClusterGrid grid, float depth) {
 }
 
 uint entry_of(uint lamp, uint first_slice, uint last_slice) { return lamp | first_slice << kFirstSliceShift | last_slice << kLastSliceShift; }
-uint lamp_of(uint entry) { return entry & ((1u << kFirstSliceShift) - 1u); }
+uint lamp_of(uint entry) { return entry & (kMixedBit - 1u); }
 // A bit for each.
 uint slices_of(uint entry) { return (2u << (entry >> kLastSliceShift)) - (1u << (entry >> kFirstSliceShift & 31u)); }

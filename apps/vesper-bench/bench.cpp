@@ -229,6 +229,7 @@ void add_bench(apps::Command program) {
                     "Illuminance below which a lamp counts as dark, lx")
         .check(apps::between(1e-9, 1e3))
         .shows_default();
+    program.add_flag("--shadows", a->run.render.shadows, "Lamps light only what they see");
     program.add_option("--device", a->run.device,
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     apps::Option json = program.add_option("--json", a->json, "Write everything that was measured to a file");

@@ -29,7 +29,7 @@ namespace {
 using apps::format, apps::print;
 
 struct RenderArguments {
-    std::string scene, camera, size = "1680x1050", device, lambert = "physical";
+    std::string scene, camera, size = "1680x1050", device, lambert = "physical", shadows = "off";
     apps::ToneArguments tone;
     apps::GlareArguments glare;
     std::vector<std::string> outputs;
@@ -84,6 +84,8 @@ void print_statistics(const RenderArguments& arguments, const gpu::Device& devic
           double(renderer.device_bytes()) / (1 << 20));
     print("clusters: to %.0f m, at most %u lamps in a froxel, %u froxels overflowed (and looked at every lamp)\n",
           double(frame.far), frame.clusters.longest, frame.clusters.overflowed);
+    if (const auto& [lit, dark, mixed] = frame.visibility; lit + dark + mixed > 0)
+        print("shadows: of pairs of a block of pixels and a lamp, %u lit, %u dark, %u mixed\n", lit, dark, mixed);
     print("adaptation luminance %.4g cd/m^2, foveal level %u, %u of %u pixels not finite\n",
           double(frame.curve.adaptation), frame.foveal_level, frame.histogram.non_finite,
           frame.histogram.finite + frame.histogram.non_finite);
@@ -125,6 +127,7 @@ void check_arguments(RenderArguments& arguments) {
     static_cast<render::ToneChainSettings&>(settings) = apps::tone_settings(arguments.tone);
     apps::check_target(arguments.glare, settings);
     settings.paper_lambert = arguments.lambert == "paper";
+    settings.shadows = arguments.shadows == "on";
     io::announce_read(arguments.scene);
     io::announce_read(arguments.replay_file);
     io::announce_read(arguments.glare.lamps);
@@ -325,6 +328,10 @@ void add_render(apps::Command program) {
     apps::add_tone_options(command, a->tone);
     apps::add_glare_options(command, a->glare);
     command.help_group("Light");
+    command
+        .add_option("--shadows", a->shadows, "on: lamps light only what they see; off: they shine through everything")
+        .check(apps::one_of({"on", "off"}))
+        .shows_default();
     command.add_flag("--all-lights", a->settings.all_lamps,
                      "Shade every lamp in every pixel, slowly: as without clusters and sums over blocks, but for what "
                      "is below the threshold");

@@ -14,6 +14,7 @@ Renderer::Renderer(gpu::Device& device, const scene::Scene& scene)
 Renderer::SceneData::SceneData(const gpu::Device& device, const scene::Scene& scene)
     : resident(device, scene),
       lamps(gpu_scene::placed_lamps(scene)),
+      maps(gpu_scene::map_plan(scene, resident, lamps)),
       luminaires(gpu_scene::placed_luminaires(scene)),
       tables(gpu_scene::intensity_tables(scene)),
       table_arena(device),
@@ -37,12 +38,14 @@ Renderer::TexelBuffer Renderer::SceneData::upload(const gpu::Device& device, con
 void Renderer::set_scene(const scene::Scene& scene) {
     auto data = std::make_unique<const SceneData>(device_, scene);
     frames_.wait();  // frames under way use the old scene
+    maps_.reset();
     scene_ = std::move(data);
 }
 
 RenderSettings ldr_baseline(RenderSettings settings) {
     if (settings.tone_operator != Operator::Ldr) return settings;
     settings.paper_lambert = settings.unit_lamps = settings.lamps_alone = true;
+    settings.shadows = false;
     settings.offscreen_lamps.clear();
     if (settings.glare == Glare::Scatter) settings.glare = Glare::None;
     return settings;
@@ -63,6 +66,7 @@ Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const Render
     in.tables = {texels("intensity tables", scene_->table_texels), scene_->tables.roads, scene_->tables.roads != 0};
     in.clusters = settings.clusters;
     in.clusters.far = scene_->resident.farthest_depth(poses, view);
+    if (settings.shadows) in.shading.maps = maps_of(graph, in.lamps, poses, view);
     in.shading.all_lamps = settings.all_lamps;
     if (settings.paper_lambert) in.shading.lambert = 1;
     if (settings.unit_lamps) in.shading.emission_limit = 1;
@@ -85,16 +89,30 @@ Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const Render
     return in;
 }
 
+// Maps are drawn while no frame uses them.
+VisibilityMaps Renderer::maps_of(graph::FrameGraph& graph, const gpu_scene::LampList& lamps,
+                                 const gpu_scene::SceneFrame& poses, const gpu_scene::View& view) {
+    if (!maps_) maps_ = std::make_unique<DistanceMaps>(device_, scene_->resident, scene_->lamps, scene_->maps);
+    if (const std::vector<uint32_t> outdated = maps_->outdated(lamps, poses); !outdated.empty()) {
+        frames_.wait();
+        maps_->draw(outdated, poses);
+    }
+    return maps_->maps(graph, lamps, poses, view);
+}
+
 ToneChain Renderer::declare(const FrameContext& frame, const gpu_scene::SceneFrame& poses, const FrameInputs& inputs,
                             const RenderSettings& settings, const Outputs& outputs, Pending& pending) const {
     const GBuffer surfaces = add_gbuffer(frame, scene_->resident, poses);
     const Clusters clusters = add_clusters(frame, surfaces.surface, inputs.lamps, inputs.tables, inputs.clusters);
-    graph::Resource scene = add_shading(frame, surfaces, clusters, inputs.shading);
-    scene = add_daylight(frame, surfaces, scene, inputs.daylight);
+    const Shading lit = add_shading(frame, surfaces, clusters, inputs.shading);
+    graph::Resource scene = add_daylight(frame, surfaces, lit.scene, inputs.daylight);
     scene = add_sky(frame, surfaces, scene, inputs.sky, inputs.shading.lambert);
     scene = add_luminaires(frame, scene, surfaces.surface, inputs.luminaires);
     const ToneChain chain = add_tone_chain(frame, scene, settings, inputs.chain, outputs);
     pending.clusters = add_readback(frame.graph, "cluster report", clusters.report, sizeof(shared::ClusterReport));
+    if (lit.visibility)
+        pending.visibility =
+            add_readback(frame.graph, "visibility report", lit.visibility, sizeof(shared::VisibilityReport));
     pending.frame.far = clusters.push.far;
     return chain;
 }
@@ -128,6 +146,8 @@ std::optional<Frame> Renderer::finish() {
     Frame frame = std::move(pending_->frame);
     static_cast<ToneMapped&>(frame) = std::move(*shown);
     frame.clusters = read_one<shared::ClusterReport>(frames_.executor(), pending_->clusters);
+    if (pending_->visibility)
+        frame.visibility = read_one<shared::VisibilityReport>(frames_.executor(), pending_->visibility);
     return frame;
 }
 

@@ -10,6 +10,7 @@
 #include "gpu_scene/gpu_scene.h"
 #include "gpu_scene/lamps.h"
 #include "gpu_scene/luminaires.h"
+#include "render/distance_maps.h"
 #include "render/frame_queue.h"
 #include "render/passes/daylight.h"
 #include "render/passes/shade.h"
@@ -20,6 +21,7 @@ namespace vesper::render {
 struct RenderSettings : ToneChainSettings {
     bool paper_lambert = false;  ///< L = E R instead of E R / pi
     bool all_lamps = false;      ///< shade without clusters, for comparison
+    bool shadows = false;        ///< lamps light only what they see
     ClusterSettings clusters;
     std::vector<gpu_scene::OffscreenLamp>
         offscreen_lamps;  ///< on other screens: scattered in the eye, not drawn; directions in the view frame
@@ -35,9 +37,10 @@ RenderSettings ldr_baseline(RenderSettings settings);
 /// One rendered frame on the host.
 struct Frame : ToneMapped {
     shared::ClusterReport clusters{};
-    uint32_t lamps = 0;       ///< lamps that shine
-    uint32_t luminaires = 0;  ///< of their openings, those in view
-    float far = 0;            ///< m: the far limit of the clusters
+    shared::VisibilityReport visibility{};  ///< with shadows
+    uint32_t lamps = 0;                     ///< lamps that shine
+    uint32_t luminaires = 0;                ///< of their openings, those in view
+    float far = 0;                          ///< m: the far limit of the clusters
     std::vector<gpu_scene::GlareSource>
         glare_sources;  ///< lamps before the eye, as if nothing stood between; none with Operator::Ldr
     std::vector<gpu_scene::OffscreenLamp>
@@ -72,7 +75,8 @@ public:
     const shared::EyeState& eye() const { return frames_.eye().value; }
     const gpu_scene::GpuScene& scene() const { return scene_->resident; }
     uint64_t device_bytes() const {
-        return scene_->resident.bytes() + scene_->table_arena.bytes() + frames_.executor().heap_bytes();
+        return scene_->resident.bytes() + scene_->table_arena.bytes() + frames_.executor().heap_bytes() +
+               (maps_ ? maps_->bytes() : 0);
     }
 
 private:
@@ -85,6 +89,7 @@ private:
     struct SceneData {
         gpu_scene::GpuScene resident;
         std::vector<gpu_scene::PlacedLamp> lamps;
+        gpu_scene::MapPlan maps;
         gpu_scene::LuminaireSet luminaires;
         gpu_scene::IntensityTables tables;  // without its texels, which are uploaded
         gpu::Arena table_arena;
@@ -110,17 +115,20 @@ private:
     /// The results of a submitted frame, as far as they are known.
     struct Pending {
         Frame frame;
-        graph::Resource clusters;  // to be read
+        graph::Resource clusters, visibility;  // to be read; the second where there are maps
     };
 
+    VisibilityMaps maps_of(graph::FrameGraph& graph, const gpu_scene::LampList& lamps,
+                           const gpu_scene::SceneFrame& poses, const gpu_scene::View& view);
     FrameInputs inputs_of(graph::FrameGraph& graph, const RenderSettings& settings, const gpu_scene::View& view,
                           const gpu_scene::SceneFrame& poses, float seconds);
     ToneChain declare(const FrameContext& frame, const gpu_scene::SceneFrame& poses, const FrameInputs& inputs,
                       const RenderSettings& settings, const Outputs& outputs, Pending& pending) const;
 
-    const gpu::Device& device_;
+    gpu::Device& device_;
     std::unique_ptr<const SceneData> scene_;
-    FrameQueue frames_;  // waits for its frames, which use the rest
+    std::unique_ptr<DistanceMaps> maps_;  // of scene_; none before a frame has shadows
+    FrameQueue frames_;                   // waits for its frames, which use the rest
     std::optional<Pending> pending_;
 };
 

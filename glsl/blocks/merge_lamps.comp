@@ -168,14 +168,14 @@ bool merge_block(uint block) {
     if (kCones != 0u)
         for (int i = 0; i < int(cones); ++i) {
             const uint entry = imageLoad(entries, first + i).r;
-            if (covers(entry) && !remains(fetch(lamp_of(entry), true, tables_from), true)) continue;
+            if (covers(entry) && (entry & kMixedBit) == 0u && !remains(fetch(lamp_of(entry), true, tables_from), true)) continue;
             imageStore(entries, first + kept_cones, uvec4(entry));
             ++kept_cones;
         }
     if (kPowers != 0u || kTables != 0u)
         for (int i = 0; i < int(others); ++i) {
             const uint entry = imageLoad(entries, last - i).r;
-            if (covers(entry) && !remains(fetch(lamp_of(entry), false, tables_from), false)) continue;
+            if (covers(entry) && (entry & kMixedBit) == 0u && !remains(fetch(lamp_of(entry), false, tables_from), false)) continue;
             imageStore(entries, last - kept_others, uvec4(entry));
             ++kept_others;
         }

@@ -24,7 +24,8 @@ layout(constant_id = 7) const uint kListed = 1u;      // on lists
 layout(constant_id = 8) const uint kMerged = 1u;    // or added up;
 layout(constant_id = 9) const uint kGlossy = 1u;      // surfaces with a specular lobe,
 layout(constant_id = 10) const uint kRoads = 1u;      // roads with a table,
-layout(constant_id = 11) const uint kRetro = 1u;      // retroreflective surfaces
+layout(constant_id = 11) const uint kRetro = 1u;      // retroreflective surfaces,
+layout(constant_id = 12) const uint kMaps = 1u;       // distance maps of lamps
 
 layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
@@ -37,11 +38,14 @@ layout(binding = 7) uniform samplerBuffer retro_classes;
 layout(binding = 8) uniform samplerBuffer merged;
 layout(binding = 9) uniform usamplerBuffer class_counts;
 layout(binding = 10) uniform usamplerBuffer class_blocks;
+layout(binding = 11) uniform samplerBuffer maps;
+layout(binding = 12) uniform samplerBuffer distances;
 layout(push_constant, scalar) uniform Push { ShadePush push; };
 
 #include "lamp.glsl"
 #include "retro.glsl"
 #include "road.glsl"
+#include "visibility.glsl"
 
 vec3 position[kRows], normal[kRows], toward_eye[kRows];
 uint in_slice[kRows];         // a bit; 0: nothing is drawn
@@ -86,6 +90,18 @@ bool returns_light(uint r, vec3 toward_lamp, float normal_lamp) {
     return dot(chord, chord) <= chord2[r] && normal_lamp > 0.0;
 }
 
+float seen[kRows];  // share of a lamp that each pixel sees
+
+// Looks from the pixels at a lamp that something hides from some of them: a loop of one turn, so that a CPU device does
+// nothing for other lamps.
+void look_at(uint index, vec3 position_of_lamp, bool mixed) {
+    [[unroll]] for (uint r = 0u; r < kRows; ++r) seen[r] = 1.0;
+    for (uint k = 0u; k < (mixed ? 1u : 0u); ++k) {
+        const FetchedMap map = fetch_map(index);
+        [[unroll]] for (uint r = 0u; r < kRows; ++r) seen[r] = visibility(map, position[r] - position_of_lamp, normal[r]);
+    }
+}
+
 // Adds a lamp to the pixels of some slices, a bit for each.
 void add_lamp(FetchedLamp lamp, uint slices, bool cone) {
     float returned[kRows];  // of what a retroreflective pixel returns, the illuminance facing the lamp, lx
@@ -95,8 +111,9 @@ void add_lamp(FetchedLamp lamp, uint slices, bool cone) {
         const float inverse = inversesqrt(max(dot(to, to), 1e-12));
         const float normal_lamp = dot(normal[r], to) * inverse;
         const float relative = relative_intensity(lamp, -dot(lamp.axis, to) * inverse, -to, inverse, cone);
-        const float facing = lamp.intensity * relative * (inverse * inverse);  // illuminance facing the lamp, lx
+        float facing = lamp.intensity * relative * (inverse * inverse);  // illuminance facing the lamp, lx
         const bool counts_here = facing * max(normal_lamp, least_cosine[r]) >= push.threshold && (in_slice[r] & slices) != 0u;
+        if (kMaps != 0u) facing *= seen[r];
         const bool road = kRoads != 0u && roads[r].tan_cells > 0.0;
         float weight = max(normal_lamp, 0.0);
         if (kRoads != 0u) weight = road && normal_lamp > 0.0 ? road_coefficient(roads[r], to, inverse, normal_lamp) : weight;
@@ -135,8 +152,10 @@ List list_of(uint block) {
 
 void add_entry(List list, uint at, uint number, bool cone) {
     const uint entry = list.all_of_them ? number : texelFetch(entries, int(at)).r;
-    const uint lamp = list.all_of_them ? number : lamp_of(entry);
-    add_lamp(fetch(lamp, cone, push.lamps.cones + push.lamps.powers), list.all_of_them ? ~0u : slices_of(entry), cone);
+    const uint index = list.all_of_them ? number : lamp_of(entry);
+    const FetchedLamp lamp = fetch(index, cone, push.lamps.cones + push.lamps.powers);
+    if (kMaps != 0u) look_at(index, lamp.position, list.all_of_them || (entry & kMixedBit) != 0u);
+    add_lamp(lamp, list.all_of_them ? ~0u : slices_of(entry), cone);
 }
 
 void add_lamps(List list) {

@@ -13,7 +13,9 @@ const float kRoadKind = -1.0;
 const uint kBlockSize = 8u;  // px, side of a block; a tile is a whole number of blocks
 
 // A block of pixels has a list of its own: the lamps of its froxels that can light what is drawn
-// in it. An entry is a lamp's index and, above it, the first and the last slice whose pixels it is for.
+// in it. An entry is a lamp's index and, above it, whether something may hide the lamp from some of the pixels, and the
+// first and the last slice whose pixels it is for.
+const uint kMixedBit = 1u << 21u;
 const uint kFirstSliceShift = 22u;
 const uint kLastSliceShift = 27u;
 

@@ -55,7 +55,7 @@ inline Shot shade(PassRig& rig, const Surfaces& s, const gpu_scene::LampList& li
     if (!sheets.empty())
         settings.retro = graph.upload("retro", gpu_scene::retro_texels(sheets), VK_FORMAT_R32G32B32A32_SFLOAT);
     const render::Clusters c = render::add_clusters(frame, g.surface, list, upload(graph, tables), clusters);
-    const graph::Resource scene = keep<glm::vec4>(graph, render::add_shading(frame, g, c, settings)),
+    const graph::Resource scene = keep<glm::vec4>(graph, render::add_shading(frame, g, c, settings).scene),
                           report = keep<shared::ClusterReport>(graph, c.report);
     rig.run(graph);
     return {rig.got<glm::vec4>(scene), c.push, rig.got<shared::ClusterReport>(report).at(0)};

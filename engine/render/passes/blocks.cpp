@@ -26,7 +26,8 @@ std::vector<uint32_t> empty_classes() {
 
 }  // namespace
 
-Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, float tolerance) {
+Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, float tolerance,
+                  const VisibilityMaps& maps) {
     graph::FrameGraph& graph = frame.graph;
     const VkExtent2D extent = frame.view.extent;
     const LampKinds kinds = lamp_kinds(clusters);
@@ -40,17 +41,16 @@ Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clus
     const auto words = [&](const char* name, uint64_t number) {
         return graph.transient(name, graph::buffer_shape(number * kWord, kWords));
     };
-    const Blocks blocks{
-        .columns = grid.x,
-        .count = count,
-        .capacity = kBlockCapacity,
-        .counts = words("block counts", count * 2),
-        .entries = words("block entries", uint64_t(count) * kBlockCapacity),
-        .sums = graph.transient("block sums",
-                                graph::buffer_shape(uint64_t(count) * shared::kMergedTexels * sizeof(glm::vec4),
-                                                    VK_FORMAT_R32G32B32A32_SFLOAT)),
-        .class_counts = words("class counts", shared::kBlockClasses * shared::kClassWords),
-        .class_blocks = words("class blocks", uint64_t(count) * shared::kBlockClasses)};
+    Blocks blocks{.columns = grid.x,
+                  .count = count,
+                  .capacity = kBlockCapacity,
+                  .counts = words("block counts", count * 2),
+                  .entries = words("block entries", uint64_t(count) * kBlockCapacity),
+                  .sums = graph.transient(
+                      "block sums", graph::buffer_shape(uint64_t(count) * shared::kMergedTexels * sizeof(glm::vec4),
+                                                        VK_FORMAT_R32G32B32A32_SFLOAT)),
+                  .class_counts = words("class counts", shared::kBlockClasses * shared::kClassWords),
+                  .class_blocks = words("class blocks", uint64_t(count) * shared::kBlockClasses)};
 
     const gpu::Kernel& cull = frame.kernels.get(kCullLamps, {kinds.powers, kinds.tables});
     graph.dispatch(
@@ -59,6 +59,8 @@ Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clus
          store(blocks.counts), store(blocks.entries), sample(clusters.tables.texels), sample(clusters.block_slices)},
         shared::CullPush{clusters.push, pixels, grid.x, kBlockCapacity},
         graph::cover(grid.x, grid.y, cull.group[0], cull.group[1]));
+
+    add_visibility(frame, surfaces, clusters, maps, blocks);
 
     graph.copy("begin classes", graph.upload("no blocks", empty_classes(), kWords), blocks.class_counts);
     const gpu::Kernel& merge = frame.kernels.get(kMergeLamps, {kinds.cones, kinds.powers, kinds.tables, kinds.roads});

@@ -3,6 +3,7 @@
 
 #include "render/passes/cluster.h"
 #include "render/passes/gbuffer.h"
+#include "render/passes/visibility.h"
 #include "shared/blocks.h"
 
 namespace vesper::render {
@@ -14,6 +15,7 @@ struct Blocks {
     graph::Resource counts, entries;  ///< lists of the lamps that its pixels evaluate one by one (shared/shade.h)
     graph::Resource sums;             ///< merged light of the other lamps
     graph::Resource class_counts, class_blocks;
+    graph::Resource visibility;  ///< shared::VisibilityReport, where there are distance maps
 };
 
 /// Culls the lamps that cannot light any surface of a block. Where a block is one matt plane or one plane of road,
@@ -22,6 +24,8 @@ struct Blocks {
 /// where light is smooth and up to 3.5 times at kinks (edges of a beam's ramp, cells of a table; more, in hardly a
 /// pixel, under tables with single bright nodes). A negative tolerance merges nothing. Throws Error for an image of
 /// more blocks than the device can shade in one dispatch.
-Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, float tolerance);
+/// Lamps that nothing of a block sees in `maps` are culled, and those that some of it may not see are not merged.
+Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, float tolerance,
+                  const VisibilityMaps& maps = {});
 
 }  // namespace vesper::render

@@ -23,7 +23,8 @@ enum ShadeVariant : uint32_t {
     kMerged = 32,
     kGlossy = 64,
     kRoads = 128,
-    kRetro = 256
+    kRetro = 256,
+    kMaps = 512
 };
 
 // The kinds of lamps and surfaces in the frame.
@@ -35,8 +36,9 @@ uint32_t frame_variant(const Clusters& clusters, bool retro) {
 
 const gpu::Kernel& shade_kernel(const gpu::KernelCache& kernels, const PixelGroups& groups, uint32_t variant) {
     const auto has = [variant](ShadeVariant bit) -> uint32_t { return variant & bit ? 1 : 0; };
-    return kernels.get(kShade, {groups.width, groups.height, groups.rows, has(kEveryLamp), has(kCones), has(kPowers),
-                                has(kTables), has(kListed), has(kMerged), has(kGlossy), has(kRoads), has(kRetro)});
+    return kernels.get(
+        kShade, {groups.width, groups.height, groups.rows, has(kEveryLamp), has(kCones), has(kPowers), has(kTables),
+                 has(kListed), has(kMerged), has(kGlossy), has(kRoads), has(kRetro), has(kMaps)});
 }
 
 // What is in the blocks of a class, as bits of a shading kernel, beside the lamps that the frame has.
@@ -57,10 +59,11 @@ constexpr std::array<BlockClass, shared::kBlockClasses> kClasses{{
 
 }  // namespace
 
-graph::Resource add_shading(const FrameContext& frame, const GBuffer& g, const Clusters& clusters,
-                            const ShadeSettings& settings) {
+Shading add_shading(const FrameContext& frame, const GBuffer& g, const Clusters& clusters,
+                    const ShadeSettings& settings) {
     const PixelGroups groups = pixel_groups(frame.kernels.device());
-    const Blocks blocks = add_blocks(frame, g, clusters, settings.all_lamps ? -1 : settings.merge_tolerance);
+    const Blocks blocks =
+        add_blocks(frame, g, clusters, settings.all_lamps ? -1 : settings.merge_tolerance, settings.maps);
     shared::ShadePush push{.size = {frame.view.extent.width, frame.view.extent.height},
                            .grid = clusters.push.grid,
                            .lamps = clusters.push.lamps,
@@ -85,15 +88,18 @@ graph::Resource add_shading(const FrameContext& frame, const GBuffer& g, const C
         if (variant & kRetro) variant = (variant & ~uint32_t{kRetro}) | (present & (kRetro | kRoads));
         if (variant & kListed) variant |= present & (kCones | kPowers | kTables);
         if (variant & kListed && settings.all_lamps) variant |= kEveryLamp;
+        if (variant & kListed && settings.maps.lamps) variant |= kMaps;
         frame.graph.dispatch(
             c.name, shade_kernel(frame.kernels, groups, variant),
             {load(g.reflectance), load(g.surface), update(g.emission), sample(clusters.lamps), sample(blocks.counts),
              sample(blocks.entries), sample(clusters.tables.texels), sample(retro), sample(blocks.sums),
-             sample(blocks.class_counts), sample(blocks.class_blocks)},
+             sample(blocks.class_counts), sample(blocks.class_blocks),
+             sample(settings.maps.lamps ? settings.maps.lamps : clusters.lamps),
+             sample(settings.maps.lamps ? settings.maps.distances : clusters.lamps)},
             push,
             graph::Arguments{blocks.class_counts, uint64_t(push.block_class) * shared::kClassWords * sizeof(uint32_t)});
     }
-    return g.emission;
+    return {g.emission, blocks.visibility};
 }
 
 }  // namespace vesper::render

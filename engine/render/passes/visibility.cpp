@@ -1,0 +1,36 @@
+#include "render/passes/visibility.h"
+
+#include "render/passes/blocks.h"
+#include "shaders/visibility/visibility.comp.inc"
+
+namespace vesper::render {
+namespace {
+
+using graph::load, graph::sample, graph::update;
+
+constexpr gpu::Shader kVisibility{"visibility.comp", visibility_comp};
+
+}  // namespace
+
+void add_visibility(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters,
+                    const VisibilityMaps& maps, Blocks& blocks) {
+    if (!maps.lamps) return;
+    graph::FrameGraph& graph = frame.graph;
+    const VkExtent2D extent = frame.view.extent;
+    blocks.visibility = graph.transient(
+        "visibility report", graph::buffer_shape(sizeof(shared::VisibilityReport), VK_FORMAT_R32_UINT));
+    graph.clear("clear visibility report", blocks.visibility);
+    const gpu::Kernel& kernel = frame.kernels.get(kVisibility);
+    const uint32_t rows = blocks.count / blocks.columns;
+    graph.dispatch("visibility", kernel,
+                   {load(surfaces.surface), sample(clusters.lamps), update(blocks.counts), update(blocks.entries),
+                    sample(maps.lamps), sample(maps.distances), sample(maps.bounds), update(blocks.visibility)},
+                   shared::VisibilityPush{.grid = clusters.push.grid,
+                                          .size = {extent.width, extent.height},
+                                          .blocks_x = blocks.columns,
+                                          .blocks_y = rows,
+                                          .capacity = blocks.capacity},
+                   graph::cover(blocks.columns, rows, kernel.group[0], 1));
+}
+
+}  // namespace vesper::render

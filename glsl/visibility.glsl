@@ -1,0 +1,69 @@
+// Whether a lamp sees a point of a surface (shared/distance_map.h). Needs `samplerBuffer maps`, two texels per lamp, and
+// `samplerBuffer distances`.
+
+#include "shared/distance_map.h"
+
+struct FetchedMap {
+    mat3 turn;     // from the view frame to that of the map
+    int first, side;
+    float zoom;
+    bool both;     // hemispheres
+    float radius;  // m
+    float bias;    // times the distance, see kMapBias
+};
+
+FetchedMap fetch_map(uint lamp) {
+    const vec4 q = texelFetch(maps, int(lamp * kMapTexels)), b = texelFetch(maps, int(lamp * kMapTexels) + 1);
+    const vec3 x = 2.0 * q.x * q.xyz, y = 2.0 * q.y * q.xyz, z = 2.0 * q.z * q.xyz, w = 2.0 * q.w * q.xyz;
+    const mat3 turn = mat3(1.0 - y.y - z.z, x.y + w.z, x.z - w.y, x.y - w.z, 1.0 - x.x - z.z, y.z + w.x, x.z + w.y, y.z - w.x, 1.0 - x.x - y.y);
+    return FetchedMap(turn, int(b.x) * int(kMapUnit), int(b.y), abs(b.z), b.z < 0.0, b.w, 1.0 / max(b.y * abs(b.z), 1.0) + kMapRounding);
+}
+
+// A surface as a map sees it.
+struct MapPoint {
+    vec2 texel;     // of the hemisphere's square, (0, 0) in its corner
+    float norm;     // distance, m, in the norm of the maps
+    int first;      // texel of the hemisphere
+    bool inside;    // the map reaches it
+    vec3 plane;     // the inverse distance of the surface's plane is plane.xy . texel + plane.z, within the point's quadrant
+};
+
+// `from`: the lamp, to a point of a surface with this normal; in the view frame.
+MapPoint map_point(FetchedMap map, vec3 from, vec3 normal) {
+    vec3 q = map.turn * from, n = map.turn * normal;
+    const bool behind = q.z < 0.0;
+    q.z = abs(q.z);
+    n.z = behind ? -n.z : n.z;
+    const float norm = max(abs(q.x) + abs(q.y) + q.z, 1e-6);
+    const vec2 square = map.zoom / norm * vec2(q.x + q.y, q.x - q.y);
+    const int hemisphere = behind ? map.side * map.side : 0;
+    const bool inside = map.side > 0 && (map.both || !behind) && max(abs(square.x), abs(square.y)) <= 1.0;
+    // n . o / (n . q), o = (x, y, 1 - |x| - |y|) with x, y = (u + v, u - v) / 2 zoom, u = 2 texel / side - 1.
+    const vec2 along = vec2(n.x - (q.x < 0.0 ? -n.z : n.z), n.y - (q.y < 0.0 ? -n.z : n.z));
+    const float away = dot(n, q);
+    const float inverse = abs(away) > 1e-4 * norm ? 1.0 / away : 0.0;  // of a surface seen from its edge nothing is known
+    const vec2 slope = inverse * 0.5 / map.zoom * vec2(along.x + along.y, along.x - along.y);
+    const vec2 texel = (0.5 * square + 0.5) * float(map.side);
+    const vec2 per_texel = slope * (2.0 / float(map.side));
+    return MapPoint(texel, norm, map.first + hemisphere, inside, vec3(per_texel, 1.0 / norm - dot(per_texel, texel)));
+}
+
+// Whether the lamp sees the plane of the surface along the middle of a texel; the plane is no farther from the point than
+// surfaces bend within a few texels.
+bool sees(FetchedMap map, MapPoint p, ivec2 corner) {
+    const ivec2 at = clamp(corner, ivec2(0), ivec2(map.side - 1));
+    const float seen = texelFetch(distances, p.first + at.y * map.side + at.x).r;
+    const float inverse = clamp(dot(p.plane.xy, vec2(at) + 0.5) + p.plane.z, 0.5 / p.norm, 2.0 / p.norm);
+    return (seen + kMapBias + map.bias * p.norm) * inverse >= 1.0;
+}
+
+// Share of the lamp that the point sees, 0 to 1.
+float visibility(FetchedMap map, vec3 from, vec3 normal) {
+    const MapPoint p = map_point(map, from, normal);
+    const vec2 at = p.texel - 0.5, share = fract(at);
+    const ivec2 corner = ivec2(floor(at));
+    const vec2 low = vec2(sees(map, p, corner) ? 1.0 : 0.0, sees(map, p, corner + ivec2(1, 0)) ? 1.0 : 0.0);
+    const vec2 high = vec2(sees(map, p, corner + ivec2(0, 1)) ? 1.0 : 0.0, sees(map, p, corner + ivec2(1, 1)) ? 1.0 : 0.0);
+    const vec2 column = mix(low, high, share.y);
+    return !p.inside || mix(column.x, column.y, share.x) >= 0.5 ? 1.0 : 0.0;
+}

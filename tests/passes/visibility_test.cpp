@@ -1,0 +1,289 @@
+// What pixels see of lamps, on the device: closed forms, and rays through the whole night street.
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/packing.hpp>
+
+#include "base/angle.h"
+#include "gpu_scene/cameras.h"
+#include "passes/shade_reference.h"
+#include "passes/visibility_reference.h"
+#include "places.h"
+#include "render/distance_maps.h"
+#include "render/passes/gbuffer.h"
+#include "render/passes/shade.h"
+#include "scene/convert.h"
+#include "scene/scene_files.h"
+#include "support/noise.h"
+#include "support/occluders.h"
+#include "support/ray_caster.h"
+#include "support/shading.h"
+
+namespace vesper::test::visibility_test {
+namespace {
+
+/// A scene with its maps on the device.
+struct Lit {
+    PassRig& rig;
+    const scene::Scene& scene;
+    gpu_scene::SceneFrame poses;
+    gpu_scene::GpuScene resident;
+    std::vector<gpu_scene::PlacedLamp> lamps;
+    gpu_scene::MapPlan plan;
+    gpu_scene::IntensityTables tables;
+    render::DistanceMaps maps;
+
+    Lit(PassRig& r, const scene::Scene& s)
+        : rig(r),
+          scene(s),
+          poses{scene::world_transforms(s, 0), {}, {}, {}},
+          resident(r.device(), s),
+          lamps(gpu_scene::placed_lamps(s)),
+          plan(gpu_scene::map_plan(s, resident, lamps)),
+          tables(gpu_scene::intensity_tables(s)),
+          maps(r.device(), resident, lamps, plan) {}
+
+    struct Picture {
+        gpu_scene::LampList list;
+        shared::ClusterGrid grid;
+        std::vector<glm::vec4> colours, surfaces, pixels;
+        shared::VisibilityReport pairs{};
+    };
+    /// The light of lamps alone.
+    Picture render(const gpu_scene::View& view, bool all_lamps = false) {
+        Picture p{.list = gpu_scene::lamp_list(lamps, tables, poses, view)};
+        if (const auto outdated = maps.outdated(p.list, poses); !outdated.empty()) maps.draw(outdated, poses);
+        graph::FrameGraph graph;
+        const render::FrameContext frame = rig.frame(graph, view);
+        const render::GBuffer g = render::add_gbuffer(frame, resident, poses);
+        const render::Clusters c = render::add_clusters(frame, g.surface, p.list, upload(graph, tables), {});
+        const graph::Resource reflectance = keep<uint64_t>(graph, g.reflectance),
+                              surface = keep<glm::vec4>(graph, g.surface);
+        const render::Shading lit =
+            render::add_shading(frame, g, c,
+                                {.emission_limit = 0,
+                                 .all_lamps = all_lamps,
+                                 .maps = maps.maps(graph, p.list, poses, view)});
+        const graph::Resource picture = keep<glm::vec4>(graph, lit.scene);
+        const graph::Resource report =
+            lit.visibility ? keep<shared::VisibilityReport>(graph, lit.visibility) : graph::Resource{};
+        rig.run(graph);
+        p.grid = c.push.grid;
+        p.colours = from_halves(rig.got<uint64_t>(reflectance));
+        p.surfaces = rig.got<glm::vec4>(surface), p.pixels = rig.got<glm::vec4>(picture);
+        if (report) p.pairs = rig.got<shared::VisibilityReport>(report).at(0);
+        return p;
+    }
+};
+
+// A lamp 6 m above the ground and a plate 2 m above it: the edge of the shadow is where the ray by the plate's edge ends,
+// half as far out again. Texels of the map are 2 mm there.
+TEST(Visibility, AShadowEndsWhereTheRayByTheEdgeDoes) {
+    PassRig rig;
+    OccluderScene s;
+    s.plate({0, 0, 0}, {20, 0, 0}, {0, 0, -20});
+    s.plate({0, 2, 0}, {1, 0, 0}, {0, 0, -0.6f});
+    scene::Lamp lamp;
+    lamp.intensity = 1000;
+    for (const bool spot : {false, true}) {
+        SCOPED_TRACE(spot ? "spot" : "point");
+        lamp.kind = spot ? scene::Lamp::Kind::Spot : scene::Lamp::Kind::Point;
+        lamp.inner_cone = 1.1f, lamp.outer_cone = 1.2f;
+        OccluderScene lit = s;
+        lit.lamp(lamp, {0, 6, 0}, glm::angleAxis(float(-kPi / 2), glm::vec3(1, 0, 0)));
+        Lit all(rig, lit.scene());
+        // From straight above the lamp; 500 px over 10 m of ground, the plate in the middle.
+        const gpu_scene::View view = gpu_scene::View::symmetric(
+            {500, 500}, float(2 * std::atan(5.0 / 20)),
+            glm::mat4_cast(glm::angleAxis(kPi / 2, glm::dvec3(1, 0, 0))) * glm::translate(glm::dmat4(1), glm::dvec3(0, -20, 0)));
+        const Lit::Picture p = all.render(view);
+        size_t wrong = 0, dark = 0;
+        for (size_t i = 0; i < p.pixels.size(); ++i) {
+            const glm::dvec3 at = reference::view_position(p.grid, glm::dvec2(i % 500, i / 500) + 0.5, double(p.surfaces[i].z));
+            const double x = at.x, z = -at.y, away = std::hypot(x, 6.0, z);
+            if (at.z > -19) continue;  // the plate
+            // 10 mm: half a texel and rounding.
+            const double inside = std::min(1.5 - std::abs(x), 0.9 - std::abs(z));
+            if (std::abs(inside) < 0.01) continue;
+            const double bright = double(p.pixels[i].x + p.pixels[i].y + p.pixels[i].z);
+            dark += bright == 0 ? 1 : 0;
+            if (inside > 0) {
+                wrong += bright != 0 ? 1 : 0;
+            } else if (!spot || std::acos(6 / away) < 1.05) {
+                const double light = 3 * 1000 * 6 / (away * away * away) / kPi;
+                wrong += std::abs(bright - light) > 2e-3 * light ? 1 : 0;
+            }
+        }
+        EXPECT_EQ(wrong, 0u);
+        EXPECT_GT(dark, 500u);
+        EXPECT_GT(p.pairs.dark, 5u);
+        EXPECT_GT(p.pairs.mixed, 10u);
+        EXPECT_GT(p.pairs.lit, 3000u);
+        // Pixel by pixel, without blocks, it is the same.
+        const Lit::Picture slow = all.render(view, true);
+        for (size_t i = 0; i < p.pixels.size(); ++i)
+            ASSERT_NEAR(p.pixels[i].y, slow.pixels[i].y, 2e-3 * slow.pixels[i].y) << i % 500 << " " << i / 500;
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// Maps of noise: every look of a pixel at a lamp is that of the reference.
+TEST(Visibility, PixelsLookAtTheTexelsOfTheReference) {
+    PassRig rig;
+    constexpr uint32_t kSide = 64;
+    Noise noise(5);
+    const gpu_scene::View view = gpu_scene::View::symmetric({83, 61}, 0.7f, glm::mat4(1));
+    Surfaces s{view.extent, {}, {}, {}};
+    for (uint32_t i = 0; i < view.extent.width * view.extent.height; ++i) {  // a road and a wall, and bumps on them
+        const glm::dvec2 ray = glm::dvec2(view.ray_scale()) * (glm::dvec2(s.pixel(i)) + 0.5) + glm::dvec2(view.ray_offset());
+        const double road = ray.y < 0 ? 1.2 / -ray.y : 1e6, depth = std::min(road, 12.0);
+        const glm::dvec3 normal = glm::normalize((road < 12 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1)) + 0.2 * noise.facing(0.1));
+        s.reflectance.emplace_back(0.5f, 0.5f, 0.5f, 0.0f);
+        s.surface.emplace_back(glm::vec2(reference::octahedral_encode(normal)), float(depth), 1.0f);
+        s.emission.emplace_back(0);
+    }
+    for (const auto& [zoom, hemispheres] : {std::pair{1.0, 2u}, {1.7, 1u}}) {
+        SCOPED_TRACE("zoom " + std::to_string(zoom));
+        gpu_scene::LampList list;
+        shared::Lamp lamp{};
+        lamp.position = {0.7f, 1.5f, -5}, lamp.intensity = 1000, lamp.axis = {0, -1, 0}, lamp.lobe_b = 1, lamp.colour = glm::vec3(1);
+        list.lamps = {lamp}, list.indices = {0}, list.counts = {1, 0, 0, 0};
+        const gpu_scene::MapFrame turned = gpu_scene::map_frame(glm::mat4_cast(glm::angleAxis(-1.2, glm::normalize(glm::dvec3(1, 0.2, 0.4)))));
+        std::vector<uint16_t> texels;
+        reference::HemisphereMap maps[2]{{kSide, {}}, {kSide, {}}};
+        for (uint32_t k = 0; k < hemispheres * kSide * kSide; ++k) {
+            const float value = k % 97 == 0 ? std::numeric_limits<float>::infinity() : 1 + 12 * noise.fine();
+            texels.push_back(glm::packHalf1x16(value));
+            maps[k / (kSide * kSide)].norms.push_back(double(glm::unpackHalf1x16(texels.back())));
+        }
+        graph::FrameGraph graph;
+        const render::FrameContext frame = rig.frame(graph, view);
+        const render::GBuffer g = upload(graph, s);
+        const std::vector map{gpu_scene::lamp_map({.side = kSide, .hemispheres = hemispheres, .zoom = float(zoom), .range = 1, .radius = 0, .first = 0}, turned, view)};
+        const render::VisibilityMaps seen{
+            graph.upload("maps", map, VK_FORMAT_R32G32B32A32_SFLOAT), graph.upload("distances", texels, VK_FORMAT_R16_SFLOAT),
+            graph.upload("bounds", std::vector<uint32_t>(hemispheres * kSide * kSide / 8, 0x80008000), VK_FORMAT_R16G16_SFLOAT)};
+        const render::Clusters c = render::add_clusters(frame, g.surface, list, no_tables(graph), {});
+        const graph::Resource picture = keep<glm::vec4>(graph, render::add_shading(frame, g, c, {.all_lamps = true, .maps = seen}).scene);
+        rig.run(graph);
+        const std::vector<glm::vec4> pixels = rig.got<glm::vec4>(picture);
+        size_t dark = 0, lit = 0;
+        for (size_t i = 0; i < pixels.size(); ++i) {
+            const glm::dvec3 point = reference::view_position(c.push.grid, glm::dvec2(s.pixel(i)) + 0.5, double(s.surface[i].z));
+            const glm::dvec3 normal = reference::octahedral_decode(glm::dvec2(s.surface[i]));
+            if (glm::dot(normal, glm::dvec3(lamp.position) - point) < 0.01) continue;
+            glm::dvec3 in_map = turned.rotation * (point - glm::dvec3(lamp.position)), facing = turned.rotation * normal;
+            const bool second = in_map.z < 0;
+            if (second && hemispheres == 2) in_map.z = -in_map.z, facing.z = -facing.z;
+            const reference::MapLook look = reference::look(maps[second && hemispheres == 2 ? 1 : 0], zoom, in_map, facing);
+            if (!look.certain) continue;
+            (look.seen ? lit : dark) += 1;
+            EXPECT_EQ(pixels[i].x > 0, look.seen) << i % view.extent.width << " " << i / view.extent.width;
+        }
+        EXPECT_GT(dark, 500u);
+        EXPECT_GT(lit, 500u);
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// A lamp never shades itself by its fixture; something that moves takes its shadow along; a lamp that is switched on later
+// has shadows; what has no place any more finds one.
+TEST(Visibility, MapsAreNeverStale) {
+    PassRig rig;
+    OccluderScene s;
+    s.plate({0, 0, 0}, {20, 0, 0}, {0, 0, -20});
+    const uint32_t box = s.box({0, 0, 0}, glm::vec3(0.5f));
+    scene::Lamp lamp;
+    lamp.intensity = 1000;
+    const uint32_t post = s.box({3, 3, 0}, {0.1f, 3, 0.1f});  // reaches above its lamp
+    const uint32_t node = s.lamp(lamp, {3, 5, 0});
+    s.scene().nodes[node].parent = post;
+    Lit all(rig, s.scene());
+    const gpu_scene::View view = gpu_scene::View::symmetric(
+        {64, 64}, float(2 * std::atan(5.0 / 20)),
+        glm::mat4_cast(glm::angleAxis(kPi / 2, glm::dvec3(1, 0, 0))) * glm::translate(glm::dmat4(1), glm::dvec3(0, -20, 0)));
+    const auto brightness = [&](double x, double z) {
+        const Lit::Picture p = all.render(view);
+        const glm::ivec2 px(32 + int(std::floor(x * 6.4)), 32 + int(std::floor(z * 6.4)));
+        return double(p.pixels[size_t(px.y) * 64 + size_t(px.x)].y);
+    };
+    const auto move = [&](double x) {
+        all.poses.world[box] = glm::translate(glm::dmat4(1), glm::dvec3(x, 2, 0));
+    };
+    move(1.5);  // the box is on the way from (3, 5) to (0, 0)
+    EXPECT_EQ(brightness(0, 0), 0);
+    EXPECT_GT(brightness(0, 3), 0);
+    move(-3);
+    EXPECT_GT(brightness(0, 0), 0);
+    move(1.5);
+    EXPECT_EQ(brightness(0, 0), 0);
+    all.poses.dimming.assign(s.scene().nodes.size(), 1);
+    all.poses.dimming[node] = 0;
+    EXPECT_EQ(brightness(0, 3), 0);
+    move(1.2);
+    all.poses.dimming[node] = 0.5f;
+    EXPECT_EQ(brightness(0, 0), 0);
+    EXPECT_GT(brightness(0, 3), 0);
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// The light of all lamps on matt pixels of the night street, with rays deciding which of them each pixel sees.
+TEST(Visibility, NightStreetAgreesWithRays) {
+    TempFolder folder;
+    const std::filesystem::path data = std::filesystem::path(VESPER_SOURCE_DIR) / "data/rivoli";
+    scene::convert(data / "rivoli.gltf", data / "rivoli.photometry.json", folder / "night.gltf");
+    const scene::Scene scene = scene::read_gltf(folder / "night.gltf").scene;
+    PassRig rig;
+    Lit street(rig, scene);
+    const RayCaster rays(scene, street.poses.world);
+    ASSERT_EQ(rays.size(), street.resident.triangles());
+
+    for (const char* camera : {"driver", "crossing"}) {
+        const gpu_scene::View view = gpu_scene::camera_view(scene, street.poses, camera, {84, 52});
+        const Lit::Picture p = street.render(view);
+        const glm::dmat4 to_world = glm::inverse(view.world_to_view);
+        size_t pixels = 0, within = 0;
+        double light = 0, truth = 0, leaked = 0, lost = 0;
+        for (size_t i = 0; i < p.pixels.size(); ++i) {
+            const glm::vec4 surface = p.surfaces[i], colour = p.colours[i];
+            if (!(surface.z > 0) || surface.w < 1 || colour.w != 0) continue;  // matt alone
+            const glm::dvec3 point = reference::view_position(
+                p.grid, glm::dvec2(i % view.extent.width, i / view.extent.width) + 0.5, double(surface.z));
+            const glm::dvec3 normal = reference::octahedral_decode(glm::dvec2(surface));
+            const glm::dvec3 in_world(to_world * glm::dvec4(point + 2e-3 * normal, 1));
+            double expected = 0;  // lx, times reflectance over pi
+            for (uint32_t l = 0; l < p.list.placed(); ++l) {
+                reference::Shaded sum;
+                reference::add_lamp(p.list.lamps[l], reference::kind_of(l, p.list.counts), point, normal,
+                                    glm::dvec3(colour) / kPi, {}, 1, 0.001, sum);
+                if (!(sum.luminance.y > 0)) continue;
+                const std::vector<uint32_t>& fixture = street.plan.fixtures[p.list.indices[l]];
+                const glm::dvec3 lamp(street.poses.world[street.lamps[p.list.indices[l]].node][3]);
+                const double hit = rays.hit(lamp, in_world, 0, 1, [&](uint32_t node) {
+                    return std::ranges::none_of(
+                        fixture, [&](uint32_t f) { return street.resident.placements()[f].node == node; });
+                });
+                if (!(hit < 1)) expected += sum.luminance.y;
+            }
+            const double got = double(p.pixels[i].y);
+            light += got, truth += expected;
+            leaked += std::max(got - expected, 0.0), lost += std::max(expected - got, 0.0);
+            if (std::max(got, expected) < 1.3 * double(colour.y) / kPi) continue;  // of 1.3 lx and more
+            ++pixels;
+            within += std::abs(got - expected) <= 0.05 * expected ? 1 : 0;
+        }
+        // Without maps the light is 1.4 to 1.9 times as much. What differs are edges of shadows, by less than a texel.
+        EXPECT_NEAR(light, truth, 0.01 * truth) << camera;
+        EXPECT_LT(leaked, 0.012 * truth) << camera;
+        EXPECT_LT(lost, 0.012 * truth) << camera;
+        EXPECT_GT(double(within), 0.9 * double(pixels)) << camera;
+        EXPECT_GT(pixels, 2000u);
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+}  // namespace
+}  // namespace vesper::test::visibility_test

@@ -25,14 +25,17 @@ Drawn draw(PassRig& rig, const scene::Scene& scene, std::span<const render::MapT
     const gpu_scene::GpuScene resident(rig.device(), scene);
     gpu::Arena arena(rig.device());
     const std::vector<uint32_t> nothing(texels / 2, 0x12341234);
-    const auto buffer = gpu_scene::upload_buffer(rig.device(), arena, std::as_bytes(std::span(nothing)),
-                                                 VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-    const auto more = gpu_scene::upload_buffer(rig.device(), arena, std::as_bytes(std::span(nothing).first(texels / 8)),
-                                               VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    const auto buffer =
+        gpu_scene::upload_buffer(rig.device(), arena, std::as_bytes(std::span(nothing)),
+                                 VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    const auto more =
+        gpu_scene::upload_buffer(rig.device(), arena, std::as_bytes(std::span(nothing).first(texels / 8)),
+                                 VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     graph::FrameGraph graph;
     const render::MapWords words{graph.lasting("distances", buffer.get(), texels * 2, VK_FORMAT_R32_UINT),
                                  graph.lasting("bounds", more.get(), texels / 2, VK_FORMAT_R32_UINT)};
-    render::add_distance_maps(rig.frame(graph, VkExtent2D{1, 1}), resident, {scene::world_transforms(scene, 0), {}, {}, {}}, maps, words);
+    render::add_distance_maps(rig.frame(graph, VkExtent2D{1, 1}), resident,
+                              {scene::world_transforms(scene, 0), {}, {}, {}}, maps, words);
     const graph::Resource distances = PassRig::want<uint32_t>(graph, words.distances, texels / 2),
                           bounds = PassRig::want<uint32_t>(graph, words.bounds, texels / 8);
     rig.run(graph);
@@ -58,7 +61,9 @@ OccluderScene room() {
 // Texels agree with rays but for those where a ray a hair beside meets something else.
 void expect_rays(const RayCaster& rays, const render::MapToDraw& map, bool second, const float* texels,
                  reference::HemisphereMap& want) {
-    const auto& [layout, frame, fixture] = map;
+    const gpu_scene::MapLayout& layout = map.layout;
+    const gpu_scene::MapFrame& frame = map.frame;
+    const std::span<const uint32_t> fixture = map.fixture;
     want = {layout.side, {}};
     const auto norm_at = [&](glm::dvec2 texel) {
         glm::dvec3 o = reference::map_direction(texel, layout.side, double(layout.zoom));
@@ -101,9 +106,15 @@ TEST(DistanceMap, HoldsTheFirstSurfaceAlongEachRay) {
     const uint32_t own[] = {3};  // the box above is its fixture
     // Two hemispheres, a beam, and a lamp with a fixture: of different sides, so that they share the image.
     const render::MapToDraw maps[] = {
-        {{.side = 64, .hemispheres = 2, .zoom = 1, .range = 100, .radius = 0, .first = 0}, gpu_scene::map_frame(tilted), {}},
-        {{.side = 128, .hemispheres = 1, .zoom = 3, .range = 100, .radius = 0, .first = 8192}, gpu_scene::map_frame(tilted), {}},
-        {{.side = 64, .hemispheres = 2, .zoom = 1, .range = 100, .radius = 0, .first = 8192 + 16384}, gpu_scene::map_frame(glm::translate(glm::dmat4(1), glm::dvec3(0.5, 1.9, 0.3))), own}};
+        {{.side = 64, .hemispheres = 2, .zoom = 1, .range = 100, .radius = 0, .first = 0},
+         gpu_scene::map_frame(tilted),
+         {}},
+        {{.side = 128, .hemispheres = 1, .zoom = 3, .range = 100, .radius = 0, .first = 8192},
+         gpu_scene::map_frame(tilted),
+         {}},
+        {{.side = 64, .hemispheres = 2, .zoom = 1, .range = 100, .radius = 0, .first = 8192 + 16384},
+         gpu_scene::map_frame(glm::translate(glm::dmat4(1), glm::dvec3(0.5, 1.9, 0.3))),
+         own}};
     const Drawn drawn = draw(rig, s.scene(), maps, 8192 + 16384 + 8192);
     for (const render::MapToDraw& map : maps)
         for (uint32_t h = 0; h < map.layout.hemispheres; ++h) {
@@ -125,7 +136,9 @@ TEST(DistanceMap, HoldsTheFirstSurfaceAlongEachRay) {
                         bool certain = false;
                         for (uint32_t j = y; j < y + size; ++j)
                             for (uint32_t i = x; i < x + size; ++i)
-                                certain = certain || (i + 1 < side && std::abs(stored.at(int(i), int(j)) - stored.at(int(i) + 1, int(j))) > 0.5 * stored.at(int(i), int(j)));
+                                certain = certain || (i + 1 < side && std::abs(stored.at(int(i), int(j)) -
+                                                                               stored.at(int(i) + 1, int(j))) >
+                                                                          0.5 * stored.at(int(i), int(j)));
                         EXPECT_TRUE(drawn.bounds[place].x < 0 || !certain);
                         edges += drawn.bounds[place].x < 0 && size == shared::kGroup ? 1 : 0;
                     }
@@ -145,13 +158,16 @@ TEST(DistanceMap, ManyMapsTakeSeveralImages) {
     uint32_t first = 0;
     for (uint32_t i = 0; i < 40; ++i) {
         const uint32_t side = i % 3 == 0 ? 512u : 64u << i % 3u;
-        maps.push_back({{.side = side, .hemispheres = 1, .zoom = 1, .range = 100, .radius = 0, .first = first}, gpu_scene::map_frame(glm::dmat4(1)), {}});
+        maps.push_back({{.side = side, .hemispheres = 1, .zoom = 1, .range = 100, .radius = 0, .first = first},
+                        gpu_scene::map_frame(glm::dmat4(1)),
+                        {}});
         first += side * side;
     }
     const Drawn drawn = draw(rig, s.scene(), maps, first);
     for (const render::MapToDraw& map : maps) {
         const uint32_t side = map.layout.side;
-        EXPECT_NEAR(drawn.distances[map.layout.first + side / 2 * side + side / 2], 10, 12.0 / side);  // half a texel off the axis
+        EXPECT_NEAR(drawn.distances[map.layout.first + side / 2 * side + side / 2], 10,
+                    12.0 / side);                     // half a texel off the axis
         for (uint32_t i = 0; i < side * side; ++i) {  // a box has no holes
             ASSERT_GE(drawn.distances[map.layout.first + i], 9.9f) << i << " of " << side;
             ASSERT_LE(drawn.distances[map.layout.first + i], 30.1f) << i << " of " << side;
@@ -169,7 +185,9 @@ TEST(DistanceMap, MasksLetLightThrough) {
     scene::Material& m = s.scene().materials[0];
     m.alpha = scene::Material::Alpha::Mask;
     m.base_colour_texture = {.image = 0, .wrap_u = scene::Wrap::Clamp, .wrap_v = scene::Wrap::Clamp, .nearest = true};
-    const render::MapToDraw map{{.side = 64, .hemispheres = 1, .zoom = 1, .range = 100, .radius = 0, .first = 0}, gpu_scene::map_frame(glm::dmat4(1)), {}};
+    const render::MapToDraw map{{.side = 64, .hemispheres = 1, .zoom = 1, .range = 100, .radius = 0, .first = 0},
+                                gpu_scene::map_frame(glm::dmat4(1)),
+                                {}};
     const Drawn drawn = draw(rig, s.scene(), {&map, 1}, 4096);
     const auto at = [&](glm::dvec3 p) {
         const glm::ivec2 t(reference::map_texel(map.frame.rotation * p, 64, 1));

@@ -68,6 +68,7 @@ Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const Render
     in.clusters.far = scene_->resident.farthest_depth(poses, view);
     if (settings.shadows) in.shading.maps = maps_of(graph, in.lamps, poses, view);
     in.shading.all_lamps = settings.all_lamps;
+    if (settings.all_lamps) in.shading.merge_tolerance = -1;
     if (settings.paper_lambert) in.shading.lambert = 1;
     if (settings.unit_lamps) in.shading.emission_limit = 1;
     in.chain = frames_.inputs(settings, view, seconds);
@@ -104,15 +105,17 @@ ToneChain Renderer::declare(const FrameContext& frame, const gpu_scene::SceneFra
                             const RenderSettings& settings, const Outputs& outputs, Pending& pending) const {
     const GBuffer surfaces = add_gbuffer(frame, scene_->resident, poses);
     const Clusters clusters = add_clusters(frame, surfaces.surface, inputs.lamps, inputs.tables, inputs.clusters);
-    const Shading lit = add_shading(frame, surfaces, clusters, inputs.shading);
-    graph::Resource scene = add_daylight(frame, surfaces, lit.scene, inputs.daylight);
+    Blocks blocks = add_blocks(frame, surfaces, clusters);
+    blocks = add_visibility(frame, surfaces, clusters, blocks, inputs.shading.maps);
+    blocks = add_merging(frame, surfaces, clusters, blocks, inputs.shading.merge_tolerance);
+    graph::Resource scene = add_shading(frame, surfaces, clusters, blocks, inputs.shading);
+    scene = add_daylight(frame, surfaces, scene, inputs.daylight);
     scene = add_sky(frame, surfaces, scene, inputs.sky, inputs.shading.lambert);
     scene = add_luminaires(frame, scene, surfaces.surface, inputs.luminaires);
     const ToneChain chain = add_tone_chain(frame, scene, settings, inputs.chain, outputs);
     pending.clusters = add_readback(frame.graph, "cluster report", clusters.report, sizeof(shared::ClusterReport));
-    if (lit.visibility)
-        pending.visibility =
-            add_readback(frame.graph, "visibility report", lit.visibility, sizeof(shared::VisibilityReport));
+    pending.visibility =
+        add_readback(frame.graph, "visibility report", blocks.visibility, sizeof(shared::VisibilityReport));
     pending.frame.far = clusters.push.far;
     return chain;
 }
@@ -146,8 +149,7 @@ std::optional<Frame> Renderer::finish() {
     Frame frame = std::move(pending_->frame);
     static_cast<ToneMapped&>(frame) = std::move(*shown);
     frame.clusters = read_one<shared::ClusterReport>(frames_.executor(), pending_->clusters);
-    if (pending_->visibility)
-        frame.visibility = read_one<shared::VisibilityReport>(frames_.executor(), pending_->visibility);
+    frame.visibility = read_one<shared::VisibilityReport>(frames_.executor(), pending_->visibility);
     return frame;
 }
 

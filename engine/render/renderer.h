@@ -115,7 +115,7 @@ private:
     /// The results of a submitted frame, as far as they are known.
     struct Pending {
         Frame frame;
-        graph::Resource clusters, visibility;  // to be read; the second where there are maps
+        graph::Resource clusters, visibility;  // to be read
     };
 
     VisibilityMaps maps_of(graph::FrameGraph& graph, const gpu_scene::LampList& lamps,

@@ -88,7 +88,7 @@ Merged merge(PassRig& rig, const Surfaces& s, const gpu_scene::LampList& list, f
     const render::GBuffer g = upload(graph, s);
     const render::Clusters c = render::add_clusters(frame, g.surface, list, no_tables(graph), {.far = far});
     Merged got;
-    got.blocks = render::add_blocks(frame, g, c, tolerance);
+    got.blocks = render::add_merging(frame, g, c, render::add_blocks(frame, g, c), tolerance);
     got.cluster = c.push;
     const render::Blocks& b = got.blocks;
     const graph::Resource counts = keep<uint32_t>(graph, b.counts), entries = keep<uint32_t>(graph, b.entries),

@@ -36,8 +36,8 @@ struct HemisphereMap {
         const int last = int(side) - 1;
         return norms[size_t(std::clamp(y, 0, last)) * side + size_t(std::clamp(x, 0, last))];
     }
-    /// Whether a texel and those beside it are not on one smooth surface: of inverse distances the middle one is off the
-    /// mean of its neighbours by a thousandth.
+    /// Whether a texel and those beside it are not on one smooth surface: of inverse distances the middle one is off
+    /// the mean of its neighbours by a thousandth.
     bool edge(int x, int y) const {
         const auto bent = [&](double a, double b, double c) { return std::abs(1 / a + 1 / c - 2 / b) > 2e-3 / b; };
         const int last = int(side) - 1;

@@ -37,7 +37,8 @@ TEST(DistanceMapReference, TexelsCoverTheHemisphere) {
 }
 
 TEST(DistanceMapReference, ABeamFillsTheZoomedSquare) {
-    // zoom 4 holds what is within a quarter of the square: 45 degrees off the axes of x and y, sqrt 2 s / (sqrt 2 s + c) = 1/4.
+    // zoom 4 holds what is within a quarter of the square: 45 degrees off the axes of x and y, sqrt 2 s / (sqrt 2 s +
+    // c) = 1/4.
     const double angle = std::atan(1 / (3 * std::sqrt(2.0)));
     const glm::dvec3 p(std::sin(angle) / std::sqrt(2.0), std::sin(angle) / std::sqrt(2.0), std::cos(angle));
     EXPECT_NEAR(reference::map_texel(p, 64, 4).x, 64, 1e-9);
@@ -55,7 +56,9 @@ TEST(DistanceMapReference, PlanesHaveNoEdgesWithinAQuadrant) {
     int edges = 0, across = 0;
     for (int y = 1; y < 63; ++y)
         for (int x = 1; x < 63; ++x) {
-            if (map.at(x, y) > 60 || map.at(x + 1, y) > 60 || map.at(x - 1, y) > 60 || map.at(x, y + 1) > 60 || map.at(x, y - 1) > 60) continue;
+            if (map.at(x, y) > 60 || map.at(x + 1, y) > 60 || map.at(x - 1, y) > 60 || map.at(x, y + 1) > 60 ||
+                map.at(x, y - 1) > 60)
+                continue;
             const bool seam = std::abs(x - y) <= 1 || std::abs(x + y - 63) <= 1;  // the borders of quadrants
             (seam ? across : edges) += map.edge(x, y) ? 1 : 0;
         }

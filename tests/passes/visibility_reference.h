@@ -35,7 +35,8 @@ inline MapLook look(const HemisphereMap& map, double zoom, glm::dvec3 point, glm
         certain = certain && std::abs(seen - plane) > 1e-4 * plane;
         weight += seen >= plane ? (k % 2 ? share.x : 1 - share.x) * (k / 2 ? share.y : 1 - share.y) : 0;
     }
-    return {weight >= 0.5, certain && std::abs(weight - 0.5) > 1e-3 && std::abs(std::abs(glm::dot(normal, point)) - 1e-4 * norm) > 1e-6 * norm};
+    return {weight >= 0.5, certain && std::abs(weight - 0.5) > 1e-3 &&
+                               std::abs(std::abs(glm::dot(normal, point)) - 1e-4 * norm) > 1e-6 * norm};
 }
 
 }  // namespace vesper::reference

@@ -56,7 +56,9 @@ TEST(VisibilityReference, WhatIsBehindAPlaneIsDark) {
 TEST(VisibilityReference, EdgesAreWithinHalfATexel) {
     constexpr uint32_t kSide = 128;
     reference::HemisphereMap map{kSide, {}};
-    const auto hides = [](glm::dvec3 way) { return 2 * (way.x / way.z) + 0.3 * 2 * (way.y / way.z) > 0.4; };  // at z = 2
+    const auto hides = [](glm::dvec3 way) {
+        return 2 * (way.x / way.z) + 0.3 * 2 * (way.y / way.z) > 0.4;
+    };  // at z = 2
     for (uint32_t y = 0; y < kSide; ++y)
         for (uint32_t x = 0; x < kSide; ++x) {
             const glm::dvec3 way = reference::map_direction({x + 0.5, y + 0.5}, kSide, 1);

@@ -17,6 +17,7 @@
 #include "render/passes/shade.h"
 #include "scene/convert.h"
 #include "scene/scene_files.h"
+#include "support/lamps.h"
 #include "support/noise.h"
 #include "support/occluders.h"
 #include "support/ray_caster.h"
@@ -59,28 +60,24 @@ struct Lit {
         graph::FrameGraph graph;
         const render::FrameContext frame = rig.frame(graph, view);
         const render::GBuffer g = render::add_gbuffer(frame, resident, poses);
-        const render::Clusters c = render::add_clusters(frame, g.surface, p.list, upload(graph, tables), {});
         const graph::Resource reflectance = keep<uint64_t>(graph, g.reflectance),
                               surface = keep<glm::vec4>(graph, g.surface);
-        const render::Shading lit =
-            render::add_shading(frame, g, c,
-                                {.emission_limit = 0,
-                                 .all_lamps = all_lamps,
-                                 .maps = maps.maps(graph, p.list, poses, view)});
-        const graph::Resource picture = keep<glm::vec4>(graph, lit.scene);
-        const graph::Resource report =
-            lit.visibility ? keep<shared::VisibilityReport>(graph, lit.visibility) : graph::Resource{};
+        const LitBlocks lit =
+            light(frame, g, p.list, upload(graph, tables), {},
+                  {.emission_limit = 0, .all_lamps = all_lamps, .maps = maps.maps(graph, p.list, poses, view)});
+        const graph::Resource picture = keep<glm::vec4>(graph, lit.scene),
+                              report = keep<shared::VisibilityReport>(graph, lit.blocks.visibility);
         rig.run(graph);
-        p.grid = c.push.grid;
+        p.grid = lit.clusters.push.grid;
         p.colours = from_halves(rig.got<uint64_t>(reflectance));
         p.surfaces = rig.got<glm::vec4>(surface), p.pixels = rig.got<glm::vec4>(picture);
-        if (report) p.pairs = rig.got<shared::VisibilityReport>(report).at(0);
+        p.pairs = rig.got<shared::VisibilityReport>(report).at(0);
         return p;
     }
 };
 
-// A lamp 6 m above the ground and a plate 2 m above it: the edge of the shadow is where the ray by the plate's edge ends,
-// half as far out again. Texels of the map are 2 mm there.
+// A lamp 6 m above the ground and a plate 2 m above it: the edge of the shadow is where the ray by the plate's edge
+// ends, half as far out again. Texels of the map are 2 mm there.
 TEST(Visibility, AShadowEndsWhereTheRayByTheEdgeDoes) {
     PassRig rig;
     OccluderScene s;
@@ -96,13 +93,15 @@ TEST(Visibility, AShadowEndsWhereTheRayByTheEdgeDoes) {
         lit.lamp(lamp, {0, 6, 0}, glm::angleAxis(float(-kPi / 2), glm::vec3(1, 0, 0)));
         Lit all(rig, lit.scene());
         // From straight above the lamp; 500 px over 10 m of ground, the plate in the middle.
-        const gpu_scene::View view = gpu_scene::View::symmetric(
-            {500, 500}, float(2 * std::atan(5.0 / 20)),
-            glm::mat4_cast(glm::angleAxis(kPi / 2, glm::dvec3(1, 0, 0))) * glm::translate(glm::dmat4(1), glm::dvec3(0, -20, 0)));
+        const gpu_scene::View view =
+            gpu_scene::View::symmetric({500, 500}, float(2 * std::atan(5.0 / 20)),
+                                       glm::mat4_cast(glm::angleAxis(kPi / 2, glm::dvec3(1, 0, 0))) *
+                                           glm::translate(glm::dmat4(1), glm::dvec3(0, -20, 0)));
         const Lit::Picture p = all.render(view);
         size_t wrong = 0, dark = 0;
         for (size_t i = 0; i < p.pixels.size(); ++i) {
-            const glm::dvec3 at = reference::view_position(p.grid, glm::dvec2(i % 500, i / 500) + 0.5, double(p.surfaces[i].z));
+            const glm::dvec3 at =
+                reference::view_position(p.grid, glm::dvec2(i % 500, i / 500) + 0.5, double(p.surfaces[i].z));
             const double x = at.x, z = -at.y, away = std::hypot(x, 6.0, z);
             if (at.z > -19) continue;  // the plate
             // 10 mm: half a texel and rounding.
@@ -138,9 +137,11 @@ TEST(Visibility, PixelsLookAtTheTexelsOfTheReference) {
     const gpu_scene::View view = gpu_scene::View::symmetric({83, 61}, 0.7f, glm::mat4(1));
     Surfaces s{view.extent, {}, {}, {}};
     for (uint32_t i = 0; i < view.extent.width * view.extent.height; ++i) {  // a road and a wall, and bumps on them
-        const glm::dvec2 ray = glm::dvec2(view.ray_scale()) * (glm::dvec2(s.pixel(i)) + 0.5) + glm::dvec2(view.ray_offset());
+        const glm::dvec2 ray =
+            glm::dvec2(view.ray_scale()) * (glm::dvec2(s.pixel(i)) + 0.5) + glm::dvec2(view.ray_offset());
         const double road = ray.y < 0 ? 1.2 / -ray.y : 1e6, depth = std::min(road, 12.0);
-        const glm::dvec3 normal = glm::normalize((road < 12 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1)) + 0.2 * noise.facing(0.1));
+        const glm::dvec3 normal =
+            glm::normalize((road < 12 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1)) + 0.2 * noise.facing(0.1));
         s.reflectance.emplace_back(0.5f, 0.5f, 0.5f, 0.0f);
         s.surface.emplace_back(glm::vec2(reference::octahedral_encode(normal)), float(depth), 1.0f);
         s.emission.emplace_back(0);
@@ -149,9 +150,11 @@ TEST(Visibility, PixelsLookAtTheTexelsOfTheReference) {
         SCOPED_TRACE("zoom " + std::to_string(zoom));
         gpu_scene::LampList list;
         shared::Lamp lamp{};
-        lamp.position = {0.7f, 1.5f, -5}, lamp.intensity = 1000, lamp.axis = {0, -1, 0}, lamp.lobe_b = 1, lamp.colour = glm::vec3(1);
+        lamp.position = {0.7f, 1.5f, -5}, lamp.intensity = 1000, lamp.axis = {0, -1, 0}, lamp.lobe_b = 1,
+        lamp.colour = glm::vec3(1);
         list.lamps = {lamp}, list.indices = {0}, list.counts = {1, 0, 0, 0};
-        const gpu_scene::MapFrame turned = gpu_scene::map_frame(glm::mat4_cast(glm::angleAxis(-1.2, glm::normalize(glm::dvec3(1, 0.2, 0.4)))));
+        const gpu_scene::MapFrame turned =
+            gpu_scene::map_frame(glm::mat4_cast(glm::angleAxis(-1.2, glm::normalize(glm::dvec3(1, 0.2, 0.4)))));
         std::vector<uint16_t> texels;
         reference::HemisphereMap maps[2]{{kSide, {}}, {kSide, {}}};
         for (uint32_t k = 0; k < hemispheres * kSide * kSide; ++k) {
@@ -162,23 +165,30 @@ TEST(Visibility, PixelsLookAtTheTexelsOfTheReference) {
         graph::FrameGraph graph;
         const render::FrameContext frame = rig.frame(graph, view);
         const render::GBuffer g = upload(graph, s);
-        const std::vector map{gpu_scene::lamp_map({.side = kSide, .hemispheres = hemispheres, .zoom = float(zoom), .range = 1, .radius = 0, .first = 0}, turned, view)};
+        const std::vector map{gpu_scene::lamp_map(
+            {.side = kSide, .hemispheres = hemispheres, .zoom = float(zoom), .range = 1, .radius = 0, .first = 0},
+            turned, view)};
         const render::VisibilityMaps seen{
-            graph.upload("maps", map, VK_FORMAT_R32G32B32A32_SFLOAT), graph.upload("distances", texels, VK_FORMAT_R16_SFLOAT),
-            graph.upload("bounds", std::vector<uint32_t>(hemispheres * kSide * kSide / 8, 0x80008000), VK_FORMAT_R16G16_SFLOAT)};
-        const render::Clusters c = render::add_clusters(frame, g.surface, list, no_tables(graph), {});
-        const graph::Resource picture = keep<glm::vec4>(graph, render::add_shading(frame, g, c, {.all_lamps = true, .maps = seen}).scene);
+            graph.upload("maps", map, VK_FORMAT_R32G32B32A32_SFLOAT),
+            graph.upload("distances", texels, VK_FORMAT_R16_SFLOAT),
+            graph.upload("bounds", std::vector<uint32_t>(hemispheres * kSide * kSide / 8, 0x80008000),
+                         VK_FORMAT_R16G16_SFLOAT)};
+        const LitBlocks shaded = light(frame, g, list, no_tables(graph), {}, {.all_lamps = true, .maps = seen});
+        const graph::Resource picture = keep<glm::vec4>(graph, shaded.scene);
         rig.run(graph);
         const std::vector<glm::vec4> pixels = rig.got<glm::vec4>(picture);
         size_t dark = 0, lit = 0;
         for (size_t i = 0; i < pixels.size(); ++i) {
-            const glm::dvec3 point = reference::view_position(c.push.grid, glm::dvec2(s.pixel(i)) + 0.5, double(s.surface[i].z));
+            const glm::dvec3 point = reference::view_position(shaded.clusters.push.grid, glm::dvec2(s.pixel(i)) + 0.5,
+                                                              double(s.surface[i].z));
             const glm::dvec3 normal = reference::octahedral_decode(glm::dvec2(s.surface[i]));
             if (glm::dot(normal, glm::dvec3(lamp.position) - point) < 0.01) continue;
-            glm::dvec3 in_map = turned.rotation * (point - glm::dvec3(lamp.position)), facing = turned.rotation * normal;
+            glm::dvec3 in_map = turned.rotation * (point - glm::dvec3(lamp.position)),
+                       facing = turned.rotation * normal;
             const bool second = in_map.z < 0;
             if (second && hemispheres == 2) in_map.z = -in_map.z, facing.z = -facing.z;
-            const reference::MapLook look = reference::look(maps[second && hemispheres == 2 ? 1 : 0], zoom, in_map, facing);
+            const reference::MapLook look =
+                reference::look(maps[second && hemispheres == 2 ? 1 : 0], zoom, in_map, facing);
             if (!look.certain) continue;
             (look.seen ? lit : dark) += 1;
             EXPECT_EQ(pixels[i].x > 0, look.seen) << i % view.extent.width << " " << i / view.extent.width;
@@ -189,8 +199,8 @@ TEST(Visibility, PixelsLookAtTheTexelsOfTheReference) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// A lamp never shades itself by its fixture; something that moves takes its shadow along; a lamp that is switched on later
-// has shadows; what has no place any more finds one.
+// A lamp never shades itself by its fixture; something that moves takes its shadow along; a lamp that is switched on
+// later has shadows; what has no place any more finds one.
 TEST(Visibility, MapsAreNeverStale) {
     PassRig rig;
     OccluderScene s;
@@ -202,17 +212,16 @@ TEST(Visibility, MapsAreNeverStale) {
     const uint32_t node = s.lamp(lamp, {3, 5, 0});
     s.scene().nodes[node].parent = post;
     Lit all(rig, s.scene());
-    const gpu_scene::View view = gpu_scene::View::symmetric(
-        {64, 64}, float(2 * std::atan(5.0 / 20)),
-        glm::mat4_cast(glm::angleAxis(kPi / 2, glm::dvec3(1, 0, 0))) * glm::translate(glm::dmat4(1), glm::dvec3(0, -20, 0)));
+    const gpu_scene::View view =
+        gpu_scene::View::symmetric({64, 64}, float(2 * std::atan(5.0 / 20)),
+                                   glm::mat4_cast(glm::angleAxis(kPi / 2, glm::dvec3(1, 0, 0))) *
+                                       glm::translate(glm::dmat4(1), glm::dvec3(0, -20, 0)));
     const auto brightness = [&](double x, double z) {
         const Lit::Picture p = all.render(view);
         const glm::ivec2 px(32 + int(std::floor(x * 6.4)), 32 + int(std::floor(z * 6.4)));
         return double(p.pixels[size_t(px.y) * 64 + size_t(px.x)].y);
     };
-    const auto move = [&](double x) {
-        all.poses.world[box] = glm::translate(glm::dmat4(1), glm::dvec3(x, 2, 0));
-    };
+    const auto move = [&](double x) { all.poses.world[box] = glm::translate(glm::dmat4(1), glm::dvec3(x, 2, 0)); };
     move(1.5);  // the box is on the way from (3, 5) to (0, 0)
     EXPECT_EQ(brightness(0, 0), 0);
     EXPECT_GT(brightness(0, 3), 0);

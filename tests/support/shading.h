@@ -44,6 +44,25 @@ struct Shot {
     shared::ClusterReport report;
 };
 
+/// All passes from lists of lamps to light.
+struct LitBlocks {
+    render::Clusters clusters;
+    render::Blocks blocks;
+    graph::Resource scene;
+};
+inline LitBlocks light(const render::FrameContext& frame, const render::GBuffer& g, const gpu_scene::LampList& list,
+                       const render::TableTexels& tables, const render::ClusterSettings& clusters,
+                       const render::ShadeSettings& settings) {
+    LitBlocks lit{
+        .clusters = render::add_clusters(frame, g.surface, list, tables, clusters), .blocks = {}, .scene = {}};
+    lit.blocks = render::add_blocks(frame, g, lit.clusters);
+    lit.blocks = render::add_visibility(frame, g, lit.clusters, lit.blocks, settings.maps);
+    lit.blocks =
+        render::add_merging(frame, g, lit.clusters, lit.blocks, settings.all_lamps ? -1 : settings.merge_tolerance);
+    lit.scene = render::add_shading(frame, g, lit.clusters, lit.blocks, settings);
+    return lit;
+}
+
 /// Clusters and shades, seen from the origin along -Z. `sheets`: classes of retroreflection, if there are any.
 inline Shot shade(PassRig& rig, const Surfaces& s, const gpu_scene::LampList& list,
                   const render::ClusterSettings& clusters, render::ShadeSettings settings,
@@ -54,11 +73,11 @@ inline Shot shade(PassRig& rig, const Surfaces& s, const gpu_scene::LampList& li
     const render::GBuffer g = upload(graph, s);
     if (!sheets.empty())
         settings.retro = graph.upload("retro", gpu_scene::retro_texels(sheets), VK_FORMAT_R32G32B32A32_SFLOAT);
-    const render::Clusters c = render::add_clusters(frame, g.surface, list, upload(graph, tables), clusters);
-    const graph::Resource scene = keep<glm::vec4>(graph, render::add_shading(frame, g, c, settings).scene),
-                          report = keep<shared::ClusterReport>(graph, c.report);
+    const LitBlocks lit = light(frame, g, list, upload(graph, tables), clusters, settings);
+    const graph::Resource scene = keep<glm::vec4>(graph, lit.scene),
+                          report = keep<shared::ClusterReport>(graph, lit.clusters.report);
     rig.run(graph);
-    return {rig.got<glm::vec4>(scene), c.push, rig.got<shared::ClusterReport>(report).at(0)};
+    return {rig.got<glm::vec4>(scene), lit.clusters.push, rig.got<shared::ClusterReport>(report).at(0)};
 }
 
 /// What the shader was told, for the reference.

@@ -24,10 +24,13 @@ std::vector<uint32_t> empty_classes() {
     return words;
 }
 
+graph::Resource words(graph::FrameGraph& graph, const char* name, uint64_t number) {
+    return graph.transient(name, graph::buffer_shape(number * kWord, kWords));
+}
+
 }  // namespace
 
-Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, float tolerance,
-                  const VisibilityMaps& maps) {
+Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters) {
     graph::FrameGraph& graph = frame.graph;
     const VkExtent2D extent = frame.view.extent;
     const LampKinds kinds = lamp_kinds(clusters);
@@ -38,19 +41,11 @@ Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clus
         frame.kernels.device().limits().maxComputeWorkGroupCount[0])
         throw Error("an image of " + std::to_string(extent.width) + " x " + std::to_string(extent.height) +
                     " has more blocks than the device can shade in one dispatch");
-    const auto words = [&](const char* name, uint64_t number) {
-        return graph.transient(name, graph::buffer_shape(number * kWord, kWords));
-    };
-    Blocks blocks{.columns = grid.x,
-                  .count = count,
-                  .capacity = kBlockCapacity,
-                  .counts = words("block counts", count * 2),
-                  .entries = words("block entries", uint64_t(count) * kBlockCapacity),
-                  .sums = graph.transient(
-                      "block sums", graph::buffer_shape(uint64_t(count) * shared::kMergedTexels * sizeof(glm::vec4),
-                                                        VK_FORMAT_R32G32B32A32_SFLOAT)),
-                  .class_counts = words("class counts", shared::kBlockClasses * shared::kClassWords),
-                  .class_blocks = words("class blocks", uint64_t(count) * shared::kBlockClasses)};
+    const Blocks blocks{.columns = grid.x,
+                        .count = count,
+                        .capacity = kBlockCapacity,
+                        .counts = words(graph, "block counts", count * 2),
+                        .entries = words(graph, "block entries", uint64_t(count) * kBlockCapacity)};
 
     const gpu::Kernel& cull = frame.kernels.get(kCullLamps, {kinds.powers, kinds.tables});
     graph.dispatch(
@@ -60,8 +55,20 @@ Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clus
         shared::CullPush{clusters.push, pixels, grid.x, kBlockCapacity},
         graph::cover(grid.x, grid.y, cull.group[0], cull.group[1]));
 
-    add_visibility(frame, surfaces, clusters, maps, blocks);
+    return blocks;
+}
 
+Blocks add_merging(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, Blocks blocks,
+                   float tolerance) {
+    graph::FrameGraph& graph = frame.graph;
+    const VkExtent2D extent = frame.view.extent;
+    const LampKinds kinds = lamp_kinds(clusters);
+    const uint32_t rows = blocks.count / blocks.columns;
+    blocks.sums = graph.transient(
+        "block sums", graph::buffer_shape(uint64_t(blocks.count) * shared::kMergedTexels * sizeof(glm::vec4),
+                                          VK_FORMAT_R32G32B32A32_SFLOAT));
+    blocks.class_counts = words(graph, "class counts", shared::kBlockClasses * shared::kClassWords);
+    blocks.class_blocks = words(graph, "class blocks", uint64_t(blocks.count) * shared::kBlockClasses);
     graph.copy("begin classes", graph.upload("no blocks", empty_classes(), kWords), blocks.class_counts);
     const gpu::Kernel& merge = frame.kernels.get(kMergeLamps, {kinds.cones, kinds.powers, kinds.tables, kinds.roads});
     graph.dispatch("merge lamps", merge,
@@ -69,13 +76,13 @@ Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clus
                     update(blocks.entries), store(blocks.sums), sample(clusters.tables.texels),
                     update(blocks.class_counts), store(blocks.class_blocks)},
                    shared::MergePush{.view = clusters.push,
-                                     .size = pixels,
-                                     .blocks_x = grid.x,
-                                     .blocks_y = grid.y,
-                                     .capacity = kBlockCapacity,
+                                     .size = {extent.width, extent.height},
+                                     .blocks_x = blocks.columns,
+                                     .blocks_y = rows,
+                                     .capacity = blocks.capacity,
                                      .roads = clusters.tables.roads,
                                      .tolerance = tolerance},
-                   graph::cover(grid.x, grid.y, merge.group[0], 1));
+                   graph::cover(blocks.columns, rows, merge.group[0], 1));
     return blocks;
 }
 

@@ -3,7 +3,6 @@
 
 #include "render/passes/cluster.h"
 #include "render/passes/gbuffer.h"
-#include "render/passes/visibility.h"
 #include "shared/blocks.h"
 
 namespace vesper::render {
@@ -15,17 +14,20 @@ struct Blocks {
     graph::Resource counts, entries;  ///< lists of the lamps that its pixels evaluate one by one (shared/shade.h)
     graph::Resource sums;             ///< merged light of the other lamps
     graph::Resource class_counts, class_blocks;
-    graph::Resource visibility;  ///< shared::VisibilityReport, where there are distance maps
+    graph::Resource visibility;  ///< shared::VisibilityReport
 };
 
-/// Culls the lamps that cannot light any surface of a block. Where a block is one matt plane or one plane of road,
-/// merges the lamps whose light is smooth over it: a polynomial of second degree along either side meets it with at
-/// most the relative error `tolerance` at four pixels between its nodes. At other pixels the error is 1.2 times that
-/// where light is smooth and up to 3.5 times at kinks (edges of a beam's ramp, cells of a table; more, in hardly a
-/// pixel, under tables with single bright nodes). A negative tolerance merges nothing. Throws Error for an image of
-/// more blocks than the device can shade in one dispatch.
-/// Lamps that nothing of a block sees in `maps` are culled, and those that some of it may not see are not merged.
-Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, float tolerance,
-                  const VisibilityMaps& maps = {});
+/// Lists the lamps that can light some surface of each block. Throws Error for an image of more blocks than the device
+/// can shade in one dispatch.
+Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters);
+
+/// Where a block is one matt plane or one plane of road, merges the lamps whose light is smooth over it and takes them
+/// off its list: a polynomial of second degree along either side meets it with at most the relative error `tolerance`
+/// at four pixels between its nodes. At other pixels the error is 1.2 times that where light is smooth and up to 3.5
+/// times at kinks (edges of a beam's ramp, cells of a table; more, in hardly a pixel, under tables with single bright
+/// nodes). A negative tolerance merges nothing. Lamps that some of a block may not see (shared::kMixedBit) are not
+/// merged. Puts blocks in their classes.
+Blocks add_merging(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, Blocks blocks,
+                   float tolerance);
 
 }  // namespace vesper::render

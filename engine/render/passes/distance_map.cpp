@@ -25,8 +25,9 @@ struct MaskPush {
 };
 
 constexpr VkDescriptorType kMapTextures[]{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
-constexpr VkVertexInputBindingDescription kMapBuffers[]{{0, sizeof(scene::Vertex), VK_VERTEX_INPUT_RATE_VERTEX},
-                                                     {1, sizeof(shared::MapInstance), VK_VERTEX_INPUT_RATE_INSTANCE}};
+constexpr VkVertexInputBindingDescription kMapBuffers[]{
+    {0, sizeof(scene::Vertex), VK_VERTEX_INPUT_RATE_VERTEX},
+    {1, sizeof(shared::MapInstance), VK_VERTEX_INPUT_RATE_INSTANCE}};
 constexpr VkVertexInputAttributeDescription kMapAttributes[]{
     {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(scene::Vertex, position)},
     {1, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(scene::Vertex, uv)},
@@ -36,14 +37,9 @@ constexpr VkVertexInputAttributeDescription kMapAttributes[]{
     {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, row_z)},
     {6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, place)},
     {7, 1, VK_FORMAT_R32_SFLOAT, offsetof(shared::MapInstance, y_sign)}};
-constexpr gpu::GraphicsShaders kMapShaders{"distance_map.frag",
-                                        distance_map_vert,
-                                        distance_map_frag,
-                                        kMapTextures,
-                                        sizeof(MaskPush),
-                                        VK_SHADER_STAGE_FRAGMENT_BIT,
-                                        kMapBuffers,
-                                        kMapAttributes};
+constexpr gpu::GraphicsShaders kMapShaders{"distance_map.frag", distance_map_vert, distance_map_frag,
+                                           kMapTextures,        sizeof(MaskPush),  VK_SHADER_STAGE_FRAGMENT_BIT,
+                                           kMapBuffers,         kMapAttributes};
 
 constexpr uint32_t kDrawnSide = 2048;  // texels, of the image that several hemispheres are drawn into
 
@@ -57,8 +53,7 @@ struct Hemisphere {
 // The place of the n-th region along a curve that fills squares of powers of two one after another (Morton 1966).
 glm::uvec2 region_place(uint32_t n) {
     glm::uvec2 place(0);
-    for (uint32_t bit = 0; bit < 16; ++bit)
-        place |= glm::uvec2(n >> 2 * bit & 1u, n >> (2 * bit + 1) & 1u) << bit;
+    for (uint32_t bit = 0; bit < 16; ++bit) place |= glm::uvec2(n >> 2 * bit & 1u, n >> (2 * bit + 1) & 1u) << bit;
     return place * shared::kRegion;
 }
 
@@ -115,12 +110,14 @@ public:
                 const auto& [centre, radius] = spheres_[sphere++];
                 const GpuScene::Part& part = scene_.parts()[placement.first_part + i];
                 const double away = glm::distance(centre, frame.position);
-                if (own || part.index_count == 0 || away - radius > double(layout.range) || radius < 0.25 * texel * away)
+                if (own || part.index_count == 0 || away - radius > double(layout.range) ||
+                    radius < 0.25 * texel * away)
                     continue;
                 const glm::dvec3 c = mirror * (frame.rotation * (centre - frame.position));
                 if (c.z + radius < 0) continue;
                 if (!known) {
-                    const glm::dmat4 world = glm::translate(glm::dmat4(1), -frame.position) * poses_.world[placement.node];
+                    const glm::dmat4 world =
+                        glm::translate(glm::dmat4(1), -frame.position) * poses_.world[placement.node];
                     to_map = glm::dmat4(frame.rotation) * world;
                     known = true;
                 }
@@ -173,8 +170,8 @@ struct MapBatch {
 };
 
 void record_maps(const graph::Recording& recording, const gpu::Device& device,
-                    const gpu::GraphicsPipelineCache& pipelines, const GpuScene& scene, graph::Resource instances,
-                    const std::vector<MapBatch>& batches) {
+                 const gpu::GraphicsPipelineCache& pipelines, const GpuScene& scene, graph::Resource instances,
+                 const std::vector<MapBatch>& batches) {
     const VkCommandBuffer commands = recording.commands();
     const VkBuffer buffers[] = {scene.vertices(), recording.buffer(instances)};
     const VkDeviceSize offsets[] = {0, recording.offset(instances)};
@@ -251,8 +248,7 @@ uint64_t add_distance_maps(const FrameContext& frame, const GpuScene& scene, con
         const graph::Resource placed = graph.upload("map instances" + which, instances);
         const graph::Resource depth =
             graph.transient("drawn maps" + which, graph::image_shape(kDepthFormat, {kDrawnSide, kDrawnSide}));
-        graph.raster("distance maps" + which,
-                     {{placed, graph::Access::Vertices}, {depth, graph::Access::DepthTarget}},
+        graph.raster("distance maps" + which, {{placed, graph::Access::Vertices}, {depth, graph::Access::DepthTarget}},
                      [&device = frame.kernels.device(), &pipelines = frame.pipelines, &scene, placed,
                       batches = std::move(batches)](const graph::Recording& recording) {
                          if (!batches.empty()) record_maps(recording, device, pipelines, scene, placed, batches);

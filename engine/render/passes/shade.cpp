@@ -2,7 +2,6 @@
 
 #include <array>
 
-#include "render/passes/blocks.h"
 #include "render/pixel_groups.h"
 #include "shaders/shade/shade.comp.inc"
 
@@ -59,11 +58,9 @@ constexpr std::array<BlockClass, shared::kBlockClasses> kClasses{{
 
 }  // namespace
 
-Shading add_shading(const FrameContext& frame, const GBuffer& g, const Clusters& clusters,
-                    const ShadeSettings& settings) {
+graph::Resource add_shading(const FrameContext& frame, const GBuffer& g, const Clusters& clusters, const Blocks& blocks,
+                            const ShadeSettings& settings) {
     const PixelGroups groups = pixel_groups(frame.kernels.device());
-    const Blocks blocks =
-        add_blocks(frame, g, clusters, settings.all_lamps ? -1 : settings.merge_tolerance, settings.maps);
     shared::ShadePush push{.size = {frame.view.extent.width, frame.view.extent.height},
                            .grid = clusters.push.grid,
                            .lamps = clusters.push.lamps,
@@ -99,7 +96,7 @@ Shading add_shading(const FrameContext& frame, const GBuffer& g, const Clusters&
             push,
             graph::Arguments{blocks.class_counts, uint64_t(push.block_class) * shared::kClassWords * sizeof(uint32_t)});
     }
-    return {g.emission, blocks.visibility};
+    return g.emission;
 }
 
 }  // namespace vesper::render

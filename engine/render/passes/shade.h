@@ -6,8 +6,6 @@
 
 #include <glm/glm.hpp>
 
-#include "render/passes/cluster.h"
-#include "render/passes/gbuffer.h"
 #include "render/passes/visibility.h"
 #include "shared/shade.h"
 
@@ -19,14 +17,9 @@ struct ShadeSettings {
     glm::vec3 ambient{0};                                           ///< illuminance, RGB of luminance lx
     glm::vec3 sky{0};                                               ///< cd/m^2 RGB
     bool all_lamps = false;         ///< evaluate every lamp in every pixel, for comparison
-    float merge_tolerance = 1e-3f;  ///< as in add_blocks
+    float merge_tolerance = 1e-3f;  ///< of add_merging
     VisibilityMaps maps{};          ///< of the lamps; without: nothing hides a lamp
     graph::Resource retro{};        ///< rgba32f texels of shared/retro.h; without: no surface is retroreflective
-};
-
-struct Shading {
-    graph::Resource scene;       ///< luminance, rgba32f, cd/m^2 RGB (alpha 1)
-    graph::Resource visibility;  ///< shared::VisibilityReport, where there are distance maps
 };
 
 /// Turns the emission of a G-buffer, in place, into scene luminance, rgba32f, cd/m^2 RGB (alpha 1):
@@ -37,7 +30,7 @@ struct Shading {
 /// colour of a metal and 0.04 (1 - a^2) of a dielectric, so that roughness 1 is Lambert. Retroreflective surfaces
 /// (photometry/retroreflection.h) add R_A I / d^2 / cos(view) times their base colour for every lamp in front of them.
 /// With distance maps E_k is times the share of the lamp that the point sees.
-Shading add_shading(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters,
-                    const ShadeSettings& settings);
+graph::Resource add_shading(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters,
+                            const Blocks& blocks, const ShadeSettings& settings);
 
 }  // namespace vesper::render

@@ -1,6 +1,5 @@
 #include "render/passes/visibility.h"
 
-#include "render/passes/blocks.h"
 #include "shaders/visibility/visibility.comp.inc"
 
 namespace vesper::render {
@@ -12,13 +11,16 @@ constexpr gpu::Shader kVisibility{"visibility.comp", visibility_comp};
 
 }  // namespace
 
-void add_visibility(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters,
-                    const VisibilityMaps& maps, Blocks& blocks) {
-    if (!maps.lamps) return;
+Blocks add_visibility(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, Blocks blocks,
+                      const VisibilityMaps& maps) {
     graph::FrameGraph& graph = frame.graph;
+    if (!maps.lamps) {
+        blocks.visibility = graph.upload("visibility report", std::vector<shared::VisibilityReport>(1));
+        return blocks;
+    }
     const VkExtent2D extent = frame.view.extent;
-    blocks.visibility = graph.transient(
-        "visibility report", graph::buffer_shape(sizeof(shared::VisibilityReport), VK_FORMAT_R32_UINT));
+    blocks.visibility =
+        graph.transient("visibility report", graph::buffer_shape(sizeof(shared::VisibilityReport), VK_FORMAT_R32_UINT));
     graph.clear("clear visibility report", blocks.visibility);
     const gpu::Kernel& kernel = frame.kernels.get(kVisibility);
     const uint32_t rows = blocks.count / blocks.columns;
@@ -31,6 +33,7 @@ void add_visibility(const FrameContext& frame, const GBuffer& surfaces, const Cl
                                           .blocks_y = rows,
                                           .capacity = blocks.capacity},
                    graph::cover(blocks.columns, rows, kernel.group[0], 1));
+    return blocks;
 }
 
 }  // namespace vesper::render

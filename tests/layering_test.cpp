@@ -30,7 +30,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"vision", {"base", "io", "photometry"}},
     {"scene", {"base", "io", "photometry", "vision"}},
     {"roads", {"base", "io", "photometry", "vision", "scene"}},
-    {"traffic", {"base", "io", "photometry", "vision", "scene", "roads"}},
+    {"traffic", {"base", "io", "photometry", "vision", "scene"}},
     {"gpu", {"base"}},
     {"window", {"base", "gpu", "glsl"}},
     {"graph", {"base", "gpu"}},

@@ -82,10 +82,10 @@ void add_tone_options(Command command, ToneArguments& a) {
                     "cie, temporal: pigmentation of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue")
         .check(between(0.0, 1.5))
         .shows_default();
-    command.add_option("--pupil", a.pupil, "spencer: of what size, for the eye's adaptation")
+    command.add_option("--pupil", a.pupil, "spencer: state of adaptation of the pupil")
         .check(one_of({"photopic", "mesopic", "scotopic"}))
         .shows_default();
-    command.add_option("--eye-seed", a.eye_seed, "temporal, spencer: whose eye: what needles it has, and when it moves")
+    command.add_option("--eye-seed", a.eye_seed, "temporal, spencer: seed of the eye's needles and movements")
         .check(range(0u, 0xffffffffu))
         .shows_default();
     command.add_flag("--lashes", a.lashes, "temporal: the eye squints, and lashes hang before its pupil");
@@ -105,8 +105,8 @@ void add_tone_options(Command command, ToneArguments& a) {
     command
         .add_option(
             "--gamut", a.gamut,
-            "What a colour keeps that the display cannot show as bright: luminance (brighter is brighter, and goes "
-            "towards white), chromaticity (as bright as it can be), clip (neither: each channel ends by itself)")
+            "Colours brighter than the display: luminance (keep its order, towards white), chromaticity (keep it, as "
+            "bright as it can be) or clip (each channel by itself)")
         .check(one_of(gamut_names()))
         .shows_default();
     command.add_option("--display-peak", a.peak, "Display: luminance of white in the dark, cd/m^2")

@@ -22,9 +22,9 @@ public:
     /// A view with as many more pixels on every side as its glare needs.
     static gpu_scene::View guarded(const gpu_scene::View&);
 
-    /// Makes of the retinas of guarded views, which nothing was scattered in, what is seen where they are shown and
-    /// what falls on the retina there. `turns`: of each, from its view frame to that of the eye. `eye`: what the last
-    /// frame left; nothing: there was none.
+    /// Scatters the light of all guarded views into each other. Input: retinas without scatter. Output: the visible
+    /// parts, before and after scatter. `turns`: of each view, from its frame to that of the eye. `eye`: the state that
+    /// the last frame left, if there was one.
     void scatter(const render::RenderSettings&, std::span<const gpu_scene::View> guarded,
                  std::span<const glm::dmat3> turns, const std::optional<shared::EyeState>& eye, float seconds,
                  std::vector<render::Frame>& frames);

@@ -110,8 +110,7 @@ void add_drive(apps::Command program) {
     program.add_option("--channels", a->channels,
                        "A file of views of the driver's eye, on screens side by side (docs/simulator.md)");
     program.help_group("Roads and traffic");
-    program.add_option("--seed", a->seed, "Seed of all that is drawn by lot: when people walk, how cars are driven")
-        .shows_default();
+    program.add_option("--seed", a->seed, "Seed of random pedestrians and traffic").shows_default();
     program.help_group();
     program.add_option("--device", a->device,
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");

@@ -32,8 +32,7 @@ struct DriveArguments {
 
 void add_drive(apps::Command program);
 
-/// How the drive begins that the command line asks for: where it names a recording, as that does, with the settings
-/// given beside it.
+/// Start of the drive: that of the recording, if one is named, with the settings of the command line.
 DriveStart start_of(const DriveArguments&, const DriveStart& recorded);
 
 /// What is written while a drive goes on, by the option that names it.

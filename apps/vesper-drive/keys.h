@@ -8,7 +8,7 @@
 
 namespace vesper::drive {
 
-/// What happens at the press of a key or button. Steering and pedals are held instead: see controls.h.
+/// What happens at the press of a key or button. Steering and pedals are held instead: see input_devices.h.
 enum class Action : uint8_t {
     Pause,
     Step,

@@ -3,14 +3,15 @@
 //
 //   Device device({.select = ""});
 //   Session session(device, {.scene = "data/rivoli/rivoli.world.json"});
-//   session.record("drive.json");                       // whenever; the drive is on disk up to the last step from then
-//   on for (;;) {
-//       session.set("operator", "ward");                // any setting of DriveSettings, whenever it changes
-//       session.step(input);                            // 1/60 s of simulated time; not called: a pause
-//       const Frame frame = session.render({1680, 1050}, {.display = true});   // codes of the display, cd/m^2 if asked
-//       for
+//   session.record("drive.json");
+//   for (;;) {
+//       session.set("operator", "ward");
+//       session.step(input);
+//       const Frame frame = session.render({1680, 1050}, {.display = true});
 //   }
 //
+// record() may be called at any time; the drive is on disk up to the last step from then on. set() takes any setting of
+// DriveSettings at any time. A step is 1/60 s of simulated time; without one there is a pause.
 // Time stands still between steps. The eye adapts by the steps since the last rendered frame, so frames may be rendered
 // at any rate; which steps were rendered is recorded, and a replay that renders the same ones gives the same bytes on
 // the same device. Not thread-safe. Throws Error.

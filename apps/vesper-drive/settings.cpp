@@ -30,7 +30,7 @@ struct SettingsArguments {
 
 void add(apps::Command command, SettingsArguments& a) {
     apps::add_tone_options(command, a.tone);
-    command.add_option("--camera", a.camera, "Who sees the street: the driver, somebody behind, above, or free to go")
+    command.add_option("--camera", a.camera, "Camera: driver, chase (behind the car), bird (from above) or free")
         .check(apps::one_of({"driver", "chase", "bird", "free"}))
         .shows_default();
     command.help_group("Cameras and lamps");

@@ -332,9 +332,8 @@ void add_render(apps::Command program) {
         .add_option("--shadows", a->shadows, "on: lamps light only what they see; off: they shine through everything")
         .check(apps::one_of({"on", "off"}))
         .shows_default();
-    command.add_flag("--all-lights", a->settings.all_lamps,
-                     "Shade every lamp in every pixel, slowly: as without clusters and sums over blocks, but for what "
-                     "is below the threshold");
+    command.add_flag("--all-lamps,--all-lights", a->settings.all_lamps,
+                     "Shade every lamp above the threshold in every pixel (slow, for comparison)");
     command.help_group();
     command.footer(
         "Examples:\n  vesper render night.gltf --camera driver --stats -o night.png\n"

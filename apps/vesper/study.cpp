@@ -124,7 +124,7 @@ void add_study(Command program) {
         .check(apps::between(1.0, 60.0))
         .shows_default();
     Command adaptation = add_one(studies, tunnel, "adaptation", "Into a tunnel and out of it",
-                                 "Step responses of every operator that remembers",
+                                 "Step responses of every operator that adapts over time",
                                  "--outside 5000 --inside 50 -o out/tunnel", study_adaptation);
     adaptation.add_option("--outside", tunnel->outside, "Luminance before the tunnel, cd/m^2")
         .check(apps::between(1e-3, 1e6))

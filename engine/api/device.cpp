@@ -13,7 +13,7 @@ void vesper_version(uint32_t version[3]) {
 
 VesperResult vesper_device_open(const VesperDeviceOptions* options, VesperDevice** device, VesperError* error) {
     return guarded(error, [&] {
-        require(device, "no place for the device");
+        require(device, "the pointer to the device is null");
         const VesperDeviceOptions o =
             options ? known(options, "device options without their size") : VesperDeviceOptions{};
         gpu::DeviceOptions opened{
@@ -48,7 +48,7 @@ VesperResult vesper_device_features(VkPhysicalDevice physical_device, VkPhysical
 
 VesperResult vesper_device_borrow(const VesperHostDevice* host, VesperDevice** device, VesperError* error) {
     return guarded(error, [&] {
-        require(device, "no place for the device");
+        require(device, "the pointer to the device is null");
         const VesperHostDevice h = known(host, "a device of the host's without its size");
         require(h.instance && h.physical_device && h.device && h.queue,
                 "a device of the host's has an instance, a physical device, a device and a queue");

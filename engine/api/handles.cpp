@@ -70,7 +70,7 @@ graph::ExternalImage image_of(const VesperImage* given) {
         require(std::ranges::find(kLayouts, layout) != kLayouts.end(), "colours have no such layout");
     require(i.layout_after != VK_IMAGE_LAYOUT_UNDEFINED && i.layout_after != VK_IMAGE_LAYOUT_PREINITIALIZED,
             "an image has a layout after the call");
-    require(i.reserved == 0, "what is reserved in an image is 0");
+    require(i.reserved == 0, "VesperImage::reserved must be 0");
     return {i.image, i.format, extent_of(i.width, i.height), i.layout_before, i.layout_after};
 }
 
@@ -185,18 +185,20 @@ void give_eye(const shared::EyeState& eye, void* bytes) {
 
 shared::EyeState eye_of(const void* bytes, size_t size) {
     KeptEye kept;
-    require(size == sizeof kept, "what an eye of another version remembers");
+    require(size == sizeof kept, "the state of the eye has the size of another version");
     std::memcpy(&kept, bytes, sizeof kept);
     require(kept.kind == kEyeBytes && kept.bytes == sizeof kept.eye && kept.sum == sum_of(kept.eye),
-            "what an eye of another version remembers, or damaged bytes");
+            "the state of the eye is damaged, or of another version");
     shared::EyeState young = kept.eye;
     young.seconds = 0;  // which may be more than the others
     float values[sizeof young / sizeof(float)];
     std::memcpy(values, &young, sizeof values);
-    require(kept.eye.seconds >= 0 && kept.eye.seconds <= shared::kLongestLife, "no eye remembers that");
+    require(kept.eye.seconds >= 0 && kept.eye.seconds <= shared::kLongestLife,
+            "the state of the eye has values out of range");
     require(std::all_of(std::begin(values), std::end(values), [](float v) { return std::abs(v) <= 1e9f; }),
-            "no eye remembers that");
-    require(kept.eye.steps >= 0 && kept.eye.steps <= float(shared::kMaxBins), "no eye remembers that");
+            "the state of the eye has values out of range");
+    require(kept.eye.steps >= 0 && kept.eye.steps <= float(shared::kMaxBins),
+            "the state of the eye has values out of range");
     return kept.eye;
 }
 
@@ -213,7 +215,7 @@ graph::ExternalImage picture_image(const VesperImage* given) {
 graph::ExternalImage shown_image(const VesperImage* given, VkExtent2D extent) {
     const graph::ExternalImage image = image_of(given);
     require(image.extent.width == extent.width && image.extent.height == extent.height,
-            "what is shown has the extent of the image it is shown in");
+            "the image to be shown must have the size of the picture");
     require(render::shown_format(image.format).has_value(),
             "pictures are shown in images of RGBA or BGRA, of 8 bits (UNORM or SRGB) or 10 bits");
     return image;

@@ -77,8 +77,8 @@ VesperResult guarded(VesperError* error, const Call& call) noexcept {
 template <class T>
 constexpr size_t kFirstSize = sizeof(T);
 
-/// A structure as this library has it: what an older caller does not have is zero, and what a newer one has beyond is
-/// passed over.
+/// Copies a caller's structure. Fields that an older caller lacks are zero; fields that only a newer caller has are
+/// ignored.
 template <class T>
 T known(const T* given, const char* otherwise) {
     require(given && given->size >= kFirstSize<T> && given->size <= 65536, otherwise);
@@ -167,7 +167,7 @@ template <class Handle>
 VesperResult read_eye(Handle* handle, void* bytes, VesperError* error) {
     return guarded(error, [&] {
         require(handle, Handle::kNone);
-        require(bytes, "no place for what the eye remembers");
+        require(bytes, "the pointer to the state of the eye is null");
         finish(*handle);
         give_eye(handle->engine.eye(), bytes);
     });
@@ -176,7 +176,7 @@ template <class Handle>
 VesperResult set_eye(Handle* handle, const void* bytes, size_t size, VesperError* error) {
     return guarded(error, [&] {
         require(handle, Handle::kNone);
-        require(bytes, "nothing to remember");
+        require(bytes, "the pointer to the state of the eye is null");
         const shared::EyeState eye = eye_of(bytes, size);
         finish(*handle);
         handle->engine.set_eye(eye);

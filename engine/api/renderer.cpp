@@ -69,7 +69,7 @@ extern "C" {
 VesperResult vesper_renderer_create(VesperDevice* device, const VesperScene* scene, VesperRenderer** renderer,
                                     VesperError* error) {
     return guarded(error, [&] {
-        require(device && scene && renderer, "no device, no scene, or no place for the renderer");
+        require(device && scene && renderer, "the device, the scene, or the pointer to the renderer is null");
         *renderer = new VesperRenderer(device->device, *scene);
     });
 }

@@ -115,20 +115,20 @@ extern "C" {
 
 VesperResult vesper_scene_create(VesperScene** scene, VesperError* error) {
     return guarded(error, [&] {
-        require(scene, "no place for the scene");
+        require(scene, "the pointer to the scene is null");
         *scene = new VesperScene;
     });
 }
 
 VesperResult vesper_scene_read(const char* file, VesperScene** scene, VesperError* error) {
     return guarded(error, [&] {
-        require(file && scene, "no file, or no place for the scene");
+        require(file && scene, "the file, or the pointer to the scene, is null");
         *scene = new VesperScene{scene::read_gltf(file).scene, 0, {}};
     });
 }
 VesperResult vesper_scene_read_allowing(const char* file, const char* folder, VesperScene** scene, VesperError* error) {
     return guarded(error, [&] {
-        require(file && folder && scene, "no file, no folder, or no place for the scene");
+        require(file && folder && scene, "the file, the folder, or the pointer to the scene is null");
         const io::AllowedFolder allowed(folder);
         *scene = new VesperScene{scene::read_gltf(file).scene, 0, {}};
     });
@@ -142,7 +142,7 @@ const char* vesper_scene_node_name(const VesperScene* scene, uint32_t node) {
 VesperResult vesper_scene_add_material(VesperScene* scene, const VesperMaterial* material, uint32_t* index,
                                        VesperError* error) {
     return guarded(error, [&] {
-        require(scene && index, "no scene, or no place for the number of the material");
+        require(scene && index, "the scene, or the pointer to the index of the material, is null");
         const VesperMaterial m = known(material, "a material without its size");
         require(fractions(m.base_colour) && m.metallic >= 0 && m.metallic <= 1 && m.roughness >= 0 && m.roughness <= 1,
                 "reflectance, metallic and roughness are 0 to 1");
@@ -168,7 +168,7 @@ VesperResult vesper_scene_add_material(VesperScene* scene, const VesperMaterial*
 
 VesperResult vesper_scene_add_mesh(VesperScene* scene, const VesperMesh* mesh, uint32_t* index, VesperError* error) {
     return guarded(error, [&] {
-        require(scene && index, "no scene, or no place for the number of the mesh");
+        require(scene && index, "the scene, or the pointer to the index of the mesh, is null");
         scene->scene.meshes.push_back({"", {primitive_of(scene->scene, known(mesh, "a mesh without its size"))}});
         *index = added(scene->scene.meshes.size());
     });
@@ -177,7 +177,7 @@ VesperResult vesper_scene_add_mesh(VesperScene* scene, const VesperMesh* mesh, u
 VesperResult vesper_scene_add_node(VesperScene* scene, const char* name, uint32_t mesh, const float* node_to_world,
                                    uint32_t* node, VesperError* error) {
     return guarded(error, [&] {
-        require(scene && node, "no scene, or no place for the number of the node");
+        require(scene && node, "the scene, or the pointer to the index of the node, is null");
         require(
             mesh == VESPER_NONE || (mesh < scene->scene.meshes.size() && !scene->scene.meshes[mesh].primitives.empty()),
             "the scene has no such mesh");
@@ -218,7 +218,7 @@ VesperResult vesper_scene_add_lamp(VesperScene* scene, const VesperLamp* lamp, u
 VesperResult vesper_scene_attach(VesperScene* scene, uint32_t node, uint32_t to, VesperError* error) {
     return guarded(error, [&] {
         require(scene, "no scene");
-        require(node < scene->scene.nodes.size() && to < node, "a node hangs on an earlier one");
+        require(node < scene->scene.nodes.size() && to < node, "the parent of a node must be an earlier node");
         scene->scene.nodes[node].parent = to;
     });
 }

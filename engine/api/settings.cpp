@@ -63,7 +63,7 @@ render::RenderSettings settings_of(const VesperToneSettings* given, scene::Displ
     require(within(s.age, 1, 120) && within(s.pigmentation, 0, 1.5f),
             "an observer is 1 to 120 years old, with a pigmentation of 0 to 1.5");
     require(within(s.gaze[0], 0, 1) && within(s.gaze[1], 0, 1), "the gaze is a part of the image, 0 to 1");
-    require(s.adapt_to <= VESPER_ADAPT_TEXEL, "there is nothing like that to adapt to");
+    require(s.adapt_to <= VESPER_ADAPT_TEXEL, "adapt_to is not a VesperAdaptTo");
     require(s.pupil <= VESPER_PUPIL_SCOTOPIC, "there is no such pupil");
     require(within(s.smoothing, 0, 60) && within(s.low_vision, 0.1f, 100),
             "a curve is smoothed over 0 to 60 s, and low vision is a factor of 0.1 to 100");
@@ -103,7 +103,7 @@ extern "C" {
 
 VesperResult vesper_display_bits(const char* display, uint32_t* bits, VesperError* error) {
     return guarded(error, [&] {
-        require(display && bits, "no display, or no place for its bits");
+        require(display && bits, "the display, or the pointer to its bits, is null");
         *bits = uint32_t(scene::find_display(display).bits);
     });
 }

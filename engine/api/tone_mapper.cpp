@@ -15,7 +15,7 @@ extern "C" {
 
 VesperResult vesper_tone_mapper_create(VesperDevice* device, VesperToneMapper** mapper, VesperError* error) {
     return guarded(error, [&] {
-        require(device && mapper, "no device, or no place for the tone mapper");
+        require(device && mapper, "the device, or the pointer to the tone mapper, is null");
         *mapper = new VesperToneMapper(device->device);
     });
 }

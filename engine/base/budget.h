@@ -6,8 +6,8 @@
 
 namespace vesper {
 
-/// Bounds what the calls take that this thread makes while it lives: 60 s of processor time and 2 GiB of memory, both
-/// times the factor VESPER_LIMITS (base/limits.h). Memory is what is announced by spend(): it grows with the file. A
+/// Limits processor time and memory of this thread during its lifetime: 60 s and 2 GiB, both times the factor
+/// VESPER_LIMITS (base/limits.h). Memory is what is announced by spend(): it grows with the file. A
 /// budget within another has no effect. Without a budget nothing is refused.
 class Budget {
 public:

@@ -9,8 +9,8 @@
 
 namespace vesper::gpu {
 
-/// Hands out pieces of 2^k units of a whole of any number of units, each at a multiple of its size; halves that are both
-/// free become one again (Knowlton 1965).
+/// Hands out pieces of 2^k units of a whole of any number of units, each at a multiple of its size; halves that are
+/// both free become one again (Knowlton 1965).
 class BuddyAllocator {
 public:
     explicit BuddyAllocator(uint32_t units) : units_(units) { clear(); }

@@ -11,7 +11,7 @@
 
 namespace vesper::gpu_scene {
 
-/// What the eye has about a lamp in a frame.
+/// Needles and halo around a lamp in one frame.
 struct Corona {
     std::vector<glm::vec4> texels;  ///< of shared/corona.h
     double pupil = 0;               ///< mm, its unrest included; 0: of a model without one

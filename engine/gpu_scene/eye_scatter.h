@@ -24,9 +24,9 @@ struct ScatterSettings {
     bool operator==(const ScatterSettings&) const = default;
 };
 
-/// What is smooth of the function.
+/// The smooth part of the function, without needles and halo.
 vision::EyeScatter eye_scatter(const ScatterSettings&);
-/// Texels that one invocation of scatter_down.comp does; of rows at most so many.
+/// Columns, and largest number of rows, of texels per invocation of scatter_down.comp.
 glm::ivec2 scatter_down_strip(const gpu::Device&);
 
 /// Light of a lamp outside of the picture, which is not in its pixels. It scatters nothing from behind the plane of the
@@ -81,7 +81,7 @@ public:
     /// Of `most` views.
     explicit ScatterCache(const gpu::Device& device, size_t most = 1) : device_(&device), most_(most) {}
     const GpuScatter& at(const ScatterSettings&, const View&);
-    /// Whether at() would give one that there is.
+    /// True if at() would return a fit that is kept.
     bool has(const ScatterSettings&, const View&) const;
 
 private:

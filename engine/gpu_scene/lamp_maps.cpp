@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kFaintest = 0.001;  // lx: what is lit less may be lit through a wall
 constexpr double kMostZoom = 8;
-constexpr double kLargestFixture = 20;  // m
+constexpr double kLargestFixture = 20;       // m
 constexpr double kMostScale = 12 * 30 * 16;  // of sides, m^1/2
 
 // The largest angle from the lamp's axis at which it shines, rad; half a turn if it shines to all sides.
@@ -38,10 +38,10 @@ double widest_angle(const scene::Scene& scene, const scene::Lamp& lamp) {
     constexpr int kSteps = 180;
     for (int i = 0; i <= kSteps; ++i)
         for (int j = 0; j < 2 * kSteps; ++j) {
-            const double polar = double(i) * kRadiansPerDegree, azimuth = double(j) * kRadiansPerDegree, sine = std::sin(polar);
+            const double polar = double(i) * kRadiansPerDegree, azimuth = double(j) * kRadiansPerDegree,
+                         sine = std::sin(polar);
             const glm::dvec3 direction(sine * std::cos(azimuth), sine * std::sin(azimuth), -std::cos(polar));
-            if (std::cos(polar) < least_cosine &&
-                scene::luminous_intensity(lamp, scene.distributions, direction) > 0)
+            if (std::cos(polar) < least_cosine && scene::luminous_intensity(lamp, scene.distributions, direction) > 0)
                 least_cosine = std::cos(polar);
         }
     return std::min(std::acos(std::clamp(least_cosine, -1.0, 1.0)) + kRadiansPerDegree, kHalfTurn);
@@ -49,7 +49,8 @@ double widest_angle(const scene::Scene& scene, const scene::Lamp& lamp) {
 
 // How much of the square of a hemisphere a cone takes: its edge is farthest out along the diagonals of x and y.
 double zoom_of(double angle) {
-    const double sine = std::numbers::sqrt2 * std::sin(angle), farthest = sine / (sine + std::max(std::cos(angle), 0.0));
+    const double sine = std::numbers::sqrt2 * std::sin(angle),
+                 farthest = sine / (sine + std::max(std::cos(angle), 0.0));
     return angle >= kPi / 2 ? 1 : std::clamp(0.98 / farthest, 1.0, kMostZoom);
 }
 
@@ -95,7 +96,8 @@ std::vector<MapLayout> layouts_of(const scene::Scene& scene, const std::vector<P
 }
 
 std::vector<std::vector<uint32_t>> fixtures_of(const scene::Scene& scene, const GpuScene& resident,
-                                               const std::vector<PlacedLamp>& lamps, std::span<const glm::dmat4> world) {
+                                               const std::vector<PlacedLamp>& lamps,
+                                               std::span<const glm::dmat4> world) {
     std::vector<bool> has_mesh(scene.nodes.size());
     for (uint32_t i = uint32_t(scene.nodes.size()); i-- > 0;) {  // children come after their parents
         has_mesh[i] = has_mesh[i] || scene.nodes[i].mesh != scene::kNone;
@@ -140,9 +142,8 @@ void choose_sides(std::vector<MapLayout>& layouts, const std::vector<double>& di
         for (size_t i = 0; i < layouts.size(); ++i) {
             const double side = scale * std::sqrt(double(layouts[i].range)) / std::max(distances[i], 1.0);
             const double power = std::exp2(std::round(std::log2(std::max(side, 1.0))));
-            layouts[i].side = !(layouts[i].range > 0)
-                                  ? 0
-                                  : uint32_t(std::clamp(power, double(kLeastMapSide), double(kMostMapSide)));
+            layouts[i].side =
+                !(layouts[i].range > 0) ? 0 : uint32_t(std::clamp(power, double(kLeastMapSide), double(kMostMapSide)));
             texels += layouts[i].texels();
         }
         return texels;

@@ -35,8 +35,8 @@ MapPlan map_plan(const scene::Scene& scene, const GpuScene& resident, const std:
 
 constexpr uint32_t kLeastMapSide = shared::kRegion, kMostMapSide = 2048;  ///< texels
 /// Sets the sides of maps that an eye at these distances (m) sees: powers of two within the limits above, nearest to
-/// c I^1/4 / distance, I the largest intensity, with the largest c at which all of them take at most `most_texels`; 0 for
-/// lamps without a map. Throws Error if they cannot.
+/// c I^1/4 / distance, I the largest intensity, with the largest c at which all of them take at most `most_texels`; 0
+/// for lamps without a map. Throws Error if they cannot.
 void choose_sides(std::vector<MapLayout>& layouts, const std::vector<double>& distances, uint64_t most_texels);
 
 /// A frame of axes that a map is drawn in: z along the axis of its first hemisphere.

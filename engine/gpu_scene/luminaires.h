@@ -26,15 +26,15 @@ constexpr double kHousing = 0.25;
 /// lowered by as much: so their light moves from pixel to pixel without a step, and its centre is where the lamp is.
 constexpr double kSmallest = 0.5;
 
-/// A lamp as it dazzles: what of its light arrives at the eye, where nothing stands between them.
+/// A glare source: the light of a lamp at the eye, without occlusion.
 struct GlareSource {
     uint32_t node;           ///< of the scene, that carries it
     glm::dvec3 direction;    ///< from the eye, view frame, of unit length
     double distance;         ///< m
     double candela;          ///< towards the eye
     glm::dvec3 illuminance;  ///< RGB lx, on a plane at the eye that faces the lamp
-    /// Part of its light that the picture has, 0 .. 1. Of a lamp without opening, of the 0.4 m about its middle: in the
-    /// picture it dazzles by the surfaces that are modelled of it, if any; beside the picture it does as a point.
+    /// Part of its light inside the picture, 0 to 1. A lamp without opening counts as 0.4 m wide: inside, only its
+    /// modelled surfaces cause glare; outside, it is a point.
     double inside;
 };
 
@@ -42,9 +42,9 @@ struct GlareSource {
 struct LuminaireList {
     std::vector<shared::Luminaire> luminaires;
     std::vector<glm::vec2>
-        silhouettes;  ///< vertices of all, px from the source's origin, x right and y down, of positive area
+        silhouettes;  ///< vertices of all, px from the luminaire's origin, x right and y down, of positive area
     std::vector<glm::uvec4> tiles;           ///< column, row, first entry, entries; row by row
-    std::vector<uint32_t> entries;           ///< a source, ascending in a tile, and kCoversTile
+    std::vector<uint32_t> entries;           ///< a luminaire, ascending in a tile, and kCoversTile
     std::vector<GlareSource> glare_sources;  ///< all lamps before the eye, in the order of the scene
 };
 

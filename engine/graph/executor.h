@@ -31,22 +31,21 @@ public:
     Executor(const Executor&) = delete;
     Executor& operator=(const Executor&) = delete;
 
-    /// What the device's resources of a shape occupy.
+    /// Returns the function that tells the memory needs of resources on this device.
     Measure measure() const;
     /// Runs the frame and waits for it. The same declaration again reuses everything. Throws Error; a frame that failed
     /// has left histories as they were, and unless the device is lost the next can be run.
     void run(const FrameGraph& graph);
-    /// Hands the frame to the queue, behind all that is there already, and returns. Waits where it is declared unlike
-    /// the frame before, or where kFramesUnderWay are on their way.
+    /// Submits the frame to the queue and returns. Waits first if its declaration differs from that of the previous
+    /// frame, or if kFramesUnderWay frames are in flight.
     void submit(const FrameGraph& graph, const SubmitSemaphores& semaphores);
     static constexpr size_t kFramesUnderWay = 3;
-    /// Waits for every frame that was submitted. What the last of them left can be read, and stays until another one is
-    /// submitted.
+    /// Waits for all submitted frames. Readbacks of the last one stay valid until the next submit().
     void wait();
-    /// Waits, and gives up what the last frame left once the next begins. Whether there is anything that no call before
-    /// this one gave up.
+    /// Waits for all submitted frames. Returns true if a frame has finished since the last call; its readbacks stay
+    /// valid until the next submit().
     bool finish();
-    /// What the last frame left in one of its readback resources. It must be finished.
+    /// Bytes of a readback of the last frame, which must be finished.
     std::span<const std::byte> read(Resource readback) const;
     template <class T>
     std::span<const T> read_as(Resource readback) const {

@@ -24,14 +24,14 @@ struct Timing {
     uint64_t bytes_read = 0, bytes_written = 0;
 };
 
-/// A frame's commands, and what nobody else may touch before they are done.
+/// Commands of a frame in flight, and the resources that only they use.
 struct FrameSlot {
     explicit FrameSlot(const gpu::Device& device);
 
     void begin(uint32_t timestamps);  ///< recording; `timestamps`: how many it writes
     void submit(const SubmitSemaphores& semaphores);
     void wait();             ///< until its frame, if it has one, is done; then there are its timings
-    void settle() noexcept;  ///< likewise, without them: only so that nothing uses what goes
+    void settle() noexcept;  ///< waits without reading timings, before resources are destroyed
 
     const gpu::Device& device;
     gpu::HostBuffer uploads, readbacks;

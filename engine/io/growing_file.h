@@ -11,9 +11,9 @@ namespace vesper::io {
 
 /// A text file that grows as NAME.part beside the place it is meant for, and takes its name once it is complete.
 /// Whatever ends the program, what was appended is in NAME.part, and NAME holds what it held before. Of a link, NAME is
-/// what it points at. NAME.part is locked: a second program that writes it is refused. One that a program left behind
-/// is removed; links of that name are, not what they lead to. Something that exists and is no regular file (a pipe,
-/// /dev/stdout) is written to directly. Functions throw Error.
+/// what it points at. NAME.part is locked: a second program that writes it is refused. A NAME.part
+/// that a program left behind is removed; of a link, the link and not its target. Something that exists and is no
+/// regular file (a pipe, /dev/stdout) is written to directly. Functions throw Error.
 class GrowingFile {
 public:
     /// Throws if the file was read by this task (FileGate), or if it grows already.

@@ -10,9 +10,9 @@ namespace vesper::render {
 namespace {
 
 gpu::OwnedBuffer make_words(const gpu::Device& device, gpu::Arena& arena, uint64_t words) {
-    gpu::OwnedBuffer buffer = gpu::make_buffer(
-        device, std::max<uint64_t>(words, 1) * sizeof(uint32_t),
-        VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
+    gpu::OwnedBuffer buffer =
+        gpu::make_buffer(device, std::max<uint64_t>(words, 1) * sizeof(uint32_t),
+                         VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
     arena.bind(buffer.get());
     return buffer;
 }

@@ -33,8 +33,8 @@ struct Outputs {
     bool display = true;         ///< codes
     bool scene = false;          ///< luminance
     bool display_light = false;  ///< luminance of the display, without its limits
-    /// The light on the retina, with its scatter in the eye, and beside it at most `scene`: no eye adapts and nothing
-    /// is shown. For several pictures of one eye.
+    /// Luminance on the retina, eye scatter included. The chain ends there: no adaptation, no display. Only `scene` may
+    /// be requested as well. For several pictures of one eye.
     bool retina = false;
     /// An external image that gets the codes, too, in the order and with the bits of its format (shown_format).
     std::optional<graph::ExternalImage> shown = {};

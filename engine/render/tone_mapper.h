@@ -36,7 +36,7 @@ struct DevicePicture {
 /// the size changes. Not thread-safe; several may share a device in one thread.
 class ToneMapper {
 public:
-    /// The glare of `views` sizes or angles of pictures is kept, rather than made anew when they change.
+    /// Keeps fitted glare for up to `views` sizes or angles of pictures.
     explicit ToneMapper(gpu::Device& device, size_t views = 1);
 
     /// `seconds` have passed since the last picture. NaN and infinities are shown black and counted. Throws Error.

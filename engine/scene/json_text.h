@@ -14,10 +14,8 @@ std::string json_pointer_token(std::string_view key);
 /// The key of such a token.
 std::string json_pointer_key(std::string_view token);
 
-/// Throws Error, with file and place, if a NUL stands in the text with anything but more of them behind, which parsers
-/// take for the end, or an object has a key twice: which one counts is for no reader to say (RFC 8259, 4). So it does
-/// where there are more values than `most_values`, they are nested deeper than 200, or an object has more than a
-/// million keys, and for UTF-16. Other mistakes are the parser's.
+/// Throws Error, with file and place, for a NUL inside the text, a repeated key (RFC 8259, 4), UTF-16, more than
+/// `most_values` values, nesting over 200, or an object with over a million keys. Other mistakes are the parser's.
 void check_json_text(std::span<const uint8_t> text, const std::string& file, uint64_t most_values);
 
 }  // namespace vesper::scene

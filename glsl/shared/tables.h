@@ -7,7 +7,7 @@
 SHARED_BEGIN
 
 // Intensities relative to the largest, over azimuth about the pole of the measurement and the angle from that pole, with
-// one more cell before and behind in either direction: what lies outside the measured range. See Light.
+// one more cell before and behind in either direction: what lies outside the measured range. See Lamp.
 
 // Before the cells stand bounds, for a culling that may not lose anything: the largest relative intensity in windows of directions. Ring k of
 // kRings has angles a from the pole with sin(a / 2) * kRings from k to k + 1; azimuth from -pi is cut into kSectors equal bins, which go on

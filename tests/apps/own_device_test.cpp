@@ -333,7 +333,7 @@ TEST_F(OwnDevice, RefusesWhatCannotBe) {
             [](auto&, auto& t, auto&, auto&) { t.layout_before = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL; });
     refuses("no such layout", [](auto&, auto& t, auto&, auto&) { t.layout_after = VkImageLayout(9); });
     refuses("layout before", [](auto& f, auto&, auto&, auto&) { f.layout_before = VK_IMAGE_LAYOUT_UNDEFINED; });
-    refuses("extent", [](auto&, auto& t, auto&, auto&) { t.width = 9; });
+    refuses("must have the size", [](auto&, auto& t, auto&, auto&) { t.width = 9; });
     refuses("1 to 16384", [](auto& f, auto&, auto&, auto&) { f.height = 0; });
     refuses("another image", [](auto& f, auto& t, auto&, auto&) { t.image = f.image; });
     refuses("scale", [](auto&, auto&, auto& g, auto&) { g.scale = 0; });

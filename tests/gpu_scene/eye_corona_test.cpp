@@ -78,8 +78,9 @@ TEST(EyeCorona, TheEyeOfAFrameDependsOnItsMomentAlone) {
     // The pupil closes within half a second to what it adapts to, and is never at rest.
     EXPECT_NEAR(one.at(settings, 0, 0).pupil, vision::pupil_moon_spencer(1), 0.6);
     EXPECT_NEAR(one.at(settings, 2.3, 5).pupil, 2.3, 0.6);
-    const double next = std::lerp(vision::pupil_moon_spencer(1e3), double(shared::kFirstPupil),
-                                  std::exp(-0.01 / double(shared::kPupilSeconds)));  // as glsl/adapt.comp leaves it
+    const double next =
+        std::lerp(vision::pupil_moon_spencer(1e3), double(shared::kFirstPupil),
+                  std::exp(-0.01 / double(shared::kPupilSeconds)));  // as glsl/adapt/adapt.comp leaves it
     EXPECT_LT(std::abs(one.at(settings, next, 0.01).pupil - one.at(settings, 0, 0).pupil), 0.1)
         << "no step after the first frame";
 }

@@ -37,8 +37,8 @@ TEST(LampMaps, TheShadersTurnIsThatOfTheFrame) {
     const gpu_scene::MapFrame frame = gpu_scene::map_frame(node);
     gpu_scene::View view;
     view.world_to_view = glm::mat4_cast(glm::angleAxis(-1.1, glm::normalize(glm::dvec3(0.2, 1, -0.7))));
-    const shared::LampMap map =
-        gpu_scene::lamp_map({.side = 128, .hemispheres = 2, .zoom = 1.5f, .range = 1, .radius = 0.25f, .first = 640}, frame, view);
+    const shared::LampMap map = gpu_scene::lamp_map(
+        {.side = 128, .hemispheres = 2, .zoom = 1.5f, .range = 1, .radius = 0.25f, .first = 640}, frame, view);
     const glm::dquat turn(double(map.turn.w), double(map.turn.x), double(map.turn.y), double(map.turn.z));
     for (const glm::dvec3 world : {glm::dvec3(1, 0, 0), {0, 1, 0}, {0.3, -0.4, 0.8}}) {
         const glm::dvec3 in_view(view.world_to_view * glm::dvec4(world, 0));
@@ -51,7 +51,8 @@ TEST(LampMaps, TheShadersTurnIsThatOfTheFrame) {
 }
 
 TEST(LampMaps, SidesFallWithDistanceAndFillTheMemory) {
-    std::vector<MapLayout> layouts(200, {.side = 0, .hemispheres = 1, .zoom = 1, .range = 1000, .radius = 0, .first = 0});
+    std::vector<MapLayout> layouts(200,
+                                   {.side = 0, .hemispheres = 1, .zoom = 1, .range = 1000, .radius = 0, .first = 0});
     layouts[7].hemispheres = 2;
     layouts[9].range = 0;  // does not shine
     std::vector<double> distances;

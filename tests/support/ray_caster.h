@@ -23,7 +23,7 @@ public:
     struct Triangle {
         std::array<glm::dvec3, 3> corners;  ///< m
         uint32_t group = 0;
-        uint32_t material = scene::kNone;   ///< of masked ones, whose texture is looked at
+        uint32_t material = scene::kNone;  ///< of masked ones, whose texture is looked at
         std::array<glm::vec3, 3> uv_opacity{};
     };
 
@@ -35,7 +35,8 @@ public:
         if (!order_.empty()) build(0, uint32_t(order_.size()));
     }
     /// All triangles of a scene; groups are nodes.
-    RayCaster(const scene::Scene& scene, std::span<const glm::dmat4> world) : RayCaster(triangles_of(scene, world), &scene) {}
+    RayCaster(const scene::Scene& scene, std::span<const glm::dmat4> world)
+        : RayCaster(triangles_of(scene, world), &scene) {}
 
     size_t size() const { return triangles_.size(); }
 
@@ -101,7 +102,8 @@ private:
         boxes_.emplace_back();
         Box box;
         for (uint32_t i = begin; i < end; ++i)
-            for (const glm::dvec3& c : triangles_[order_[i]].corners) box.low = glm::min(box.low, c), box.high = glm::max(box.high, c);
+            for (const glm::dvec3& c : triangles_[order_[i]].corners)
+                box.low = glm::min(box.low, c), box.high = glm::max(box.high, c);
         const glm::dvec3 size = box.high - box.low;
         const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
         if (end - begin <= 4) {

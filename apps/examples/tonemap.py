@@ -30,7 +30,7 @@ class ToneSettings(Sized):
                 ("display_ambient", c.c_float), ("display_gamma", c.c_float), ("display_reflection", c.c_float), ("adapt_to", c.c_uint32),
                 ("smoothing", c.c_float), ("low_vision", c.c_float), ("rods", c.c_int32), ("histogram_low", c.c_float),
                 ("histogram_high", c.c_float), ("key", c.c_float), ("white", c.c_float), ("black", c.c_float), ("pupil", c.c_uint32),
-                ("eye_seed", c.c_uint32), ("lashes", c.c_int32), ("gamut", c.c_uint32)]
+                ("eye_seed", c.c_uint32), ("lashes", c.c_int32), ("gamut", c.c_uint32), ("options", c.c_char_p)]
 
 
 class Picture(Sized):

@@ -76,7 +76,7 @@ graph::ExternalImage image_of(const VesperImage* given) {
 
 // A field that is added changes one of these: then kFirstSize of that structure is what stands here.
 static_assert(sizeof(void*) != 8 ||
-              (sizeof(VesperDeviceOptions) == 40 && sizeof(VesperToneSettings) == 128 &&
+              (sizeof(VesperDeviceOptions) == 40 && sizeof(VesperToneSettings) == 136 &&
                sizeof(VesperFrameReport) == 32 && sizeof(VesperOutputs) == 40 && sizeof(VesperPicture) == 48 &&
                sizeof(VesperMaterial) == 56 && sizeof(VesperMesh) == 56 && sizeof(VesperLamp) == 80 &&
                sizeof(VesperView) == 96 && sizeof(VesperImage) == 40 && sizeof(VesperHandover) == 32 &&

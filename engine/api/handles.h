@@ -76,6 +76,8 @@ VesperResult guarded(VesperError* error, const Call& call) noexcept {
 /// What a structure was in the first version that had it: to be pinned where a field is added (handles.cpp checks).
 template <class T>
 constexpr size_t kFirstSize = sizeof(T);
+template <>
+inline constexpr size_t kFirstSize<VesperToneSettings> = offsetof(VesperToneSettings, options);
 
 /// Copies a caller's structure. Fields that an older caller lacks are zero; fields that only a newer caller has are
 /// ignored.

@@ -1,5 +1,8 @@
 // Settings of the tone chain as callers give them. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <charconv>
 #include <cstring>
+#include <string_view>
 
 #include "api/handles.h"
 
@@ -20,6 +23,8 @@ constexpr uint32_t kGamuts[] = {shared::kGamutLuminance, shared::kGamutChromatic
                                 shared::kGamutClip};  // by VesperGamut
 static_assert(VESPER_PUPIL_MESOPIC == int(vision::SpencerState::Mesopic) &&
               VESPER_PUPIL_SCOTOPIC == int(vision::SpencerState::Scotopic));
+
+constexpr size_t kLongestOptions = 4096;  // characters that are read
 
 bool within(float value, float low, float high) { return value >= low && value <= high; }
 
@@ -47,6 +52,53 @@ vision::Display display_of(const VesperToneSettings& s, scene::DisplayFinder& di
     display.peak = s.display_peak, display.black = s.display_black, display.ambient = s.display_ambient;
     display.gamma = s.display_gamma, display.reflection = s.display_reflection;
     return display;
+}
+
+// Sets an option of an operator by its name on the command line, without dashes.
+struct NamedOption {
+    std::string_view name;
+    double value;
+    bool& found;
+
+    void operator()(const render::OperatorOption& option, float& setting) const {
+        if (!is(option)) return;
+        require(value >= option.low && value <= option.high, "an option of an operator is out of its range");
+        setting = float(value);
+    }
+    void operator()(const render::OperatorOption& option, bool& setting) const {
+        if (!is(option)) return;
+        require(value == 0 || value == 1, "an option of an operator is a flag: 0 or 1");
+        setting = value == 1;
+    }
+
+private:
+    bool is(const render::OperatorOption& option) const {
+        const bool same = std::string_view(option.name).substr(2) == name;
+        found = found || same;
+        return same;
+    }
+};
+
+// NAME=NUMBER, separated by spaces.
+void read_options(std::string_view text, render::ToneSettings& tone) {
+    while (!text.empty()) {
+        const std::string_view word = text.substr(0, text.find(' '));
+        text.remove_prefix(std::min(word.size() + 1, text.size()));
+        if (word.empty()) continue;
+        const size_t equals = word.find('=');
+        double value = 0;
+        const bool whole = equals != word.npos &&
+                           std::from_chars(word.data() + equals + 1, word.data() + word.size(), value).ptr ==
+                               word.data() + word.size() &&
+                           equals + 1 < word.size();
+        require(whole, "options of operators are NAME=NUMBER, separated by spaces");
+        bool found = false;
+        tone.operators.each([&](auto& settings) {
+            settings.options(NamedOption{word.substr(0, equals), value, found});
+        });
+        require(found, "there is no such option of an operator");
+    }
+    tone.operators.check();
 }
 
 }  // namespace
@@ -93,6 +145,7 @@ render::RenderSettings settings_of(const VesperToneSettings* given, scene::Displ
     tone.gamut = kGamuts[s.gamut];
     tone.operators.reinhard.key = s.key, tone.operators.reinhard.white = tone.operators.linear.high = s.white;
     tone.operators.linear.low = s.black;
+    if (s.options) read_options(std::string_view(s.options, strnlen(s.options, kLongestOptions)), tone);
     if (s.adapt_to != VESPER_ADAPT_AS_OPERATOR) tone.adapt_to = kAdaptTo[s.adapt_to - VESPER_ADAPT_AVERAGE];
     settings.display = display_of(s, displays);
     vision::check_display(settings.display);

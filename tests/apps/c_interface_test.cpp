@@ -139,6 +139,8 @@ TEST_F(CInterface, EverySettingArrives) {
          [](auto& e) { e.tone_operator = render::Operator::Reinhard, e.tone.operators.reinhard.key = 0.5f; }},
         {"white", [](auto& s) { s.tone_operator = VESPER_REINHARD, s.white = 50; },
          [](auto& e) { e.tone_operator = render::Operator::Reinhard, e.tone.operators.reinhard.white = 50; }},
+        {"drago", [](auto& s) { s.tone_operator = VESPER_DRAGO, s.options = " bias=0.6  automatic=1"; },
+         [](auto& e) { e.tone_operator = render::Operator::Drago, e.tone.operators.drago.bias = 0.6f; }},
         {"linear", [](auto& s) { s.tone_operator = VESPER_LINEAR, s.white = 50, s.black = 1; },
          [](auto& e) { e.tone_operator = render::Operator::Linear, e.tone.operators.linear = {.low = 1, .high = 50}; }},
         {"gamma", [](auto& s) { s.display_gamma = 1.8f; }, [](auto& e) { e.display.gamma = 1.8f; }},
@@ -256,6 +258,8 @@ TEST_F(CInterface, DefaultsKeepToTheSizeTheyAreGiven) {
     EXPECT_EQ(settings.bins, 100u);
     for (size_t i = offsetof(VesperToneSettings, age); i < sizeof settings; ++i)
         ASSERT_EQ(reinterpret_cast<unsigned char*>(&settings)[i], 0x55);
+    vesper_tone_settings_defaults(&settings, sizeof settings);
+    EXPECT_EQ(settings.options, nullptr);
     vesper_tone_settings_defaults(nullptr, 0);
     uint32_t version[3]{9, 9, 9};
     vesper_version(version);
@@ -327,6 +331,9 @@ TEST_F(CInterface, RefusesWhatCannotBeAndTouchesNothing) {
     refuses([](auto&, auto& s, auto&, auto&) { s.adapt_to = 5; });
     refuses([](auto&, auto& s, auto&, auto&) { s.pupil = 3; });
     refuses([](auto&, auto& s, auto&, auto&) { s.gamut = 3; });
+    for (const char* options : {"bias", "bias=", "bias=x", "bias=0.7x", "bias=2", "bias=nan", "bia=0.7", "=1",
+                                "automatic=2", "devlin-contrast=0.4,bias=0.7"})
+        refuses([&](auto&, auto& s, auto&, auto&) { s.options = options; });
     refuses([](auto&, auto& s, auto&, auto&) { s.smoothing = -1; });
     refuses([](auto&, auto& s, auto&, auto&) { s.low_vision = 0; });
     refuses([](auto&, auto& s, auto&, auto&) { s.histogram_high = s.histogram_low; });
@@ -407,12 +414,16 @@ TEST_F(CInterface, SizesAreOfTheFirstVersionAtLeast) {
     const auto result = [&] { return vesper_tone_map(mapper, &settings, &picture, 0, &outputs, &error); };
     for (uint32_t* size : {&settings.size, &picture.size, &outputs.size, &report.size}) {
         const uint32_t right = *size;
-        for (const uint32_t wrong : {0u, 6u, right - 1, 65537u}) {
+        const uint32_t first = size == &settings.size ? uint32_t(offsetof(VesperToneSettings, options)) : right;
+        for (const uint32_t wrong : {0u, 6u, first - 1, 65537u}) {
             if (size == &report.size && wrong > right) continue;
             *size = wrong;
             EXPECT_EQ(result(), VESPER_BAD_ARGUMENT) << wrong;
             EXPECT_EQ(codes, std::vector<uint8_t>(4 * 81, 77));
         }
+        *size = first;
+        EXPECT_EQ(result(), VESPER_OK) << error.message;
+        std::fill(codes.begin(), codes.end(), uint8_t(77));
         *size = right;
     }
     settings.size += 8, report.size += 8;

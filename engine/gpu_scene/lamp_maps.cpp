@@ -34,17 +34,17 @@ double widest_angle(const scene::Scene& scene, const scene::Lamp& lamp) {
             return kHalfTurn;
     }
     // Between the angles of the file intensity is linear, so a step of a degree to either side holds what is between.
-    double least_cosine = 1;
     constexpr int kSteps = 180;
-    for (int i = 0; i <= kSteps; ++i)
+    for (int i = kSteps; i >= 0; --i) {
+        const double polar = double(i) * kRadiansPerDegree, sine = std::sin(polar), cosine = std::cos(polar);
         for (int j = 0; j < 2 * kSteps; ++j) {
-            const double polar = double(i) * kRadiansPerDegree, azimuth = double(j) * kRadiansPerDegree,
-                         sine = std::sin(polar);
-            const glm::dvec3 direction(sine * std::cos(azimuth), sine * std::sin(azimuth), -std::cos(polar));
-            if (std::cos(polar) < least_cosine && scene::luminous_intensity(lamp, scene.distributions, direction) > 0)
-                least_cosine = std::cos(polar);
+            const double azimuth = double(j) * kRadiansPerDegree;
+            const glm::dvec3 direction(sine * std::cos(azimuth), sine * std::sin(azimuth), -cosine);
+            if (scene::luminous_intensity(lamp, scene.distributions, direction) > 0)
+                return std::min(polar + kRadiansPerDegree, kHalfTurn);
         }
-    return std::min(std::acos(std::clamp(least_cosine, -1.0, 1.0)) + kRadiansPerDegree, kHalfTurn);
+    }
+    return kRadiansPerDegree;
 }
 
 // How much of the square of a hemisphere a cone takes: its edge is farthest out along the diagonals of x and y.
@@ -77,11 +77,6 @@ uint32_t fixture_node(const scene::Scene& scene, const std::vector<bool>& has_me
     return node;
 }
 
-bool lies_below(const scene::Scene& scene, uint32_t node, uint32_t root) {
-    while (node != scene::kNone && node != root) node = scene.nodes[node].parent;
-    return node == root;
-}
-
 std::vector<MapLayout> layouts_of(const scene::Scene& scene, const std::vector<PlacedLamp>& lamps) {
     std::vector<MapLayout> layouts;
     std::map<uint32_t, double> angles;  // of distributions
@@ -103,17 +98,18 @@ std::vector<std::vector<uint32_t>> fixtures_of(const scene::Scene& scene, const 
         has_mesh[i] = has_mesh[i] || scene.nodes[i].mesh != scene::kNone;
         if (has_mesh[i] && scene.nodes[i].parent != scene::kNone) has_mesh[scene.nodes[i].parent] = true;
     }
-    std::vector<std::vector<uint32_t>> by_root(scene.nodes.size());  // of nodes that are a fixture
-    std::vector<bool> known(scene.nodes.size());
+    std::vector<bool> is_root(scene.nodes.size());  // of a fixture
+    for (const PlacedLamp& lamp : lamps)
+        if (const uint32_t root = fixture_node(scene, has_mesh, lamp.node); root != scene::kNone) is_root[root] = true;
+    std::vector<std::vector<uint32_t>> by_root(scene.nodes.size());  // placements at and below them
+    for (uint32_t p = 0; p < resident.placements().size(); ++p)
+        for (uint32_t node = resident.placements()[p].node; node != scene::kNone; node = scene.nodes[node].parent)
+            if (is_root[node]) by_root[node].push_back(p);
     std::vector<std::vector<uint32_t>> own;
     for (const PlacedLamp& lamp : lamps) {
         own.emplace_back();
         const uint32_t root = fixture_node(scene, has_mesh, lamp.node);
         if (root == scene::kNone) continue;
-        if (!known[root])
-            for (uint32_t p = 0; p < resident.placements().size(); ++p)
-                if (lies_below(scene, resident.placements()[p].node, root)) by_root[root].push_back(p);
-        known[root] = true;
         const glm::dvec3 place(world[lamp.node][3]);
         const bool small = std::ranges::all_of(by_root[root], [&](uint32_t p) {
             const GpuScene::Placement& placement = resident.placements()[p];

@@ -78,6 +78,7 @@ bool bends;                  // it crosses the border of a quadrant
 void cover_plane(FetchedMap map, vec3 lamp) {
     low_texel = vec2(1e30), high_texel = vec2(-1e30), within = true;
     bvec4 sides = bvec4(false);
+    int hemisphere = 0;
     [[unroll]] for (uint k = 0u; k < 4u; ++k) {
         const MapPoint p = map_point(map, corners[k] - lamp, probe_normal[0]);
         const vec2 square = p.texel - 0.5 * float(map.side);
@@ -85,7 +86,8 @@ void cover_plane(FetchedMap map, vec3 lamp) {
         sides = bvec4(sides.x || x < 0.0, sides.y || x > 0.0, sides.z || y < 0.0, sides.w || y > 0.0);
         low_texel = min(low_texel, p.texel);
         high_texel = max(high_texel, p.texel);
-        within = within && p.inside && p.first == map_point(map, corners[0] - lamp, probe_normal[0]).first;
+        hemisphere = k == 0u ? p.first : hemisphere;
+        within = within && p.inside && p.first == hemisphere;
     }
     bends = (sides.x && sides.y) || (sides.z && sides.w);
     const vec2 more = bends ? 0.5 * (high_texel - low_texel) : vec2(0.0);

@@ -247,7 +247,11 @@ gpu_scene::SceneFrame Scenery::frame(const std::vector<traffic::Actor>& actors, 
         .world = rest_, .dimming = std::vector<float>(scene_.nodes.size(), 1), .ambient = night_};
     std::vector<glm::dmat4> poses;
     for (const traffic::Actor& actor : actors) poses.push_back(pose_of(actor));
-    for (const Rider& r : riders_) made.world[r.node] = poses[r.actor] * r.offset;
+    made.moving.assign(scene_.nodes.size(), false);
+    for (const Rider& r : riders_) {
+        made.world[r.node] = poses[r.actor] * r.offset;
+        made.moving[r.node] = true;
+    }
 
     double outside = 0;
     if (settings.sun()) {

@@ -86,6 +86,12 @@ void print_statistics(const RenderArguments& arguments, const gpu::Device& devic
           double(frame.far), frame.clusters.longest, frame.clusters.overflowed);
     if (const auto& [lit, dark, mixed] = frame.visibility; lit + dark + mixed > 0)
         print("shadows: of pairs of a block of pixels and a lamp, %u lit, %u dark, %u mixed\n", lit, dark, mixed);
+    if (arguments.settings.shadows)
+        print(
+            "distance maps: %u, %.0f MiB; for this frame %u were drawn anew, and %u tiles of others; %u are out of "
+            "date\n",
+            frame.maps.lamps, double(frame.maps.bytes) / (1 << 20), frame.maps.maps, frame.maps.tiles,
+            frame.maps.carried);
     print("adaptation luminance %.4g cd/m^2, foveal level %u, %u of %u pixels not finite\n",
           double(frame.curve.adaptation), frame.foveal_level, frame.histogram.non_finite,
           frame.histogram.finite + frame.histogram.non_finite);
@@ -332,6 +338,9 @@ void add_render(apps::Command program) {
         .add_option("--shadows", a->shadows, "on: lamps light only what they see; off: they shine through everything")
         .check(apps::one_of({"on", "off"}))
         .shows_default();
+    command.add_option("--shadow-budget", a->settings.shadow_budget,
+                       "Tiles of distance maps (64 x 64 texels) that are drawn for a frame where lamps or bodies move; "
+                       "what is left is out of date in it (default: all)");
     command.add_flag("--all-lamps,--all-lights", a->settings.all_lamps,
                      "Shade every lamp above the threshold in every pixel (slow, for comparison)");
     command.help_group();

@@ -11,6 +11,11 @@ namespace {
 gpu_scene::SceneFrame frame_of(const VesperRenderer& renderer, double seconds) {
     const scene::Scene& scene = renderer.scene.scene;
     gpu_scene::SceneFrame frame{scene::placed_transforms(scene, seconds, renderer.places)};
+    if (!renderer.places.empty()) {
+        frame.moving.assign(scene.nodes.size(), false);
+        for (const auto& [node, place] : renderer.places) frame.moving[node] = true;
+        frame.moving = scene::at_and_below(scene, std::move(frame.moving));
+    }
     if (renderer.dimming.empty()) return frame;
     frame.dimming.assign(scene.nodes.size(), 1);
     for (const auto& [node, factor] : renderer.dimming) frame.dimming[node] = factor;

@@ -24,6 +24,7 @@ struct SceneFrame {
     std::vector<float> dimming;           ///< per node, factor on the intensity of its lamp, >= 0; empty: 1 everywhere
     std::optional<AmbientLight> ambient;  ///< in place of the scene's
     std::vector<scene::Tunnel> tunnels;   ///< that it does not reach into
+    std::vector<bool> moving;  ///< per node, whether it moves in frames like this one; empty: none is known to
 
     float dimming_of(uint32_t node) const { return dimming.empty() ? 1 : dimming[node]; }
 };

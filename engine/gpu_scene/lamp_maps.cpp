@@ -1,6 +1,7 @@
 #include "gpu_scene/lamp_maps.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -11,14 +12,15 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "scene/lamp.h"
+#include "scene/placement.h"
 
 namespace vesper::gpu_scene {
 namespace {
 
-constexpr double kFaintest = 0.001;  // lx: what is lit less may be lit through a wall
 constexpr double kMostZoom = 8;
-constexpr double kLargestFixture = 20;       // m
-constexpr double kMostScale = 12 * 30 * 16;  // of sides, m^1/2
+constexpr double kLargestFixture = 20;  // m
+constexpr double kNearestEye = 4;       // m: a lamp's light is not seen from nearer
+constexpr double kMostScale = 8;        // log2 of the side for 0.001 cd, 1 m from the eye
 
 // The largest angle from the lamp's axis at which it shines, rad; half a turn if it shines to all sides.
 double widest_angle(const scene::Scene& scene, const scene::Lamp& lamp) {
@@ -63,7 +65,7 @@ double largest_candela(const scene::Scene& scene, const scene::Lamp& lamp) {
 MapLayout layout_of(const scene::Scene& scene, const scene::Lamp& lamp, double angle) {
     const double candela = largest_candela(scene, lamp);
     if (lamp.kind == scene::Lamp::Kind::Directional || !(candela > 0)) return {};
-    const double range = std::sqrt(candela / kFaintest);
+    const double range = std::sqrt(candela / kFaintestLight);
     return {.side = 0,
             .hemispheres = angle > kPi / 2 + 1e-3 ? 2u : 1u,
             .zoom = float(zoom_of(angle)),
@@ -128,26 +130,46 @@ std::vector<std::vector<uint32_t>> fixtures_of(const scene::Scene& scene, const 
 }  // namespace
 
 MapPlan map_plan(const scene::Scene& scene, const GpuScene& resident, const std::vector<PlacedLamp>& lamps) {
-    return {layouts_of(scene, lamps), fixtures_of(scene, resident, lamps, scene::world_transforms(scene, 0))};
+    const std::vector<glm::dmat4> world = scene::world_transforms(scene, 0);
+    std::vector<glm::dvec3> places;
+    for (const PlacedLamp& lamp : lamps) places.emplace_back(world[lamp.node][3]);
+    std::vector<MapLayout> layouts = layouts_of(scene, lamps);
+    const double scale = scene_scale(layouts, places);
+    return {std::move(layouts), scale, fixtures_of(scene, resident, lamps, world), scene::animated_nodes(scene)};
 }
 
-void choose_sides(std::vector<MapLayout>& layouts, const std::vector<double>& distances, uint64_t most_texels) {
-    constexpr double kStep = std::numbers::sqrt2;
-    const auto with = [&](double scale) {
+double choose_sides(std::vector<MapLayout>& layouts, const std::vector<double>& distances, double scale,
+                    uint64_t most_texels) {
+    constexpr double kStep = 0.5, kLeastScale = -16;
+    const auto with = [&](double tried) {
         uint64_t texels = 0;
         for (size_t i = 0; i < layouts.size(); ++i) {
-            const double side = scale * std::sqrt(double(layouts[i].range)) / std::max(distances[i], 1.0);
-            const double power = std::exp2(std::round(std::log2(std::max(side, 1.0))));
-            layouts[i].side =
-                !(layouts[i].range > 0) ? 0 : uint32_t(std::clamp(power, double(kLeastMapSide), double(kMostMapSide)));
-            texels += layouts[i].texels();
+            MapLayout& layout = layouts[i];
+            const double away = std::sqrt(std::max(distances[i], kNearestEye)) * double(layout.zoom);
+            const double power = layout.range > 0 ? tried + std::log2(std::sqrt(double(layout.range)) / away) : 0;
+            constexpr double kLeast = std::countr_zero(kLeastMapSide), kMost = std::countr_zero(kMostMapSide);
+            layout.side = layout.range > 0 ? 1u << uint32_t(std::clamp(std::round(power), kLeast, kMost)) : 0;
+            texels += layout.texels();
         }
         return texels;
     };
-    for (double scale = kMostScale; with(scale) > most_texels; scale /= kStep)
-        if (scale < 1)
+    for (; with(scale) > most_texels; scale -= kStep)
+        if (scale < kLeastScale)
             throw Error("shadows of " + std::to_string(layouts.size()) + " lamps take distance maps of more than " +
                         std::to_string(most_texels) + " texels; without shadows the scene can be rendered");
+    return scale;
+}
+
+double scene_scale(const std::vector<MapLayout>& layouts, const std::vector<glm::dvec3>& places) {
+    constexpr size_t kMostEyes = 64;
+    double scale = kMostScale;
+    std::vector<MapLayout> tried = layouts;
+    for (size_t eye = 0; eye < places.size(); eye += std::max<size_t>(places.size() / kMostEyes, 1)) {
+        std::vector<double> distances;
+        for (const glm::dvec3 place : places) distances.push_back(glm::distance(place, places[eye]));
+        scale = choose_sides(tried, distances, scale, kMostMapTexels);
+    }
+    return scale;
 }
 
 MapFrame map_frame(const glm::dmat4& world) {
@@ -160,6 +182,40 @@ MapFrame map_frame(const glm::dmat4& world) {
     const glm::dvec3 x0(world[0]);
     const glm::dvec3 x = unit(x0 - glm::dot(x0, z) * z, glm::normalize(glm::cross(z, across)));
     return {glm::dvec3(world[3]), glm::transpose(glm::dmat3(x, glm::cross(z, x), z))};
+}
+
+bool may_see(const MapWindow& window, glm::dvec2 signs, glm::dvec3 centre, double radius) {
+    const auto outside = [&](glm::dvec3 inward) { return glm::dot(inward, centre) < -radius * glm::length(inward); };
+    const glm::dvec3 norm(signs, 1), u(window.zoom, window.zoom, 0), v(window.zoom, -window.zoom, 0);
+    return !outside({signs.x, 0, 0}) && !outside({0, signs.y, 0}) && !outside({0, 0, 1}) &&
+           !outside(u - window.low.x * norm) && !outside(v - window.low.y * norm) &&
+           !outside(window.high.x * norm - u) && !outside(window.high.y * norm - v);
+}
+
+std::vector<glm::uvec2> tiles_of(const MapLayout& layout, glm::dvec3 centre, double radius) {
+    // u and v of a direction change by at most sqrt(5) times its angle: at the axes of x and y.
+    constexpr double kSteepest = 2.24;
+    const double away = glm::length(centre), zoom = double(layout.zoom);
+    glm::dvec2 low(-1), high(1);
+    if (away > radius) {
+        const glm::dvec3 o(centre.x, centre.y, std::abs(centre.z));  // what is behind is no nearer to what is before
+        const glm::dvec2 middle = zoom / (std::abs(o.x) + std::abs(o.y) + o.z) * glm::dvec2(o.x + o.y, o.x - o.y);
+        const double reach = kSteepest * zoom * std::asin(radius / away);
+        low = glm::max(low, middle - reach), high = glm::min(high, middle + reach);
+    }
+    std::vector<glm::uvec2> tiles;
+    if (low.x >= high.x || low.y >= high.y || layout.side == 0) return tiles;
+    const double count = double(layout.side / shared::kRegion), width = 2 / count;
+    const glm::uvec2 first(glm::floor((0.5 * low + 0.5) * count)), end(glm::ceil((0.5 * high + 0.5) * count));
+    for (uint32_t y = first.y; y < end.y; ++y)
+        for (uint32_t x = first.x; x < end.x; ++x) {
+            const glm::dvec2 corner = width * glm::dvec2(x, y) - 1.0;
+            const MapWindow window{zoom, corner, corner + width};
+            if (may_see(window, {1, 1}, centre, radius) || may_see(window, {1, -1}, centre, radius) ||
+                may_see(window, {-1, 1}, centre, radius) || may_see(window, {-1, -1}, centre, radius))
+                tiles.push_back(glm::uvec2(x, y) * shared::kRegion);
+        }
+    return tiles;
 }
 
 shared::LampMap lamp_map(const MapLayout& layout, const MapFrame& frame, const View& view) {

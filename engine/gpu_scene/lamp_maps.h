@@ -12,6 +12,8 @@
 
 namespace vesper::gpu_scene {
 
+constexpr double kFaintestLight = 0.001;  ///< lx: what is lit less may be lit through a wall
+
 /// The distance map of a lamp (shared/distance_map.h).
 struct MapLayout {
     uint32_t side = 0;         ///< texels; 0: the lamp has no map, nothing hides it
@@ -24,20 +26,29 @@ struct MapLayout {
     uint32_t texels() const { return hemispheres * side * side; }
 };
 
+constexpr uint64_t kMostMapTexels = 40u << 20u;  ///< of all maps: 80 MiB
+
 /// The maps of all lamps of a scene, in the order of placed_lamps().
 struct MapPlan {
     std::vector<MapLayout> layouts;  ///< without sides and places, which depend on the view
+    double scale = 0;                ///< of sides, see choose_sides
     /// For each lamp the placements that belong to its fixture and never hide it, ascending: the meshes below the
     /// nearest node, of the lamp's own and those above it, that has any; none if a part of them is over 20 m away.
     std::vector<std::vector<uint32_t>> fixtures;
+    std::vector<bool> animated;  ///< per node, whether the scene's animations move it
 };
 MapPlan map_plan(const scene::Scene& scene, const GpuScene& resident, const std::vector<PlacedLamp>& lamps);
 
 constexpr uint32_t kLeastMapSide = shared::kRegion, kMostMapSide = 2048;  ///< texels
 /// Sets the sides of maps that an eye at these distances (m) sees: powers of two within the limits above, nearest to
-/// c I^1/4 / distance, I the largest intensity, with the largest c at which all of them take at most `most_texels`; 0
-/// for lamps without a map. Throws Error if they cannot.
-void choose_sides(std::vector<MapLayout>& layouts, const std::vector<double>& distances, uint64_t most_texels);
+/// 2^scale I^1/4 / (sqrt(distance) zoom), I the largest intensity, distances of at least 4 m; 0 for lamps without a
+/// map. Where these take more than `most_texels` the scale is less by half steps. Returns it. Throws Error if nothing
+/// fits.
+double choose_sides(std::vector<MapLayout>& layouts, const std::vector<double>& distances, double scale,
+                    uint64_t most_texels);
+/// The largest scale, up to a limit, at which the maps of a scene take at most kMostMapTexels seen from its lamps: so
+/// that sides change with the distance of the eye alone.
+double scene_scale(const std::vector<MapLayout>& layouts, const std::vector<glm::dvec3>& places);
 
 /// A frame of axes that a map is drawn in: z along the axis of its first hemisphere.
 struct MapFrame {
@@ -46,6 +57,17 @@ struct MapFrame {
 };
 /// Of a lamp at a node of this pose.
 MapFrame map_frame(const glm::dmat4& world);
+
+/// A part of the square of a hemisphere, seen from the lamp.
+struct MapWindow {
+    double zoom = 1;
+    glm::dvec2 low{-1}, high{1};  ///< (u, v) of shared/distance_map.h
+};
+/// Whether something of a sphere may be seen through a window, within the quadrant of x and y of these signs. The
+/// sphere is in the frame of the map, z mirrored for the second hemisphere, m. Never false where it is seen.
+bool may_see(const MapWindow& window, glm::dvec2 signs, glm::dvec3 centre, double radius);
+/// Corners (texels) of the tiles of a hemisphere, shared::kRegion texels square, that may see something of a sphere.
+std::vector<glm::uvec2> tiles_of(const MapLayout& layout, glm::dvec3 centre, double radius);
 
 /// The map of a lamp, as shaders see it in a frame of `view`.
 shared::LampMap lamp_map(const MapLayout& layout, const MapFrame& frame, const View& view);

@@ -1,9 +1,12 @@
 #include "render/distance_maps.h"
 
 #include <algorithm>
-#include <bit>
+#include <cmath>
 #include <functional>
+#include <numeric>
+#include <set>
 
+#include "gpu/commands.h"
 #include "render/passes/distance_map.h"
 
 namespace vesper::render {
@@ -12,23 +15,27 @@ namespace {
 gpu::OwnedBuffer make_words(const gpu::Device& device, gpu::Arena& arena, uint64_t words) {
     gpu::OwnedBuffer buffer =
         gpu::make_buffer(device, std::max<uint64_t>(words, 1) * sizeof(uint32_t),
-                         VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
+                         VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
+                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     arena.bind(buffer.get());
     return buffer;
 }
 
-// Pieces of the buffers are powers of two of the least map.
-constexpr uint32_t kPiece = gpu_scene::kLeastMapSide * gpu_scene::kLeastMapSide;  // texels
+uint64_t tiles_in(const gpu_scene::MapLayout& layout) { return layout.texels() / MapPlaces::kTileTexels; }
 
-uint32_t size_of(const gpu_scene::MapLayout& layout) { return uint32_t(std::countr_zero(layout.texels() / kPiece)); }
+constexpr double kLeastShare = 1.0 / 100;  // of the light at a placement: a lamp that gives less is not hidden by it
 
-uint64_t largest_texels(const std::vector<gpu_scene::MapLayout>& layouts) {
-    uint64_t texels = 0;
-    for (gpu_scene::MapLayout layout : layouts) {
-        layout.side = layout.range > 0 ? gpu_scene::kMostMapSide : 0;
-        texels += layout.texels();
-    }
-    return std::clamp<uint64_t>(texels, kPiece, DistanceMaps::kMostTexels);
+// The largest intensity of a lamp towards a sphere, cd; of a measured one, of all directions. `number`: in its list.
+double intensity_towards(const gpu_scene::LampList& list, uint32_t number, glm::dvec3 to, double radius) {
+    const shared::Lamp& lamp = list.lamps[number];
+    const double away = glm::length(to);
+    if (number >= list.counts.cones + list.counts.powers || away <= radius) return double(lamp.intensity);
+    const double cosine = std::clamp(glm::dot(glm::dvec3(lamp.axis), to) / away, -1.0, 1.0);
+    const double nearest = std::cos(std::max(std::acos(cosine) - std::asin(radius / away), 0.0));
+    if (number >= list.counts.cones)
+        return nearest > 0 ? double(lamp.intensity) * std::pow(nearest, double(lamp.lobe_a)) : 0;
+    const double ramp = std::clamp(double(lamp.lobe_a) * nearest + double(lamp.lobe_b), 0.0, 1.0);
+    return double(lamp.intensity) * ramp * ramp;
 }
 
 }  // namespace
@@ -38,91 +45,258 @@ DistanceMaps::DistanceMaps(gpu::Device& device, const gpu_scene::GpuScene& resid
     : resident_(resident),
       lamps_(lamps),
       fixtures_(plan.fixtures),
-      layouts_(plan.layouts),
-      texels_(largest_texels(layouts_)),
-      places_(uint32_t(texels_ / kPiece)),
+      places_(plan.layouts, plan.scale),
+      moving_(resident, plan.animated),
       arena_(device),
       drawn_(lamps.size()),
+      whole_(lamps.size()),
+      drawn_version_(lamps.size()),
       kernels_(device),
       pipelines_(device),
       executor_(device) {
-    distances_ = make_words(device, arena_, texels_ / 2);
-    bounds_ = make_words(device, arena_, texels_ / 8);
+    distances_ = make_words(device, arena_, places_.texels() / 2);
+    bounds_ = make_words(device, arena_, places_.map_texels() / 8);
 }
 
-std::vector<uint32_t> DistanceMaps::outdated(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses) {
-    if (poses.world != drawn_world_) drawn_.assign(lamps_.size(), false);
-    std::vector<gpu_scene::MapLayout> wanted;
-    std::vector<double> distances;
-    for (uint32_t i = 0; i < list.placed(); ++i) {
-        wanted.push_back(layouts_[list.indices[i]]);
-        distances.push_back(double(glm::length(list.lamps[i].position)));
+bool DistanceMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses,
+                        const gpu_scene::View& view, uint64_t budget) {
+    report_ = {};
+    maps_to_draw_.clear();
+    forget_still(moving_.update(poses));
+    const uint64_t most_texels = budget == kNoShadowBudget ? budget : budget / 2 * MapPlaces::kTileTexels;
+    MapPlaces::Change change = places_.fit(list, most_texels);
+    moves_ = std::move(change.moves);
+    for (const uint32_t lamp : change.lamps) {
+        drop_tiles(lamp);
+        drawn_[lamp] = whole_[lamp] = false;
     }
-    gpu_scene::choose_sides(wanted, distances, texels_);
-    std::vector<uint32_t> resized;
-    for (uint32_t i = 0; i < list.placed(); ++i) {
-        gpu_scene::MapLayout& layout = layouts_[list.indices[i]];
-        if (layout.side == wanted[i].side) continue;
-        if (layout.side != 0) places_.give(layout.first / kPiece, size_of(layout));
-        layout.side = wanted[i].side;
-        drawn_[list.indices[i]] = false;
-        resized.push_back(list.indices[i]);
-    }
-    place(resized, list);
-    std::vector<uint32_t> lamps;
-    for (const uint32_t lamp : std::span(list.indices).first(list.placed()))
-        if (!drawn_[lamp] && layouts_[lamp].side > 0) lamps.push_back(lamp);
-    return lamps;
+    plan_maps(list, budget);
+    plan_tiles(covers(list, poses, view), list, budget);
+    report_.bytes = arena_.bytes() + executor_.heap_bytes();
+    return !moves_.empty() || !maps_to_draw_.empty() || !tiles_to_draw_.empty();
 }
 
-// Where there is no place, lamps that do not shine lose theirs and the others find new ones, the largest first: these
-// always fit.
-void DistanceMaps::place(std::vector<uint32_t> resized, const gpu_scene::LampList& list) {
-    const auto find_places = [&](std::vector<uint32_t>& lamps) {
-        std::ranges::stable_sort(lamps, std::greater(), [&](uint32_t lamp) { return layouts_[lamp].texels(); });
-        for (const uint32_t lamp : lamps) {
-            if (layouts_[lamp].side == 0) continue;
-            const std::optional<uint32_t> at = places_.take(size_of(layouts_[lamp]));
-            if (!at) return false;
-            layouts_[lamp].first = *at * kPiece;
+// Maps that may hold placements which have begun to move hold them no more.
+void DistanceMaps::forget_still(const std::vector<uint32_t>& placements) {
+    if (!placements.empty()) drawn_.assign(drawn_.size(), false);
+}
+
+void DistanceMaps::drop_tiles(uint32_t lamp) {
+    const auto first = covered_.lower_bound({lamp, false, 0, 0}), end = covered_.lower_bound({lamp + 1, false, 0, 0});
+    for (auto at = first; at != end; ++at) places_.give_tile(at->second.saved);
+    covered_.erase(first, end);
+}
+
+// Of maps of lamps that move, those first whose light is nearest to the eye.
+void DistanceMaps::plan_maps(const gpu_scene::LampList& list, uint64_t& budget) {
+    std::vector<std::pair<double, uint32_t>> moved;
+    for (uint32_t i = 0; i < list.placed(); ++i) {
+        const uint32_t lamp = list.indices[i];
+        if (places_[lamp].side == 0) continue;
+        ++report_.lamps;
+        if (!drawn_[lamp]) {
+            maps_to_draw_.push_back(lamp);
+            budget -= std::min(budget, tiles_in(places_[lamp]));
+        } else if (is_whole(lamp) && drawn_version_[lamp] != moving_.version()) {
+            const double away = double(glm::length(list.lamps[i].position));
+            const double worth = double(list.lamps[i].intensity) / std::max(away * away, 1.0);
+            const auto waits = waiting_maps_.find(lamp);
+            moved.emplace_back(-worth * (waits == waiting_maps_.end() ? 1 : 1 + waits->second), lamp);
         }
-        return true;
-    };
-    if (find_places(resized)) return;
-    places_.clear();
-    drawn_.assign(lamps_.size(), false);
-    std::vector<uint32_t> all(list.indices.begin(), list.indices.begin() + list.placed());
-    std::vector<bool> shines(lamps_.size());
-    for (const uint32_t lamp : all) shines[lamp] = true;
-    for (uint32_t lamp = 0; lamp < lamps_.size(); ++lamp)
-        if (!shines[lamp]) layouts_[lamp].side = 0;
-    find_places(all);
+    }
+    std::ranges::sort(moved);
+    bool any = false;  // one is drawn in any case, so that none waits for ever
+    for (const auto& [worth, lamp] : moved) {
+        const uint64_t tiles = tiles_in(places_[lamp]);
+        if (tiles > budget && (any || budget == 0)) {
+            ++report_.carried;
+            ++waiting_maps_[lamp];
+            continue;
+        }
+        any = true;
+        budget -= std::min(budget, tiles);
+        waiting_maps_.erase(lamp);
+        maps_to_draw_.push_back(lamp);
+    }
+    for (const uint32_t lamp : maps_to_draw_) drop_tiles(lamp);
 }
 
-void DistanceMaps::draw(const std::vector<uint32_t>& lamps, const gpu_scene::SceneFrame& poses) {
-    std::vector<MapToDraw> maps;
-    for (const uint32_t lamp : lamps)
-        maps.push_back({layouts_[lamp], gpu_scene::map_frame(poses.world[lamps_[lamp].node]), fixtures_[lamp]});
-    graph::FrameGraph graph;
-    const MapWords words{
-        graph.lasting("map distances", distances_.get(), texels_ / 2 * sizeof(uint32_t), VK_FORMAT_R32_UINT),
-        graph.lasting("map bounds", bounds_.get(), texels_ / 8 * sizeof(uint32_t), VK_FORMAT_R32_UINT)};
-    add_distance_maps({graph, kernels_, pipelines_, {}}, resident_, poses, maps, words);
-    executor_.run(graph);
-    drawn_world_ = poses.world;
-    for (const uint32_t lamp : lamps) drawn_[lamp] = true;
+// What moves where lamps shine on it, tile by tile.
+std::map<DistanceMaps::TileKey, DistanceMaps::Cover> DistanceMaps::covers(const gpu_scene::LampList& list,
+                                                                          const gpu_scene::SceneFrame& poses,
+                                                                          const gpu_scene::View& view) const {
+    std::map<TileKey, Cover> wanted;
+    std::vector<double> light(list.placed());  // lx
+    std::vector<gpu_scene::MapFrame> frames;
+    for (uint32_t i = 0; i < list.placed(); ++i)
+        frames.push_back(gpu_scene::map_frame(poses.world[lamps_[list.indices[i]].node]));
+    for (const MovingPlacements::Moving& body : moving_.moving()) {
+        const glm::dvec3 in_view(view.world_to_view * glm::dvec4(body.centre, 1));
+        double sum = 0;
+        for (uint32_t i = 0; i < list.placed(); ++i) {
+            const glm::dvec3 to = in_view - glm::dvec3(list.lamps[i].position);
+            const double away = glm::length(to), nearest = std::max(away - body.radius, 0.1 * body.radius);
+            const bool own = std::ranges::binary_search(fixtures_[list.indices[i]], body.placement);
+            const bool reached = !own && !is_whole(list.indices[i]) && places_[list.indices[i]].side > 0 &&
+                                 away - body.radius < double(places_[list.indices[i]].range);
+            const double candela = reached ? intensity_towards(list, i, to, body.radius) : 0;
+            light[i] = candela / std::max(nearest * nearest, 1e-6);
+            sum += candela / std::max(away * away, body.radius * body.radius);
+        }
+        const double size = body.radius / std::max(glm::length(in_view), body.radius);
+        for (uint32_t i = 0; i < list.placed(); ++i) {
+            if (!(light[i] > kLeastShare * sum) || !(light[i] > gpu_scene::kFaintestLight)) continue;
+            const uint32_t lamp = list.indices[i];
+            glm::dvec3 c = frames[i].rotation * (body.centre - frames[i].position);
+            for (uint32_t h = 0; h < places_[lamp].hemispheres; ++h, c.z = -c.z)
+                for (const glm::uvec2 corner : gpu_scene::tiles_of(places_[lamp], c, body.radius)) {
+                    Cover& cover = wanted[{lamp, h == 1, corner.x, corner.y}];
+                    cover.placements.emplace_back(body.placement, body.version);
+                    cover.worth += light[i] * size * size;
+                }
+        }
+    }
+    return wanted;
+}
+
+// Tiles that have changed, those first that give the picture most. A tile that is not reached stays as it is.
+void DistanceMaps::plan_tiles(std::map<TileKey, Cover> wanted, const gpu_scene::LampList& list, uint64_t& budget) {
+    std::vector<bool> shines(lamps_.size());
+    for (uint32_t i = 0; i < list.placed(); ++i) shines[list.indices[i]] = true;
+    for (const auto& [key, cover] : covered_)
+        if (shines[key.lamp]) wanted.try_emplace(key, Cover{{}, cover.worth, 0});  // nothing is there any more
+    std::vector<TileToDraw> changed;
+    std::map<TileKey, uint32_t> waiting;
+    for (auto& [key, cover] : wanted) {
+        const auto known = covered_.find(key);
+        const bool save = known == covered_.end();
+        if (!save && known->second.placements == cover.placements) continue;
+        if (!save) cover.saved = known->second.saved;
+        const auto waits = waiting_.find(key);
+        if (waits != waiting_.end()) cover.worth *= 1 + waits->second;
+        changed.push_back({key, std::move(cover), save});
+    }
+    std::ranges::stable_sort(changed, std::greater(), [](const TileToDraw& tile) { return tile.cover.worth; });
+    tiles_to_draw_.clear();
+    std::set<uint32_t> too_many;  // lamps
+    for (TileToDraw& tile : changed) {
+        if (budget == 0) {
+            ++report_.carried;
+            const auto waits = waiting_.find(tile.key);
+            waiting[tile.key] = waits == waiting_.end() ? 1 : 1 + waits->second;
+            continue;
+        }
+        const std::optional<uint32_t> saved = tile.save ? places_.take_tile() : std::optional(tile.cover.saved);
+        if (!saved) {
+            too_many.insert(tile.key.lamp);
+            continue;
+        }
+        --budget;
+        tile.cover.saved = *saved;
+        covered_[tile.key] = tile.cover;
+        tiles_to_draw_.push_back(std::move(tile));
+    }
+    waiting_ = std::move(waiting);
+    // A lamp whose tiles cannot all be saved is drawn as a whole from now on.
+    for (const uint32_t lamp : too_many) {
+        std::erase_if(tiles_to_draw_, [&](const TileToDraw& tile) { return tile.key.lamp == lamp; });
+        drop_tiles(lamp);
+        whole_[lamp] = true;
+        if (std::ranges::find(maps_to_draw_, lamp) == maps_to_draw_.end()) maps_to_draw_.push_back(lamp);
+    }
+    report_.maps = uint32_t(maps_to_draw_.size());
+    report_.tiles = uint32_t(tiles_to_draw_.size());
+}
+
+// By way of another buffer, so that no map is overwritten before it has moved.
+void DistanceMaps::make_moves() {
+    if (moves_.empty()) return;
+    uint64_t texels = 0;
+    for (const MapPlaces::Move& move : moves_) texels += move.texels;
+    gpu::Arena arena(kernels_.device());
+    const auto move_all = [&](VkBuffer words, uint32_t texels_in_word) {
+        const gpu::OwnedBuffer between =
+            gpu::make_buffer(kernels_.device(), texels / texels_in_word * sizeof(uint32_t),
+                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+        arena.bind(between.get());
+        std::vector<VkBufferCopy> out, in;
+        uint64_t at = 0;
+        for (const MapPlaces::Move& move : moves_) {
+            const auto bytes = [&](uint64_t first) { return first / texels_in_word * sizeof(uint32_t); };
+            out.push_back({bytes(move.from), bytes(at), bytes(move.texels)});
+            in.push_back({bytes(at), bytes(move.to), bytes(move.texels)});
+            at += move.texels;
+        }
+        kernels_.device().run_once([&](VkCommandBuffer commands) {
+            const VkMemoryBarrier2 after{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                         .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                         .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                         .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                         .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+            gpu::pipeline_barrier(commands, {}, &after);
+            vkCmdCopyBuffer(commands, words, between.get(), uint32_t(out.size()), out.data());
+            gpu::pipeline_barrier(commands, {}, &after);
+            vkCmdCopyBuffer(commands, between.get(), words, uint32_t(in.size()), in.data());
+            gpu::pipeline_barrier(commands, {}, &after);
+        });
+    };
+    move_all(distances_.get(), 2);
+    move_all(bounds_.get(), 8);
+    moves_.clear();
+}
+
+void DistanceMaps::draw(const gpu_scene::SceneFrame& poses) {
+    make_moves();
+    const auto run = [&](const std::vector<MapToDraw>& maps) {
+        if (maps.empty()) return;
+        graph::FrameGraph graph;
+        const uint64_t texels = places_.texels();
+        const MapWords words{
+            graph.lasting("map distances", distances_.get(), texels / 2 * sizeof(uint32_t), VK_FORMAT_R32_UINT),
+            graph.lasting("map bounds", bounds_.get(), places_.map_texels() / 8 * sizeof(uint32_t),
+                          VK_FORMAT_R32_UINT)};
+        add_distance_maps({graph, kernels_, pipelines_, {}}, resident_, poses, maps, words);
+        executor_.run(graph);
+    };
+    std::vector<MapToDraw> maps, tiles;
+    std::vector<uint32_t> everything(resident_.placements().size());
+    std::iota(everything.begin(), everything.end(), 0u);
+    for (const uint32_t lamp : maps_to_draw_)
+        maps.push_back({places_[lamp], gpu_scene::map_frame(poses.world[lamps_[lamp].node]), fixtures_[lamp],
+                        is_whole(lamp) ? everything : moving_.still()});
+    run(maps);
+    for (const uint32_t lamp : maps_to_draw_) drawn_[lamp] = true, drawn_version_[lamp] = moving_.version();
+
+    std::vector<std::vector<uint32_t>> placements;
+    placements.reserve(tiles_to_draw_.size());
+    for (const TileToDraw& tile : tiles_to_draw_) {
+        std::vector<uint32_t>& of_tile = placements.emplace_back();
+        for (const auto& [placement, version] : tile.cover.placements) of_tile.push_back(placement);
+        const uint32_t lamp = tile.key.lamp;
+        tiles.push_back({places_[lamp], gpu_scene::map_frame(poses.world[lamps_[lamp].node]), fixtures_[lamp], of_tile,
+                         MapTile{tile.key.second, {tile.key.x, tile.key.y}, tile.cover.saved, tile.save}});
+    }
+    run(tiles);
+    for (const TileToDraw& tile : tiles_to_draw_)
+        if (tile.cover.placements.empty()) {
+            places_.give_tile(tile.cover.saved);
+            covered_.erase(tile.key);
+        }
+    maps_to_draw_.clear(), tiles_to_draw_.clear();
 }
 
 VisibilityMaps DistanceMaps::maps(graph::FrameGraph& graph, const gpu_scene::LampList& list,
                                   const gpu_scene::SceneFrame& poses, const gpu_scene::View& view) const {
-    if (list.placed() == 0 || texels_ == 0) return {};
+    const uint64_t texels = places_.texels();
+    if (list.placed() == 0) return {};
     std::vector<shared::LampMap> lamps;
     for (uint32_t i = 0; i < list.placed(); ++i)
-        lamps.push_back(gpu_scene::lamp_map(layouts_[list.indices[i]],
+        lamps.push_back(gpu_scene::lamp_map(places_[list.indices[i]],
                                             gpu_scene::map_frame(poses.world[lamps_[list.indices[i]].node]), view));
-    return {graph.upload("lamp maps", lamps, VK_FORMAT_R32G32B32A32_SFLOAT),
-            graph.external("distances", distances_.get(), texels_ * 2, VK_FORMAT_R16_SFLOAT),
-            graph.external("bounds", bounds_.get(), texels_ / 8 * sizeof(uint32_t), VK_FORMAT_R16G16_SFLOAT)};
+    return {
+        graph.upload("lamp maps", lamps, VK_FORMAT_R32G32B32A32_SFLOAT),
+        graph.external("distances", distances_.get(), texels * 2, VK_FORMAT_R16_SFLOAT),
+        graph.external("bounds", bounds_.get(), places_.map_texels() / 8 * sizeof(uint32_t), VK_FORMAT_R16G16_SFLOAT)};
 }
 
 }  // namespace vesper::render

@@ -1,50 +1,98 @@
 // Distance maps of a scene's lamps, kept from frame to frame. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
+#include <tuple>
 #include <vector>
 
-#include "gpu/buddy_allocator.h"
 #include "gpu/graphics_pipeline.h"
 #include "gpu/kernel_cache.h"
 #include "gpu_scene/lamp_maps.h"
 #include "graph/executor.h"
+#include "render/map_places.h"
+#include "render/moving_placements.h"
 #include "render/passes/visibility.h"
 
 namespace vesper::render {
 
-/// Owns the maps on the device. Their sizes depend on the view, their contents on the scene alone. Not thread-safe.
+constexpr uint64_t kNoShadowBudget = ~uint64_t{0};
+
+/// What was done to maps before a frame.
+struct MapReport {
+    uint32_t lamps = 0;    ///< with a map
+    uint32_t maps = 0;     ///< drawn anew
+    uint32_t tiles = 0;    ///< drawn anew, beside those of these maps
+    uint32_t carried = 0;  ///< maps and tiles that are out of date: the budget did not reach them
+    uint64_t bytes = 0;    ///< of device memory
+};
+
+/// Owns the maps on the device. A map holds what stands still around its lamp, drawn when its lamp moves or the view
+/// wants another size; and over it, tile by tile, what moves: a placement whose node is animated, said to move by a
+/// frame, or was seen to have moved. A placement does not hide lamps that give less than 1/100 of the light at it while
+/// it moves. Sizes depend on the view, contents on the scene alone. Not thread-safe.
 class DistanceMaps {
 public:
-    static constexpr uint64_t kMostTexels = 48u << 20u;  ///< 96 MiB, and 24 MiB of bounds
-
     DistanceMaps(gpu::Device& device, const gpu_scene::GpuScene& resident,
                  const std::vector<gpu_scene::PlacedLamp>& lamps, const gpu_scene::MapPlan& plan);
 
-    /// Lamps that shine and whose maps are out of date: they, or something in the scene, have moved since they were
-    /// drawn, or the view wants another size. These must be drawn before maps() is used. Throws Error where the maps of
-    /// all lamps do not fit kMostTexels.
-    std::vector<uint32_t> outdated(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses);
-    /// Draws the maps of lamps, while no frame uses any map, and waits. Throws Error.
-    void draw(const std::vector<uint32_t>& lamps, const gpu_scene::SceneFrame& poses);
+    /// Finds what is out of date for a frame. `budget`: of tiles of shared::kRegion texels square that are drawn, maps
+    /// that hold nothing yet apart; what gives the picture most comes first, the rest is counted as carried. Returns
+    /// whether draw() has anything to do. Throws Error where the maps of all lamps do not fit.
+    bool plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses, const gpu_scene::View& view,
+              uint64_t budget);
+    /// Draws what plan() found, while no frame uses any map, and waits. Throws Error.
+    void draw(const gpu_scene::SceneFrame& poses);
     /// The maps of the lamps of a list, for a frame of `view`.
     VisibilityMaps maps(graph::FrameGraph& graph, const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses,
                         const gpu_scene::View& view) const;
 
-    uint64_t bytes() const { return arena_.bytes() + executor_.heap_bytes(); }  ///< of device memory
+    const MapReport& report() const { return report_; }  ///< of the last plan()
 
 private:
-    void place(std::vector<uint32_t> resized, const gpu_scene::LampList& list);
+    struct TileKey {
+        uint32_t lamp;
+        bool second;    // hemisphere
+        uint32_t x, y;  // corner, texels
+        auto operator<=>(const TileKey&) const = default;
+    };
+    /// What is drawn over a tile.
+    struct Cover {
+        std::vector<std::pair<uint32_t, uint64_t>> placements;  // and their versions
+        double worth = 0;
+        uint32_t saved = 0;  // first texel of what it hides
+    };
+    struct TileToDraw {
+        TileKey key;
+        Cover cover;
+        bool save;
+    };
+
+    void make_moves();
+    void forget_still(const std::vector<uint32_t>& placements);
+    bool is_whole(uint32_t lamp) const { return whole_[lamp] || moving_.moves(lamps_[lamp].node); }
+    void drop_tiles(uint32_t lamp);
+    void plan_maps(const gpu_scene::LampList& list, uint64_t& budget);
+    std::map<TileKey, Cover> covers(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses,
+                                    const gpu_scene::View& view) const;
+    void plan_tiles(std::map<TileKey, Cover> wanted, const gpu_scene::LampList& list, uint64_t& budget);
 
     const gpu_scene::GpuScene& resident_;
     const std::vector<gpu_scene::PlacedLamp>& lamps_;
     const std::vector<std::vector<uint32_t>>& fixtures_;
-    std::vector<gpu_scene::MapLayout> layouts_;  // of each lamp; side 0: it has no place
-    uint64_t texels_;                            // of the buffers
-    gpu::BuddyAllocator places_;
+    MapPlaces places_;
+    MovingPlacements moving_;
     gpu::Arena arena_;
     gpu::OwnedBuffer distances_, bounds_;
-    std::vector<glm::dmat4> drawn_world_;  // of nodes, when maps were last drawn
-    std::vector<bool> drawn_;              // of lamps: the map is that of drawn_world_
+    std::vector<bool> drawn_;              // of lamps: the map holds what stands still
+    std::vector<bool> whole_;              // of lamps: the map is drawn as that of one that moves
+    std::vector<uint64_t> drawn_version_;  // of what moves, in maps of lamps that move
+    std::map<TileKey, Cover> covered_;     // tiles that hold more
+    std::vector<uint32_t> maps_to_draw_;   // lamps
+    std::vector<TileToDraw> tiles_to_draw_;
+    std::vector<MapPlaces::Move> moves_;   // to be made before
+    std::map<TileKey, uint32_t> waiting_;  // frames for which tiles have been carried over
+    std::map<uint32_t, uint32_t> waiting_maps_;
+    MapReport report_;
     gpu::KernelCache kernels_;
     gpu::GraphicsPipelineCache pipelines_;
     graph::Executor executor_;

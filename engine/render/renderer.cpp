@@ -66,7 +66,7 @@ Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const Render
     in.tables = {texels("intensity tables", scene_->table_texels), scene_->tables.roads, scene_->tables.roads != 0};
     in.clusters = settings.clusters;
     in.clusters.far = scene_->resident.farthest_depth(poses, view);
-    if (settings.shadows) in.shading.maps = maps_of(graph, in.lamps, poses, view);
+    if (settings.shadows) in.shading.maps = maps_of(graph, in.lamps, poses, view, settings.shadow_budget);
     in.shading.all_lamps = settings.all_lamps;
     if (settings.all_lamps) in.shading.merge_tolerance = -1;
     if (settings.paper_lambert) in.shading.lambert = 1;
@@ -92,11 +92,11 @@ Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const Render
 
 // Maps are drawn while no frame uses them.
 VisibilityMaps Renderer::maps_of(graph::FrameGraph& graph, const gpu_scene::LampList& lamps,
-                                 const gpu_scene::SceneFrame& poses, const gpu_scene::View& view) {
+                                 const gpu_scene::SceneFrame& poses, const gpu_scene::View& view, uint64_t budget) {
     if (!maps_) maps_ = std::make_unique<DistanceMaps>(device_, scene_->resident, scene_->lamps, scene_->maps);
-    if (const std::vector<uint32_t> outdated = maps_->outdated(lamps, poses); !outdated.empty()) {
+    if (maps_->plan(lamps, poses, view, budget)) {
         frames_.wait();
-        maps_->draw(outdated, poses);
+        maps_->draw(poses);
     }
     return maps_->maps(graph, lamps, poses, view);
 }
@@ -136,6 +136,7 @@ void Renderer::submit(const RenderSettings& given, const gpu_scene::View& view, 
     frame.chain = declare(frames_.context(frame.graph, view), poses, inputs, settings, outputs, pending);
     frames_.submit(std::move(frame), inputs.chain, semaphores);
     // Nothing fails from here on.
+    if (settings.shadows) pending.frame.maps = maps_->report();
     pending.frame.lamps = uint32_t(inputs.lamps.lamps.size());
     pending.frame.luminaires = uint32_t(inputs.luminaires.luminaires.size());
     pending.frame.glare_sources = std::move(inputs.luminaires.glare_sources);

@@ -19,9 +19,10 @@
 namespace vesper::render {
 
 struct RenderSettings : ToneChainSettings {
-    bool paper_lambert = false;  ///< L = E R instead of E R / pi
-    bool all_lamps = false;      ///< shade without clusters, for comparison
-    bool shadows = false;        ///< lamps light only what they see
+    bool paper_lambert = false;                ///< L = E R instead of E R / pi
+    bool all_lamps = false;                    ///< shade without clusters, for comparison
+    bool shadows = false;                      ///< lamps light only what they see
+    uint64_t shadow_budget = kNoShadowBudget;  ///< of tiles of distance maps drawn for a frame, see DistanceMaps
     ClusterSettings clusters;
     std::vector<gpu_scene::OffscreenLamp>
         offscreen_lamps;  ///< on other screens: scattered in the eye, not drawn; directions in the view frame
@@ -38,6 +39,7 @@ RenderSettings ldr_baseline(RenderSettings settings);
 struct Frame : ToneMapped {
     shared::ClusterReport clusters{};
     shared::VisibilityReport visibility{};  ///< with shadows
+    MapReport maps;                         ///< with shadows
     uint32_t lamps = 0;                     ///< lamps that shine
     uint32_t luminaires = 0;                ///< of their openings, those in view
     float far = 0;                          ///< m: the far limit of the clusters
@@ -76,7 +78,7 @@ public:
     const gpu_scene::GpuScene& scene() const { return scene_->resident; }
     uint64_t device_bytes() const {
         return scene_->resident.bytes() + scene_->table_arena.bytes() + frames_.executor().heap_bytes() +
-               (maps_ ? maps_->bytes() : 0);
+               (maps_ ? maps_->report().bytes : 0);
     }
 
 private:
@@ -119,7 +121,7 @@ private:
     };
 
     VisibilityMaps maps_of(graph::FrameGraph& graph, const gpu_scene::LampList& lamps,
-                           const gpu_scene::SceneFrame& poses, const gpu_scene::View& view);
+                           const gpu_scene::SceneFrame& poses, const gpu_scene::View& view, uint64_t budget);
     FrameInputs inputs_of(graph::FrameGraph& graph, const RenderSettings& settings, const gpu_scene::View& view,
                           const gpu_scene::SceneFrame& poses, float seconds);
     ToneChain declare(const FrameContext& frame, const gpu_scene::SceneFrame& poses, const FrameInputs& inputs,

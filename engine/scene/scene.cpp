@@ -107,6 +107,18 @@ std::vector<glm::dmat4> placed_transforms(const Scene& scene, double seconds,
     return world;
 }
 
+std::vector<bool> at_and_below(const Scene& scene, std::vector<bool> nodes) {
+    for (uint32_t i = 0; i < scene.nodes.size(); ++i)  // children come after their parents
+        if (scene.nodes[i].parent != kNone && nodes[scene.nodes[i].parent]) nodes[i] = true;
+    return nodes;
+}
+
+std::vector<bool> animated_nodes(const Scene& scene) {
+    std::vector<bool> animated(scene.nodes.size());
+    for (const Channel& channel : scene.channels) animated[channel.node] = true;
+    return at_and_below(scene, std::move(animated));
+}
+
 double animation_length(const Scene& scene) {
     double length = 0;
     for (const Channel& channel : scene.channels)

@@ -14,7 +14,8 @@ layout(location = 3) in vec4 row_x;
 layout(location = 4) in vec4 row_y;
 layout(location = 5) in vec4 row_z;
 layout(location = 6) in vec4 place;
-layout(location = 7) in float y_sign;
+layout(location = 7) in vec4 window;
+layout(location = 8) in float y_sign;
 
 layout(location = 0) out vec2 texture_uv;
 layout(location = 1) out float opacity;
@@ -33,10 +34,10 @@ void main() {
     gl_ClipDistance[0] = x + kHair * norm;
     gl_ClipDistance[1] = y + kHair * norm;
     gl_ClipDistance[2] = q.z + kHair * norm;
-    gl_ClipDistance[3] = norm - square.x;
-    gl_ClipDistance[4] = norm + square.x;
-    gl_ClipDistance[5] = norm - square.y;
-    gl_ClipDistance[6] = norm + square.y;
+    gl_ClipDistance[3] = square.x - window.x * norm;
+    gl_ClipDistance[4] = square.y - window.y * norm;
+    gl_ClipDistance[5] = window.z * norm - square.x;
+    gl_ClipDistance[6] = window.w * norm - square.y;
     texture_uv = uv;
     opacity = colour.a;
 }

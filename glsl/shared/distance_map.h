@@ -3,7 +3,7 @@
 // (u, v) = zoom (o.x + o.y, o.x - o.y), from -1 to 1 over the square. Within a quadrant of x and y this is a
 // perspective projection, so that triangles are drawn as they are. With a zoom above 1 the square holds the middle of the
 // hemisphere alone, for beams. The other hemisphere of a lamp that has it follows, with z mirrored.
-// A texel holds the distance to the first surface along its middle as the norm |x| + |y| + |z|, m; infinite without one.
+// A texel holds the distance to the first surface along its middle as the norm |x| + |y| + |z|, m; kMapFar without one.
 #ifndef VESPER_SHARED_DISTANCE_MAP_H
 #define VESPER_SHARED_DISTANCE_MAP_H
 #include "types.h"
@@ -14,10 +14,13 @@ const uint kMapUnit = 64u;         // maps begin at multiples of that many texel
 const uint kRegion = 64u;          // texels, side of what a workgroup stores; the smallest side of a map
 const uint kGroup = 4u;            // texels, side of a group of the lowest level of bounds
 const uint kBoundLevels = 5u;      // groups of 4, 8, 16, 32 and 64 texels
+const uint kNotSaved = 0x7fffffffu;
+const uint kSaveNow = 0x80000000u; // the texels of the map are to be saved first
 // How far a surface may be off its plane, or a distance off the truth, before it counts as before the surface: kMapBias (m)
 // and, times the distance, half a texel and kMapRounding, what halves take. Nothing nearer than this to a surface shades it.
 const float kMapBias = 0.015625;
 const float kMapRounding = 0.0009765625;
+const float kMapFar = 6e4;            // m: what texels hold where there is nothing
 const float kMapNear = 0.03125;       // m in the norm above: nothing nearer to a lamp is drawn
 
 // The map of a lamp, as a frame sees it.
@@ -34,14 +37,15 @@ SHARED_SIZE(LampMap, 32)
 // side^2 / 12, in a place of side^2 / 8. Each is two halves: the least and the greatest distance, the least negative if
 // the texels, with those around them, are not one smooth surface.
 
-// One square of kRegion texels of a hemisphere that was drawn.
+// One square of kRegion texels of a hemisphere that was drawn. Where only what moves was drawn, over what stands still, the
+// texels without it are saved elsewhere.
 struct MapRegion {
     uint drawn_x, drawn_y;    // its corner in the image, texels
     uint x, y;                // and in the hemisphere, texels
     uint side;                // of the hemisphere, texels
     uint first;               // texel of the hemisphere, in units of kMapUnit
     float zoom;
-    uint unused;
+    uint saved;               // kNotSaved: all was drawn; or the first texel of those saved, in units of kMapUnit, and kSaveNow
 };
 SHARED_SIZE(MapRegion, 32)
 
@@ -51,9 +55,10 @@ struct MapInstance {
     vec4 row_y;
     vec4 row_z;
     vec4 place;        // clip space: scale of (u, v); middle of the square (2); zoom, negative in quadrants of x < 0
+    vec4 window;       // least and greatest (u, v) of what is drawn of the square
     float y_sign;      // of the quadrant
 };
-SHARED_SIZE(MapInstance, 68)
+SHARED_SIZE(MapInstance, 84)
 
 SHARED_END
 #endif

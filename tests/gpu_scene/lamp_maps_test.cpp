@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "passes/distance_map_reference.h"
+#include "support/noise.h"
 
 namespace vesper::test::lamp_maps_test {
 namespace {
@@ -50,6 +51,38 @@ TEST(LampMaps, TheShadersTurnIsThatOfTheFrame) {
     EXPECT_EQ(map.radius, 0.25f);
 }
 
+// Every direction to a sphere falls into one of its tiles; and far from it there are few.
+TEST(LampMaps, TilesHoldAllOfASphere) {
+    Noise noise(3);
+    size_t held = 0, tiles = 0, all = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+        const MapLayout layout{.side = 64u << trial % 4,
+                               .hemispheres = 1,
+                               .zoom = trial % 3 == 0 ? 1.0f : 2.5f,
+                               .range = 100,
+                               .radius = 0,
+                               .first = 0};
+        const auto direction = [&] {
+            return glm::normalize(glm::dvec3(noise.normal(), noise.normal(), noise.normal()));
+        };
+        const glm::dvec3 centre = (1 + 20 * double(noise.fine())) * direction();
+        const double radius = 0.3 + 1.5 * double(noise.fine());
+        std::vector<glm::uvec2> found = gpu_scene::tiles_of(layout, centre, radius);
+        tiles += found.size(), all += layout.side / 64 * (layout.side / 64);
+        for (int k = 0; k < 200; ++k) {
+            const glm::dvec3 p = centre + radius * direction();
+            const glm::dvec2 texel = reference::map_texel(p, layout.side, double(layout.zoom));
+            if (p.z < 0 || glm::any(glm::lessThan(texel, glm::dvec2(0))) ||
+                glm::any(glm::greaterThanEqual(texel, glm::dvec2(layout.side))))
+                continue;
+            ++held;
+            EXPECT_NE(std::ranges::find(found, glm::uvec2(texel) / 64u * 64u), found.end()) << trial;
+        }
+    }
+    EXPECT_GT(held, 10000u);
+    EXPECT_LT(tiles, all / 2);
+}
+
 TEST(LampMaps, SidesFallWithDistanceAndFillTheMemory) {
     std::vector<MapLayout> layouts(200,
                                    {.side = 0, .hemispheres = 1, .zoom = 1, .range = 1000, .radius = 0, .first = 0});
@@ -58,7 +91,8 @@ TEST(LampMaps, SidesFallWithDistanceAndFillTheMemory) {
     std::vector<double> distances;
     for (int i = 0; i < 200; ++i) distances.push_back(5.0 + 5.0 * i);
     for (const uint64_t most : {uint64_t(48) << 20, uint64_t(4) << 20, uint64_t(201) << 12}) {
-        gpu_scene::choose_sides(layouts, distances, most);
+        const double scale = gpu_scene::choose_sides(layouts, distances, 8, most);
+        EXPECT_LE(scale, 8);
         uint64_t texels = 0;
         for (size_t i = 0; i < layouts.size(); ++i) {
             texels += layouts[i].texels();
@@ -70,11 +104,24 @@ TEST(LampMaps, SidesFallWithDistanceAndFillTheMemory) {
             EXPECT_GE(layouts[i].side, 64u);
             EXPECT_LE(layouts[i].side, 2048u);
             EXPECT_TRUE(i <= 10 || layouts[i].side <= layouts[i - 1].side);
+            const double side = std::exp2(scale) * std::sqrt(1000 / distances[i]);
+            EXPECT_GE(double(layouts[i].side), std::min(side / 1.415, 2048.0));
+            EXPECT_LE(double(layouts[i].side), std::max(side * 1.415, 64.0));
         }
         EXPECT_LE(texels, most);
-        EXPECT_GT(4 * texels, most / 2) << "a step of the scale at most doubles a map's side";
+        if (scale < 8) {
+            std::vector<MapLayout> more = layouts;
+            gpu_scene::choose_sides(more, distances, scale + 0.5, ~uint64_t{0});
+            texels = 0;
+            for (const MapLayout& layout : more) texels += layout.texels();
+            EXPECT_GT(texels, most) << "half a step more would not fit";
+        }
     }
-    EXPECT_THROW(gpu_scene::choose_sides(layouts, distances, 199 << 12), Error);
+    EXPECT_THROW(gpu_scene::choose_sides(layouts, distances, 8, 199 << 12), Error);
+    // A beam's map is as much smaller as it holds less of the hemisphere.
+    layouts.resize(2), layouts[0].zoom = 8, distances = {10, 10};
+    gpu_scene::choose_sides(layouts, distances, 6, uint64_t(1) << 20);
+    EXPECT_EQ(layouts[0].side * 8, layouts[1].side);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "passes/distance_map_reference.h"
 
 #include <cmath>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
@@ -21,21 +22,28 @@ struct Drawn {
     std::vector<glm::vec2> bounds;
 };
 
-Drawn draw(PassRig& rig, const scene::Scene& scene, std::span<const render::MapToDraw> maps, uint32_t texels) {
+// `maps` with all placements.
+Drawn draw(PassRig& rig, const scene::Scene& scene, std::span<const render::MapToDraw> given, uint32_t texels) {
     const gpu_scene::GpuScene resident(rig.device(), scene);
+    std::vector<render::MapToDraw> maps(given.begin(), given.end());
+    std::vector<uint32_t> all(resident.placements().size());
+    std::iota(all.begin(), all.end(), 0u);
+    for (render::MapToDraw& map : maps) map.placements = all;
     gpu::Arena arena(rig.device());
     const std::vector<uint32_t> nothing(texels / 2, 0x12341234);
     const auto buffer =
         gpu_scene::upload_buffer(rig.device(), arena, std::as_bytes(std::span(nothing)),
-                                 VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+                                 VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
+                                     VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     const auto more =
         gpu_scene::upload_buffer(rig.device(), arena, std::as_bytes(std::span(nothing).first(texels / 8)),
-                                 VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+                                 VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
+                                     VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     graph::FrameGraph graph;
     const render::MapWords words{graph.lasting("distances", buffer.get(), texels * 2, VK_FORMAT_R32_UINT),
                                  graph.lasting("bounds", more.get(), texels / 2, VK_FORMAT_R32_UINT)};
     render::add_distance_maps(rig.frame(graph, VkExtent2D{1, 1}), resident,
-                              {scene::world_transforms(scene, 0), {}, {}, {}}, maps, words);
+                              {scene::world_transforms(scene, 0), {}, {}, {}, {}}, maps, words);
     const graph::Resource distances = PassRig::want<uint32_t>(graph, words.distances, texels / 2),
                           bounds = PassRig::want<uint32_t>(graph, words.bounds, texels / 8);
     rig.run(graph);
@@ -108,13 +116,16 @@ TEST(DistanceMap, HoldsTheFirstSurfaceAlongEachRay) {
     const render::MapToDraw maps[] = {
         {{.side = 64, .hemispheres = 2, .zoom = 1, .range = 100, .radius = 0, .first = 0},
          gpu_scene::map_frame(tilted),
+         {},
          {}},
         {{.side = 128, .hemispheres = 1, .zoom = 3, .range = 100, .radius = 0, .first = 8192},
          gpu_scene::map_frame(tilted),
+         {},
          {}},
         {{.side = 64, .hemispheres = 2, .zoom = 1, .range = 100, .radius = 0, .first = 8192 + 16384},
          gpu_scene::map_frame(glm::translate(glm::dmat4(1), glm::dvec3(0.5, 1.9, 0.3))),
-         own}};
+         own,
+         {}}};
     const Drawn drawn = draw(rig, s.scene(), maps, 8192 + 16384 + 8192);
     for (const render::MapToDraw& map : maps)
         for (uint32_t h = 0; h < map.layout.hemispheres; ++h) {
@@ -160,6 +171,7 @@ TEST(DistanceMap, ManyMapsTakeSeveralImages) {
         const uint32_t side = i % 3 == 0 ? 512u : 64u << i % 3u;
         maps.push_back({{.side = side, .hemispheres = 1, .zoom = 1, .range = 100, .radius = 0, .first = first},
                         gpu_scene::map_frame(glm::dmat4(1)),
+                        {},
                         {}});
         first += side * side;
     }
@@ -187,6 +199,7 @@ TEST(DistanceMap, MasksLetLightThrough) {
     m.base_colour_texture = {.image = 0, .wrap_u = scene::Wrap::Clamp, .wrap_v = scene::Wrap::Clamp, .nearest = true};
     const render::MapToDraw map{{.side = 64, .hemispheres = 1, .zoom = 1, .range = 100, .radius = 0, .first = 0},
                                 gpu_scene::map_frame(glm::dmat4(1)),
+                                {},
                                 {}};
     const Drawn drawn = draw(rig, s.scene(), {&map, 1}, 4096);
     const auto at = [&](glm::dvec3 p) {

@@ -9,6 +9,7 @@
 #include "shaders/distance_map/bound_distances.comp.inc"
 #include "shaders/distance_map/distance_map.frag.inc"
 #include "shaders/distance_map/distance_map.vert.inc"
+#include "shaders/distance_map/find_edges.comp.inc"
 #include "shaders/distance_map/store_distances.comp.inc"
 
 namespace vesper::render {
@@ -17,7 +18,7 @@ namespace {
 using gpu_scene::GpuScene;
 using graph::sample, graph::update;
 
-constexpr gpu::Shader kStore{"store_distances.comp", store_distances_comp},
+constexpr gpu::Shader kStore{"store_distances.comp", store_distances_comp}, kEdges{"find_edges.comp", find_edges_comp},
     kBound{"bound_distances.comp", bound_distances_comp};
 
 struct MaskPush {
@@ -36,18 +37,28 @@ constexpr VkVertexInputAttributeDescription kMapAttributes[]{
     {4, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, row_y)},
     {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, row_z)},
     {6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, place)},
-    {7, 1, VK_FORMAT_R32_SFLOAT, offsetof(shared::MapInstance, y_sign)}};
+    {7, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, window)},
+    {8, 1, VK_FORMAT_R32_SFLOAT, offsetof(shared::MapInstance, y_sign)}};
 constexpr gpu::GraphicsShaders kMapShaders{"distance_map.frag", distance_map_vert, distance_map_frag,
                                            kMapTextures,        sizeof(MaskPush),  VK_SHADER_STAGE_FRAGMENT_BIT,
                                            kMapBuffers,         kMapAttributes};
 
-constexpr uint32_t kDrawnSide = 2048;  // texels, of the image that several hemispheres are drawn into
+constexpr uint32_t kDrawnSide = 2048;  // texels, at most, of an image that several squares are drawn into
 
-// A hemisphere of a map, and its corner in the image.
-struct Hemisphere {
+// A hemisphere of a map or a tile of one, and its corner in the image.
+struct Square {
     const MapToDraw* map;
-    bool second;
-    glm::uvec2 corner;
+    bool second;        // hemisphere
+    glm::uvec2 corner;  // in the hemisphere, texels
+    uint32_t side;      // texels
+    glm::uvec2 place{0};
+
+    uint32_t regions() const { return side / shared::kRegion * (side / shared::kRegion); }
+};
+
+struct DrawnImage {
+    uint32_t side = shared::kRegion;  // texels
+    std::vector<Square> squares;
 };
 
 // The place of the n-th region along a curve that fills squares of powers of two one after another (Morton 1966).
@@ -57,21 +68,32 @@ glm::uvec2 region_place(uint32_t n) {
     return place * shared::kRegion;
 }
 
-// Hemispheres image by image, the largest first, so that each finds a square.
-std::vector<std::vector<Hemisphere>> fill_images(std::span<const MapToDraw> maps) {
-    std::vector<Hemisphere> all;
+std::vector<Square> squares_of(std::span<const MapToDraw> maps) {
+    std::vector<Square> all;
     for (const MapToDraw& map : maps)
-        for (uint32_t h = 0; h < map.layout.hemispheres && map.layout.side > 0; ++h) all.push_back({&map, h == 1, {}});
-    std::ranges::stable_sort(all, std::greater(), [](const Hemisphere& h) { return h.map->layout.side; });
+        if (map.tile) {
+            all.push_back({&map, map.tile->second, map.tile->corner, shared::kRegion});
+        } else {
+            for (uint32_t h = 0; h < map.layout.hemispheres && map.layout.side > 0; ++h)
+                all.push_back({&map, h == 1, glm::uvec2(0), map.layout.side});
+        }
+    return all;
+}
+
+// Squares image by image, the largest first, so that each finds a place.
+std::vector<DrawnImage> fill_images(std::span<const MapToDraw> maps) {
+    std::vector<Square> all = squares_of(maps);
+    std::ranges::stable_sort(all, std::greater(), &Square::side);
     constexpr uint32_t kRegions = kDrawnSide / shared::kRegion * (kDrawnSide / shared::kRegion);
-    std::vector<std::vector<Hemisphere>> images;
+    std::vector<DrawnImage> images;
     uint32_t filled = kRegions;
-    for (Hemisphere& h : all) {
-        const uint32_t row = h.map->layout.side / shared::kRegion;
-        if (filled + row * row > kRegions) images.emplace_back(), filled = 0;
-        h.corner = region_place(filled);
-        filled += row * row;
-        images.back().push_back(h);
+    for (Square& square : all) {
+        if (filled + square.regions() > kRegions) images.emplace_back(), filled = 0;
+        square.place = region_place(filled);
+        filled += square.regions();
+        DrawnImage& image = images.back();
+        while (image.side / shared::kRegion * (image.side / shared::kRegion) < filled) image.side *= 2;
+        image.squares.push_back(square);
     }
     return images;
 }
@@ -81,11 +103,12 @@ struct MapPart {
     shared::MapInstance instance;
 };
 
-// What stands where a hemisphere sees it.
+// What stands where a square sees it.
 class Collector {
 public:
     Collector(const GpuScene& scene, const gpu_scene::SceneFrame& poses) : scene_(scene), poses_(poses) {
         for (const GpuScene::Placement& placement : scene.placements()) {
+            first_sphere_.push_back(uint32_t(spheres_.size()));
             const glm::dmat4& m = poses.world[placement.node];
             for (uint32_t i = placement.first_part; i < placement.first_part + placement.part_count; ++i) {
                 const GpuScene::Part& part = scene.parts()[i];
@@ -95,23 +118,21 @@ public:
         }
     }
 
-    void collect(const Hemisphere& h, std::vector<MapPart>& drawn) const {
-        const gpu_scene::MapLayout& layout = h.map->layout;
-        const gpu_scene::MapFrame& frame = h.map->frame;
-        const glm::dvec3 mirror(1, 1, h.second ? -1 : 1);
+    void collect(const Square& square, uint32_t image_side, std::vector<MapPart>& drawn) const {
+        const gpu_scene::MapLayout& layout = square.map->layout;
+        const gpu_scene::MapFrame& frame = square.map->frame;
+        const glm::dvec3 mirror(1, 1, square.second ? -1 : 1);
         const double texel = 2.0 / (double(layout.side) * double(layout.zoom));  // rad, about
-        size_t sphere = 0;
-        for (uint32_t p = 0; p < scene_.placements().size(); ++p) {
+        for (const uint32_t p : square.map->placements) {
+            if (std::ranges::binary_search(square.map->fixture, p)) continue;
             const GpuScene::Placement& placement = scene_.placements()[p];
-            const bool own = std::ranges::binary_search(h.map->fixture, p);
             glm::dmat4 to_map(0);
             bool known = false;
             for (uint32_t i = 0; i < placement.part_count; ++i) {
-                const auto& [centre, radius] = spheres_[sphere++];
+                const auto& [centre, radius] = spheres_[first_sphere_[p] + i];
                 const GpuScene::Part& part = scene_.parts()[placement.first_part + i];
                 const double away = glm::distance(centre, frame.position);
-                if (own || part.index_count == 0 || away - radius > double(layout.range) ||
-                    radius < 0.25 * texel * away)
+                if (part.index_count == 0 || away - radius > double(layout.range) || radius < 0.25 * texel * away)
                     continue;
                 const glm::dvec3 c = mirror * (frame.rotation * (centre - frame.position));
                 if (c.z + radius < 0) continue;
@@ -121,7 +142,7 @@ public:
                     to_map = glm::dmat4(frame.rotation) * world;
                     known = true;
                 }
-                add_quadrants(h, placement.first_part + i, c, radius, glm::mat4(to_map), glm::vec3(mirror), drawn);
+                add_quadrants(square, image_side, placement.first_part + i, {c, radius}, glm::mat4(to_map), drawn);
             }
         }
     }
@@ -132,35 +153,33 @@ private:
         double radius;      // m
     };
 
-    static void add_quadrants(const Hemisphere& h, uint32_t part, glm::dvec3 c, double radius, const glm::mat4& to_map,
-                              glm::vec3 mirror, std::vector<MapPart>& drawn) {
-        const gpu_scene::MapLayout& layout = h.map->layout;
-        const double zoom = double(layout.zoom);
-        const float scale = float(layout.side) / float(kDrawnSide);
-        const glm::vec2 middle = (glm::vec2(h.corner) + 0.5f * float(layout.side)) * (2.0f / float(kDrawnSide)) - 1.0f;
+    static void add_quadrants(const Square& square, uint32_t image_side, uint32_t part, const WorldSphere& sphere,
+                              const glm::mat4& to_map, std::vector<MapPart>& drawn) {
+        const gpu_scene::MapLayout& layout = square.map->layout;
+        const double zoom = double(layout.zoom), per_texel = 2.0 / double(layout.side);
+        const glm::dvec2 low = per_texel * glm::dvec2(square.corner) - 1.0;
+        const gpu_scene::MapWindow window{zoom, low, low + per_texel * double(square.side)};
+        const float image = float(image_side), scale = float(layout.side) / image;
+        const glm::vec2 corner = glm::vec2(square.place) - glm::vec2(square.corner);
+        const glm::vec2 middle = (corner + 0.5f * float(layout.side)) * (2.0f / image) - 1.0f;
         const glm::mat4 rows = glm::transpose(to_map);
         for (const double sx : {1.0, -1.0})
             for (const double sy : {1.0, -1.0}) {
-                // The planes of the quadrant, and those of the square where that is a part of the hemisphere.
-                const auto outside = [&](glm::dvec3 inward) {
-                    return glm::dot(inward, c) < -radius * glm::length(inward);
-                };
-                const glm::dvec3 norm(sx, sy, 1), u(zoom, zoom, 0), v(zoom, -zoom, 0);
-                if (outside({sx, 0, 0}) || outside({0, sy, 0}) || outside(norm - u) || outside(norm + u) ||
-                    outside(norm - v) || outside(norm + v))
-                    continue;
+                if (!gpu_scene::may_see(window, {sx, sy}, sphere.centre, sphere.radius)) continue;
                 drawn.push_back({part,
                                  {.row_x = rows[0],
                                   .row_y = rows[1],
-                                  .row_z = rows[2] * mirror.z,
+                                  .row_z = square.second ? -rows[2] : rows[2],
                                   .place = glm::vec4(scale, middle, float(sx * zoom)),
+                                  .window = glm::vec4(window.low, window.high),
                                   .y_sign = float(sy)}});
             }
     }
 
     const GpuScene& scene_;
     const gpu_scene::SceneFrame& poses_;
-    std::vector<WorldSphere> spheres_;  // of parts, placement by placement
+    std::vector<WorldSphere> spheres_;    // of parts, placement by placement
+    std::vector<uint32_t> first_sphere_;  // of placements
 };
 
 // Instances of one part, drawn at once.
@@ -206,16 +225,47 @@ void record_maps(const graph::Recording& recording, const gpu::Device& device,
     }
 }
 
-std::vector<shared::MapRegion> regions_of(const std::vector<Hemisphere>& image) {
+uint32_t saved_word(const std::optional<MapTile>& tile) {
+    if (!tile) return shared::kNotSaved;
+    return tile->saved / shared::kMapUnit | (tile->save ? shared::kSaveNow : 0u);
+}
+
+std::vector<shared::MapRegion> regions_of(const std::vector<Square>& squares) {
     std::vector<shared::MapRegion> regions;
-    for (const Hemisphere& h : image) {
-        const gpu_scene::MapLayout& layout = h.map->layout;
-        const uint32_t first = (layout.first + (h.second ? layout.side * layout.side : 0)) / shared::kMapUnit;
-        for (uint32_t y = 0; y < layout.side; y += shared::kRegion)
-            for (uint32_t x = 0; x < layout.side; x += shared::kRegion)
-                regions.push_back({h.corner.x + x, h.corner.y + y, x, y, layout.side, first, layout.zoom, 0});
+    for (const Square& square : squares) {
+        const gpu_scene::MapLayout& layout = square.map->layout;
+        const uint32_t first = (layout.first + (square.second ? layout.side * layout.side : 0)) / shared::kMapUnit;
+        for (uint32_t y = 0; y < square.side; y += shared::kRegion)
+            for (uint32_t x = 0; x < square.side; x += shared::kRegion)
+                regions.push_back({square.place.x + x, square.place.y + y, square.corner.x + x, square.corner.y + y,
+                                   layout.side, first, layout.zoom, saved_word(square.map->tile)});
     }
     return regions;
+}
+
+// What is drawn into an image, part by part.
+struct DrawnParts {
+    std::vector<shared::MapInstance> instances;
+    std::vector<MapBatch> batches;
+    uint64_t triangles = 0;
+};
+
+DrawnParts parts_of(const Collector& collector, const GpuScene& scene, const DrawnImage& image) {
+    std::vector<MapPart> drawn;
+    for (const Square& square : image.squares) collector.collect(square, image.side, drawn);
+    std::ranges::stable_sort(drawn, {}, [&](const MapPart& d) {
+        const uint32_t material = scene.parts()[d.part].material;
+        return std::tuple(scene.surfaces()[material].material.alpha, material, d.part);
+    });
+    DrawnParts parts;
+    for (const MapPart& d : drawn) {
+        if (parts.batches.empty() || parts.batches.back().part != d.part)
+            parts.batches.push_back({d.part, uint32_t(parts.instances.size()), 0});
+        ++parts.batches.back().instance_count;
+        parts.instances.push_back(d.instance);
+        parts.triangles += scene.parts()[d.part].index_count / 3;
+    }
+    return parts;
 }
 
 }  // namespace
@@ -226,39 +276,28 @@ uint64_t add_distance_maps(const FrameContext& frame, const GpuScene& scene, con
     const Collector collector(scene, poses);
     uint64_t triangles = 0;
     uint32_t number = 0;
-    for (const std::vector<Hemisphere>& image : fill_images(maps)) {
+    for (const DrawnImage& image : fill_images(maps)) {
         const std::string which = " " + std::to_string(number++);
-        std::vector<MapPart> drawn;
-        for (const Hemisphere& h : image) collector.collect(h, drawn);
-        std::ranges::stable_sort(drawn, {}, [&](const MapPart& d) {
-            const uint32_t material = scene.parts()[d.part].material;
-            return std::tuple(scene.surfaces()[material].material.alpha, material, d.part);
-        });
-        std::vector<shared::MapInstance> instances;
-        std::vector<MapBatch> batches;
-        for (const MapPart& d : drawn) {
-            if (batches.empty() || batches.back().part != d.part)
-                batches.push_back({d.part, uint32_t(instances.size()), 0});
-            ++batches.back().instance_count;
-            instances.push_back(d.instance);
-            triangles += scene.parts()[d.part].index_count / 3;
-        }
-        if (instances.empty()) instances.emplace_back();  // an upload is never empty
+        DrawnParts parts = parts_of(collector, scene, image);
+        triangles += parts.triangles;
+        if (parts.instances.empty()) parts.instances.emplace_back();  // an upload is never empty
 
-        const graph::Resource placed = graph.upload("map instances" + which, instances);
+        const graph::Resource placed = graph.upload("map instances" + which, parts.instances);
         const graph::Resource depth =
-            graph.transient("drawn maps" + which, graph::image_shape(kDepthFormat, {kDrawnSide, kDrawnSide}));
+            graph.transient("drawn maps" + which, graph::image_shape(kDepthFormat, {image.side, image.side}));
         graph.raster("distance maps" + which, {{placed, graph::Access::Vertices}, {depth, graph::Access::DepthTarget}},
                      [&device = frame.kernels.device(), &pipelines = frame.pipelines, &scene, placed,
-                      batches = std::move(batches)](const graph::Recording& recording) {
+                      batches = std::move(parts.batches)](const graph::Recording& recording) {
                          if (!batches.empty()) record_maps(recording, device, pipelines, scene, placed, batches);
                      });
 
-        const std::vector<shared::MapRegion> regions = regions_of(image);
+        const std::vector<shared::MapRegion> regions = regions_of(image.squares);
+        const graph::Groups each{uint32_t(regions.size()), 1, 1};
         const graph::Resource list = graph.upload("map regions" + which, regions, VK_FORMAT_R32G32B32A32_UINT);
         graph.dispatch("store distances" + which, frame.kernels.get(kStore),
-                       {sample(depth), sample(list), update(words.distances), update(words.bounds)},
-                       graph::Groups{uint32_t(regions.size()), 1, 1});
+                       {sample(depth), sample(list), update(words.distances)}, each);
+        graph.dispatch("find edges" + which, frame.kernels.get(kEdges),
+                       {sample(list), sample(words.distances), update(words.bounds)}, each);
         const gpu::Kernel& bound = frame.kernels.get(kBound);
         graph.dispatch("bound distances" + which, bound, {sample(list), update(words.bounds)}, uint32_t(regions.size()),
                        graph::cover(uint32_t(regions.size()), 1, bound.group[0], 1));

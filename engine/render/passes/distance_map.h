@@ -1,7 +1,7 @@
 // Distance maps of lamps, drawn. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
+#include <optional>
 #include <span>
 
 #include "gpu_scene/lamp_maps.h"
@@ -9,11 +9,21 @@
 
 namespace vesper::render {
 
+/// One tile of a hemisphere of a map: shared::kRegion texels square.
+struct MapTile {
+    bool second = false;   ///< hemisphere
+    glm::uvec2 corner{0};  ///< texels
+    uint32_t saved = 0;    ///< first of the texels without what is drawn, of all maps; a multiple of kMapUnit
+    bool save = false;     ///< they are to be saved there first
+};
+
 /// The map of a lamp that is to be drawn.
 struct MapToDraw {
     gpu_scene::MapLayout layout;
     gpu_scene::MapFrame frame;
-    std::span<const uint32_t> fixture;  ///< placements that do not hide the lamp, ascending
+    std::span<const uint32_t> fixture;     ///< placements that do not hide the lamp, ascending
+    std::span<const uint32_t> placements;  ///< what else is drawn
+    std::optional<MapTile> tile{};         ///< into this tile, over what it saved; without: into an empty map
 };
 
 /// Texels of all maps and their bounds (shared/distance_map.h), r32ui: two halves a word.
@@ -21,7 +31,7 @@ struct MapWords {
     graph::Resource distances, bounds;
 };
 
-/// Draws what stands around lamps, at the poses of `poses`, into their maps and finds the bounds of these. Surfaces
+/// Draws placements around lamps, at the poses of `poses`, into their maps and finds the bounds of these. Surfaces
 /// hide a lamp from both sides; masked ones where they are drawn. Parts smaller than half a texel, and what is farther
 /// than the range of a map, are left out. Distances are rounded to halves, 0.1 %. Returns the number of triangles
 /// drawn.

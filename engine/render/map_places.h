@@ -1,0 +1,53 @@
+// Sides and places of the distance maps of lamps in one buffer of texels. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "gpu/buddy_allocator.h"
+#include "gpu_scene/lamp_maps.h"
+
+namespace vesper::render {
+
+/// Gives maps their sides as a view needs them, and places; and single tiles (shared::kRegion texels square) beside.
+class MapPlaces {
+public:
+    static constexpr uint32_t kTiles = 1280;                                 ///< 10 MiB
+    static constexpr uint32_t kTileTexels = shared::kRegion * shared::kRegion;
+
+    /// `scale`: of sides, see gpu_scene::choose_sides.
+    MapPlaces(std::vector<gpu_scene::MapLayout> layouts, double scale);
+
+    const gpu_scene::MapLayout& operator[](uint32_t lamp) const { return layouts_[lamp]; }
+    uint64_t texels() const { return texels_ + uint64_t(kTiles) * kTileTexels; }  ///< of the buffer
+    uint64_t map_texels() const { return texels_; }  ///< those of maps come first
+
+    struct Move {
+        uint32_t from, to, texels;  ///< first texels, and how many
+    };
+    struct Change {
+        std::vector<uint32_t> lamps;  ///< whose maps have another side, and hold nothing
+        std::vector<Move> moves;      ///< of other maps, to be made all at once
+    };
+    /// Fits the sides of the maps of a list to its view. `most_texels`: of maps that may change their side, beside those
+    /// that have none yet; then maps within a factor of two keep theirs. Throws Error where the maps of all lamps do not
+    /// fit gpu_scene::kMostMapTexels.
+    Change fit(const gpu_scene::LampList& list, uint64_t most_texels);
+
+    /// First texel of a free tile; nothing if there is none.
+    std::optional<uint32_t> take_tile();
+    void give_tile(uint32_t first) { free_tiles_.push_back(first); }
+
+private:
+    bool place(std::vector<uint32_t> lamps);
+    Change place_all(const gpu_scene::LampList& list, const std::vector<gpu_scene::MapLayout>& wanted,
+                     std::vector<uint32_t> changed);
+
+    std::vector<gpu_scene::MapLayout> layouts_;  // of each lamp; side 0: it has no place
+    double scale_;
+    uint64_t texels_;  // of maps; tiles follow
+    gpu::BuddyAllocator places_;
+    std::vector<uint32_t> free_tiles_;  // first texels, the next one last
+};
+
+}  // namespace vesper::render

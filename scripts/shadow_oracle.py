@@ -6,6 +6,7 @@ themselves, no ambient light, so that a pixel holds lx. Lamps of less than the t
 
   pixels           the surface that they see is the same for both (unoccluded light within 1 %); the others are left out
   within 5 %       share of pixels whose light differs from the traced light by at most that
+  past contacts    of traced light that nothing nearer than --contact to a surface hides, as distance maps promise
   leaks, lost      light that should not be there, and light that is missing, over all traced light
   pairs            of a pixel and a lamp, of lamps that have a colour channel of a picture for themselves
   near an edge     rays to places up to so many texels of the lamp's map around it disagree
@@ -142,12 +143,17 @@ class Oracle:
         table.add(f"pixels of {BRIGHT} lx and more", camera, bright.sum(), "{}")
         table.add("within 5 %: all lit", camera, 100 * (error <= 0.05).mean(), "{:.2f} %")
         table.add(f"within 5 %: {BRIGHT} lx and more", camera, 100 * (error[bright] <= 0.05).mean() if bright.any() else np.nan, "{:.2f} %")
+        if self.a.contact > 0:
+            share = tracing.visible_share(self.rays, seen, points, lit, self.a.opening_samples, self.noise, self.a.contact)
+            past = np.bincount(points, light * share, n)[some]
+            close = np.abs(got - past) <= 0.05 * past
+            table.add("  past contacts: all lit", camera, 100 * close.mean(), "{:.2f} %")
+            table.add(f"  past contacts: {BRIGHT} lx and more", camera, 100 * close[bright].mean() if bright.any() else np.nan, "{:.2f} %")
         table.add("light / traced light", camera, got.sum() / truth.sum(), "{:.4f}")
         table.add("light that leaks", camera, 100 * np.maximum(got - truth, 0).sum() / truth.sum(), "{:.2f} %")
         table.add("light that is lost", camera, 100 * np.maximum(truth - got, 0).sum() / truth.sum(), "{:.2f} %")
         for p in (50, 75, 90, 95, 99):
             table.add(f"error, percentile {p}", camera, 100 * np.quantile(error, p / 100), "{:.2f} %")
-        return np.flatnonzero(some), truth
 
     def compare_pairs(self, table, camera, seen, pairs):
         """Lamps take turns: one has the red of a picture, one the green, all others the blue; so all are there, with the maps
@@ -179,7 +185,7 @@ class Oracle:
         table.add(f"pairs near an edge ({EDGE_TEXELS} texels)", camera, 100 * near.mean(), "{:.2f} %")
         table.add("pairs that agree, the others", camera, 100 * agree[~near].mean(), "{:.2f} %")
 
-    def compare_radiance(self, table, camera, on, seen, off):
+    def compare_radiance(self, table, camera, on, seen):
         some = self.noise.permutation(len(seen["depth"]))[:self.a.radiance]
         few = tracing.select(seen, np.sort(some))
         n = len(some)
@@ -211,7 +217,7 @@ class Oracle:
             more, more_pairs, _ = self.surfaces(camera, MORE_PIXELS * self.a.points, off)
             self.compare_pairs(table, camera, more, more_pairs)
         if self.radiance:
-            self.compare_radiance(table, camera, on, seen, off)
+            self.compare_radiance(table, camera, on, seen)
         whole = time.perf_counter() - began
         table.add("seconds: vesper", camera, self.render_seconds, "{:.1f}")
         table.add("seconds: oracle", camera, whole - self.render_seconds, "{:.1f}")
@@ -227,6 +233,7 @@ def parse():
     parser.add_argument("--pairs", type=int, default=20000, help="pairs for each camera, at most (%(default)s)")
     parser.add_argument("--lamps", type=int, default=12, help="lamps that the pairs are of; 0: no pairs (%(default)s)")
     parser.add_argument("--opening-samples", type=int, default=0, metavar="N", help="rays to points on a disc of the opening's area; 0: lamps are points (%(default)s)")
+    parser.add_argument("--contact", type=float, default=0.016, metavar="M", help="for a second comparison: nothing nearer to a surface hides a lamp, m; 0: no such rows (%(default)s)")
     parser.add_argument("--radiance", type=int, default=0, metavar="N", help="pixels for which Radiance computes the light, too (%(default)s)")
     parser.add_argument("--threshold", type=float, default=0.001, help="illuminance below which a lamp counts as dark, lx (%(default)s)")
     parser.add_argument("--seed", type=int, default=1, help="of the choice of pixels and lamps (%(default)s)")
@@ -239,8 +246,10 @@ def parse():
     if not size or not all(8 <= int(s) <= 16384 for s in size.groups()):
         parser.error(f"--size {a.size}: WIDTHxHEIGHT is wanted, 8 to 16384 px")
     a.size = tuple(map(int, size.groups()))
-    if a.points < 1 or a.pairs < 1 or min(a.lamps, a.opening_samples, a.radiance) < 0 or not a.threshold > 0:
-        parser.error("--points, --pairs and --threshold must be positive; --lamps, --opening-samples and --radiance not negative")
+    if a.points < 1 or a.pairs < 1 or not a.threshold > 0:
+        parser.error("--points, --pairs and --threshold must be positive")
+    if min(a.lamps, a.opening_samples, a.radiance, a.contact) < 0:
+        parser.error("--lamps, --opening-samples, --radiance and --contact must not be negative")
     a.camera = a.camera or ["driver", "pedestrian", "crossing", "overview"]
     return a
 

@@ -132,10 +132,13 @@ def disc(lamps, k, position, turn, sample, count):
     return lamps["place"][k] + radius[:, None] * (np.cos(angle)[:, None] * across + np.sin(angle)[:, None] * np.cross(facing, across))
 
 
-def visible_share(rays, surfaces, points, lit, samples=0, noise=None):
-    """Share of each lamp that a surface sees: 0 or 1 of lamps as points (samples = 0), else of points on their openings."""
+def visible_share(rays, surfaces, points, lit, samples=0, noise=None, contact=0):
+    """Share of each lamp that a surface sees: 0 or 1 of lamps as points (samples = 0), else of points on their openings.
+    Nothing nearer than `contact`, m, along the ray to the lamp hides it."""
     lamps = rays.scene.lamps
     origin = surfaces["position"][points] + OFF_SURFACE * surfaces["flat"][points]
+    if contact > 0:
+        origin = origin + contact * unit(lamps["place"][lit] - origin)
     if samples == 0:
         return 1.0 - rays.blocked(origin, lamps["place"][lit], lit)[0]
     turn = noise.uniform(0, 2 * np.pi, len(points))

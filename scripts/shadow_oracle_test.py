@@ -8,6 +8,7 @@ import struct
 import numpy as np
 from PIL import Image
 
+import shadow_oracle_radiance
 import shadow_oracle_rays as tracing
 from shadow_oracle_scene import LUMINANCE, BadInput, Scene
 
@@ -128,21 +129,27 @@ def check_plate(checks, folder, noise):
     checks.check("distance to an edge in texels", near[apart < 1].all() and not near[apart > 4].any(), f"{near[apart < 1].mean():.3f}, {near[apart > 4].mean():.3f}")
 
 
+def masked_plate(filtering):
+    """A plate whose texture is opaque for u > 1/2, 4 m below a lamp."""
+    made = Made()
+    alpha = np.zeros((8, 8, 4), np.uint8)
+    alpha[:, 4:, 3] = 255
+    png = io.BytesIO()
+    Image.fromarray(alpha).save(png, "PNG")
+    made.json |= {"images": [{"uri": "data:image/png;base64," + base64.b64encode(png.getvalue()).decode()}], "textures": [{"source": 0, "sampler": 0}],
+                  "samplers": [{"magFilter": filtering, "wrapS": 33071, "wrapT": 33071}]}
+    made.json["materials"].append({"alphaMode": "MASK", "alphaCutoff": 0.5, "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})
+    made.plate([0, 2, 0], 1, 0.6, material=1)
+    made.lamp([0, 6, 0])
+    return made
+
+
 def check_mask(checks, folder, noise):
-    """A plate whose texture is opaque for u > 1/2: a shadow from x = 0 to 1.5 m. Texels are nearest, then linear."""
-    for filtering, edge in ((9728, 0.0), (9729, 0.0)):
-        made = Made()
-        alpha = np.zeros((8, 8, 4), np.uint8)
-        alpha[:, 4:, 3] = 255
-        png = io.BytesIO()
-        Image.fromarray(alpha).save(png, "PNG")
-        made.json |= {"images": [{"uri": "data:image/png;base64," + base64.b64encode(png.getvalue()).decode()}], "textures": [{"source": 0, "sampler": 0}],
-                      "samplers": [{"magFilter": filtering, "wrapS": 33071, "wrapT": 33071}]}
-        made.json["materials"].append({"alphaMode": "MASK", "alphaCutoff": 0.5, "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}})
-        made.plate([0, 2, 0], 1, 0.6, material=1)
-        made.lamp([0, 6, 0])
+    """A shadow from x = 0 to 1.5 m, with texels as they are and between them."""
+    for filtering in (9728, 9729):
+        made = masked_plate(filtering)
         s = ground(noise)
-        inside = np.minimum.reduce([s["position"][:, 0] - edge, 1.5 - s["position"][:, 0], 0.9 - np.abs(s["position"][:, 2])])
+        inside = np.minimum.reduce([s["position"][:, 0], 1.5 - s["position"][:, 0], 0.9 - np.abs(s["position"][:, 2])])
         certain = np.abs(inside) > 2e-3
         scene = made.scene(folder)
         seen = seen_from(scene, s)
@@ -198,6 +205,25 @@ def check_opening(checks, folder, noise):
     checks.check("share of an opening behind an edge", off.max() < 0.03 and abs((seen - want).mean()) < 1e-3, f"{off.max():.4f}, mean {(seen - want).mean():.5f}")
 
 
+def check_radiance(checks, folder, noise):
+    """Radiance on a plate, a masked plate, and a shade over which its lamp stands; a second lamp sees the shade from above."""
+    plate = Made()
+    plate.plate([0, 2, 0], 1, 0.6)
+    plate.lamp([0, 6, 0], spot={"innerConeAngle": 0.2, "outerConeAngle": 0.7})
+    shade = Made()
+    post = shade.node({"translation": [0, 5, 0]})
+    shade.plate([0, 0, 0], 1, 1, parent=post)
+    shade.lamp([0, 1, 0], parent=post)
+    shade.lamp([3, 8, 0])
+    for what, made in (("plate", plate), ("masked plate", masked_plate(9729)), ("shade of one of two lamps", shade)):
+        scene, s = made.scene(folder), ground(noise, 1000)
+        points, lit, light = tracing.pairs_of(scene.lamps, s, 1e-9)
+        want = np.bincount(points, light * tracing.visible_share(tracing.Rays(scene), s, points, lit), 1000)
+        got = shadow_oracle_radiance.Radiance(scene, folder).illuminance(s["position"] + [0, tracing.OFF_SURFACE, 0], s["normal"])
+        same = np.abs(got - want) <= 1e-3 * want.max()
+        checks.check(f"Radiance: {what}", same.mean() > 0.99, f"{same.mean():.4f} agree")
+
+
 def check_refusals(checks, folder):
     for what, change in (("a required extension", {"extensionsRequired": ["KHR_draco_mesh_compression"]}), ("measured lamps", {"extensionsUsed": ["EXT_lights_ies"]})):
         made = Made()
@@ -217,5 +243,6 @@ def main(folder):
     check_fixture(checks, folder, noise)
     check_motion(checks, folder, noise)
     check_opening(checks, folder, noise)
+    check_radiance(checks, folder, noise)
     check_refusals(checks, folder)
     return 1 if checks.failed else 0

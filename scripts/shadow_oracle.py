@@ -164,6 +164,8 @@ class Oracle:
         known = np.flatnonzero(per_lamp >= min(FEWEST_PAIRS, per_lamp.max()))
         chosen = self.noise.choice(known, min(self.a.lamps, len(known)), replace=False)
         maps = tracing.Maps(lamps, seen["eye"])
+        wanted = np.zeros(len(lit), bool)
+        wanted[self.noise.permutation(np.flatnonzero(np.isin(lit, chosen) & (light >= 1.02 * self.a.threshold)))[:self.a.pairs]] = True
         agree, near = [], []
         for k in range(0, len(chosen), 2):
             colours = np.tile([0.0, 0.0, 1.0], (len(lamps["node"]), 1))
@@ -172,8 +174,7 @@ class Oracle:
             self.scene.grey_copy(self.folder / "pair.gltf", colours)
             shown = self.picture(camera, "on", "pair.gltf")
             for channel, lamp in enumerate(chosen[k:k + 2]):
-                here = np.flatnonzero((lit == lamp) & (light >= 1.02 * self.a.threshold))
-                here = self.noise.permutation(here)[:max(1, self.a.pairs // len(chosen))]
+                here = np.flatnonzero(wanted & (lit == lamp))
                 pixel = seen["pixel"][points[here]]
                 got = shown[pixel[:, 1], pixel[:, 0], channel] * LUMINANCE[channel] / light[here]
                 share = tracing.visible_share(self.rays, seen, points[here], lit[here])
@@ -227,7 +228,7 @@ class Oracle:
 def parse():
     parser = argparse.ArgumentParser(prog="shadow-oracle", description=__doc__, epilog=EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", nargs="?", type=Path, help="photometric .gltf or .glb; default: data/rivoli, converted")
-    parser.add_argument("--camera", action="append", help="camera to look through; again for more (driver, pedestrian, crossing, overview)")
+    parser.add_argument("--camera", action="append", help="camera to look through; again for more (all of the scene)")
     parser.add_argument("--size", default="840x525", help="of the pictures, px (%(default)s)")
     parser.add_argument("--points", type=int, default=20000, help="pixels for each camera (%(default)s)")
     parser.add_argument("--pairs", type=int, default=20000, help="pairs for each camera, at most (%(default)s)")
@@ -238,7 +239,7 @@ def parse():
     parser.add_argument("--threshold", type=float, default=0.001, help="illuminance below which a lamp counts as dark, lx (%(default)s)")
     parser.add_argument("--seed", type=int, default=1, help="of the choice of pixels and lamps (%(default)s)")
     parser.add_argument("--render-option", action="append", default=[], metavar="WORD", help="a further word for vesper render, as --render-option=--all-lamps")
-    parser.add_argument("--vesper", type=Path, default=ROOT / "build/release/bin/vesper", help="the program (%(default)s)")
+    parser.add_argument("--vesper", type=Path, default=ROOT / "build/release/bin/vesper", help="the program (build/release/bin/vesper, built anew)")
     parser.add_argument("--venv", type=Path, help="folder of the Python packages, made if it is missing (build/oracle-venv)")
     parser.add_argument("--self-test", action="store_true", help="check the oracle against closed forms, and end")
     a = parser.parse_args()
@@ -250,7 +251,6 @@ def parse():
         parser.error("--points, --pairs and --threshold must be positive")
     if min(a.lamps, a.opening_samples, a.radiance, a.contact) < 0:
         parser.error("--lamps, --opening-samples, --radiance and --contact must not be negative")
-    a.camera = a.camera or ["driver", "pedestrian", "crossing", "overview"]
     return a
 
 
@@ -268,6 +268,7 @@ def main():
                 a.scene = folder / "night.gltf"
                 run(a.vesper, "convert", STREET[0], "--photometry", STREET[1], "-o", a.scene)
             scene = reading.Scene(a.scene)
+            a.camera = a.camera or scene.camera_names()
             for camera in a.camera:
                 scene.camera(camera)
             oracle, table = Oracle(a, scene, folder), Table(a.camera)

@@ -366,22 +366,28 @@ class Scene:
 
     # Cameras
 
+    def cameras(self):
+        """Nodes with a perspective camera, and these."""
+        nodes = [i for i in self.shown if "camera" in self.json["nodes"][i]]
+        pairs = [(i, self.json["cameras"][self.json["nodes"][i]["camera"]]) for i in nodes]
+        return [(i, camera) for i, camera in pairs if camera.get("type") == "perspective"]
+
+    def camera_names(self):
+        names = [camera.get("name", self.name(i)) for i, camera in self.cameras()]
+        if not names:
+            raise BadInput(f"{self.path}: cameras: none of a perspective kind")
+        return names
+
     def camera(self, name):
-        """World of a camera's node and the vertical field of view, rad, and the near plane, m."""
-        names = []
-        for i in self.shown:
-            index = self.json["nodes"][i].get("camera", -1)
-            if index < 0 or self.json["cameras"][index].get("type") != "perspective":
-                continue
-            camera = self.json["cameras"][index]
-            names.append(camera.get("name", self.name(i)))
-            if name in (names[-1], self.name(i)):
+        """Axes and place of a camera in the world, its vertical field of view, rad, and near plane, m."""
+        for i, camera in self.cameras():
+            if name in (camera.get("name", self.name(i)), self.name(i)):
                 m = self.world[i]
                 back = m[:3, 2] / np.linalg.norm(m[:3, 2])
                 right = np.cross(m[:3, 1], back)
                 right /= np.linalg.norm(right)
                 return np.stack([right, np.cross(back, right), back], axis=1), m[:3, 3], camera["perspective"]["yfov"], camera["perspective"]["znear"]
-        raise BadInput(f"{self.path}: cameras: no '{name}'; there is {', '.join(names) or 'none'}")
+        raise BadInput(f"{self.path}: cameras: no '{name}'; there is {', '.join(self.camera_names())}")
 
     # Grey copies
 

@@ -11,6 +11,7 @@
 
 #include "base/angle.h"
 #include "base/error.h"
+#include "scene/fixtures.h"
 #include "scene/lamp.h"
 #include "scene/placement.h"
 
@@ -18,9 +19,9 @@ namespace vesper::gpu_scene {
 namespace {
 
 constexpr double kMostZoom = 8;
-constexpr double kLargestFixture = 20;  // m
-constexpr double kNearestEye = 4;       // m: a lamp's light is not seen from nearer
-constexpr double kMostScale = 8;        // log2 of the side for 0.001 cd, 1 m from the eye
+constexpr double kNearestEye = 4;  // m: a lamp's light is not seen from nearer
+constexpr double kLeastScale = -16;
+constexpr double kMostScale = 8;  // log2 of the side for 0.001 cd, 1 m from the eye
 
 // The largest angle from the lamp's axis at which it shines, rad; half a turn if it shines to all sides.
 double widest_angle(const scene::Scene& scene, const scene::Lamp& lamp) {
@@ -73,12 +74,6 @@ MapLayout layout_of(const scene::Scene& scene, const scene::Lamp& lamp, double a
             .radius = float(std::sqrt(lamp.opening.area() / kPi))};
 }
 
-// The nearest node, of this one and those above it, with a mesh at or below it.
-uint32_t fixture_node(const scene::Scene& scene, const std::vector<bool>& has_mesh, uint32_t node) {
-    while (node != scene::kNone && !has_mesh[node]) node = scene.nodes[node].parent;
-    return node;
-}
-
 std::vector<MapLayout> layouts_of(const scene::Scene& scene, const std::vector<PlacedLamp>& lamps) {
     std::vector<MapLayout> layouts;
     std::map<uint32_t, double> angles;  // of distributions
@@ -92,39 +87,23 @@ std::vector<MapLayout> layouts_of(const scene::Scene& scene, const std::vector<P
     return layouts;
 }
 
+// Of each lamp the placements that scene::fixture_nodes() names by their nodes.
 std::vector<std::vector<uint32_t>> fixtures_of(const scene::Scene& scene, const GpuScene& resident,
                                                const std::vector<PlacedLamp>& lamps,
                                                std::span<const glm::dmat4> world) {
-    std::vector<bool> has_mesh(scene.nodes.size());
-    for (uint32_t i = uint32_t(scene.nodes.size()); i-- > 0;) {  // children come after their parents
-        has_mesh[i] = has_mesh[i] || scene.nodes[i].mesh != scene::kNone;
-        if (has_mesh[i] && scene.nodes[i].parent != scene::kNone) has_mesh[scene.nodes[i].parent] = true;
-    }
-    std::vector<bool> is_root(scene.nodes.size());  // of a fixture
-    for (const PlacedLamp& lamp : lamps)
-        if (const uint32_t root = fixture_node(scene, has_mesh, lamp.node); root != scene::kNone) is_root[root] = true;
-    std::vector<std::vector<uint32_t>> by_root(scene.nodes.size());  // placements at and below them
-    for (uint32_t p = 0; p < resident.placements().size(); ++p)
-        for (uint32_t node = resident.placements()[p].node; node != scene::kNone; node = scene.nodes[node].parent)
-            if (is_root[node]) by_root[node].push_back(p);
-    std::vector<std::vector<uint32_t>> own;
-    for (const PlacedLamp& lamp : lamps) {
-        own.emplace_back();
-        const uint32_t root = fixture_node(scene, has_mesh, lamp.node);
-        if (root == scene::kNone) continue;
-        const glm::dvec3 place(world[lamp.node][3]);
-        const bool small = std::ranges::all_of(by_root[root], [&](uint32_t p) {
-            const GpuScene::Placement& placement = resident.placements()[p];
-            return std::all_of(resident.parts().begin() + placement.first_part,
-                               resident.parts().begin() + placement.first_part + placement.part_count,
-                               [&](const GpuScene::Part& part) {
-                                   const glm::dvec3 centre(world[placement.node] * glm::dvec4(part.centre, 1));
-                                   return glm::distance(centre, place) < kLargestFixture;
-                               });
-        });
-        if (small) own.back() = by_root[root];
-    }
+    std::vector<uint32_t> placement_at(scene.nodes.size(), scene::kNone), nodes;
+    for (uint32_t p = 0; p < resident.placements().size(); ++p) placement_at[resident.placements()[p].node] = p;
+    for (const PlacedLamp& lamp : lamps) nodes.push_back(lamp.node);
+    std::vector<std::vector<uint32_t>> own = scene::fixture_nodes(scene, nodes, world);
+    for (std::vector<uint32_t>& fixture : own)
+        for (uint32_t& node : fixture) node = placement_at[node];
     return own;
+}
+
+uint64_t texels_of(const std::vector<MapLayout>& layouts) {
+    uint64_t texels = 0;
+    for (const MapLayout& layout : layouts) texels += layout.texels();
+    return texels;
 }
 
 }  // namespace
@@ -140,18 +119,16 @@ MapPlan map_plan(const scene::Scene& scene, const GpuScene& resident, const std:
 
 double choose_sides(std::vector<MapLayout>& layouts, const std::vector<double>& distances, double scale,
                     uint64_t most_texels) {
-    constexpr double kStep = 0.5, kLeastScale = -16;
+    constexpr double kStep = 0.5;
     const auto with = [&](double tried) {
-        uint64_t texels = 0;
         for (size_t i = 0; i < layouts.size(); ++i) {
             MapLayout& layout = layouts[i];
             const double away = std::sqrt(std::max(distances[i], kNearestEye)) * double(layout.zoom);
             const double power = layout.range > 0 ? tried + std::log2(std::sqrt(double(layout.range)) / away) : 0;
             constexpr double kLeast = std::countr_zero(kLeastMapSide), kMost = std::countr_zero(kMostMapSide);
             layout.side = layout.range > 0 ? 1u << uint32_t(std::clamp(std::round(power), kLeast, kMost)) : 0;
-            texels += layout.texels();
         }
-        return texels;
+        return texels_of(layouts);
     };
     for (; with(scale) > most_texels; scale -= kStep)
         if (scale < kLeastScale)
@@ -164,6 +141,9 @@ double scene_scale(const std::vector<MapLayout>& layouts, const std::vector<glm:
     constexpr size_t kMostEyes = 64;
     double scale = kMostScale;
     std::vector<MapLayout> tried = layouts;
+    if (choose_sides(tried, std::vector<double>(layouts.size()), kLeastScale, ~uint64_t{0});
+        texels_of(tried) > kMostMapTexels)
+        return scale;  // which is said when they are wanted
     for (size_t eye = 0; eye < places.size(); eye += std::max<size_t>(places.size() / kMostEyes, 1)) {
         std::vector<double> distances;
         for (const glm::dvec3 place : places) distances.push_back(glm::distance(place, places[eye]));

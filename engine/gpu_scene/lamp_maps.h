@@ -32,8 +32,7 @@ constexpr uint64_t kMostMapTexels = 40u << 20u;  ///< of all maps: 80 MiB
 struct MapPlan {
     std::vector<MapLayout> layouts;  ///< without sides and places, which depend on the view
     double scale = 0;                ///< of sides, see choose_sides
-    /// For each lamp the placements that belong to its fixture and never hide it, ascending: the meshes below the
-    /// nearest node, of the lamp's own and those above it, that has any; none if a part of them is over 20 m away.
+    /// For each lamp the placements that belong to its fixture and never hide it (scene/fixtures.h), ascending.
     std::vector<std::vector<uint32_t>> fixtures;
     std::vector<bool> animated;  ///< per node, whether the scene's animations move it
 };

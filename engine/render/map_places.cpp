@@ -64,8 +64,8 @@ MapPlaces::Change MapPlaces::fit(const gpu_scene::LampList& list, uint64_t most_
     return place_all(list, wanted, std::move(changed));
 }
 
-// Where there is no place, lamps that do not shine lose theirs and the others find new ones, the largest first: with the
-// sides that the view wants these always fit.
+// Where there is no place, lamps that do not shine lose theirs and the others find new ones, the largest first: with
+// the sides that the view wants these always fit.
 MapPlaces::Change MapPlaces::place_all(const gpu_scene::LampList& list, const std::vector<gpu_scene::MapLayout>& wanted,
                                        std::vector<uint32_t> changed) {
     const std::vector<gpu_scene::MapLayout> before = layouts_;

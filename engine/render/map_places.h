@@ -12,7 +12,7 @@ namespace vesper::render {
 /// Gives maps their sides as a view needs them, and places; and single tiles (shared::kRegion texels square) beside.
 class MapPlaces {
 public:
-    static constexpr uint32_t kTiles = 1280;                                 ///< 10 MiB
+    static constexpr uint32_t kTiles = 1280;  ///< 10 MiB
     static constexpr uint32_t kTileTexels = shared::kRegion * shared::kRegion;
 
     /// `scale`: of sides, see gpu_scene::choose_sides.
@@ -20,7 +20,7 @@ public:
 
     const gpu_scene::MapLayout& operator[](uint32_t lamp) const { return layouts_[lamp]; }
     uint64_t texels() const { return texels_ + uint64_t(kTiles) * kTileTexels; }  ///< of the buffer
-    uint64_t map_texels() const { return texels_; }  ///< those of maps come first
+    uint64_t map_texels() const { return texels_; }                               ///< those of maps come first
 
     struct Move {
         uint32_t from, to, texels;  ///< first texels, and how many
@@ -29,9 +29,9 @@ public:
         std::vector<uint32_t> lamps;  ///< whose maps have another side, and hold nothing
         std::vector<Move> moves;      ///< of other maps, to be made all at once
     };
-    /// Fits the sides of the maps of a list to its view. `most_texels`: of maps that may change their side, beside those
-    /// that have none yet; then maps within a factor of two keep theirs. Throws Error where the maps of all lamps do not
-    /// fit gpu_scene::kMostMapTexels.
+    /// Fits the sides of the maps of a list to its view. `most_texels`: of maps that may change their side, beside
+    /// those that have none yet; then maps within a factor of two keep theirs. Throws Error where the maps of all lamps
+    /// do not fit gpu_scene::kMostMapTexels.
     Change fit(const gpu_scene::LampList& list, uint64_t most_texels);
 
     /// First texel of a free tile; nothing if there is none.

@@ -132,7 +132,8 @@ public:
                 const auto& [centre, radius] = spheres_[first_sphere_[p] + i];
                 const GpuScene::Part& part = scene_.parts()[placement.first_part + i];
                 const double away = glm::distance(centre, frame.position);
-                if (part.index_count == 0 || away - radius > double(layout.range) || radius < 0.25 * texel * away)
+                if (part.index_count == 0 || scene_.surfaces()[part.material].material.clear ||
+                    away - radius > double(layout.range) || radius < 0.25 * texel * away)
                     continue;
                 const glm::dvec3 c = mirror * (frame.rotation * (centre - frame.position));
                 if (c.z + radius < 0) continue;

@@ -32,9 +32,9 @@ struct MapWords {
 };
 
 /// Draws placements around lamps, at the poses of `poses`, into their maps and finds the bounds of these. Surfaces
-/// hide a lamp from both sides; masked ones where they are drawn. Parts smaller than half a texel, and what is farther
-/// than the range of a map, are left out. Distances are rounded to halves, 0.1 %. Returns the number of triangles
-/// drawn.
+/// hide a lamp from both sides; masked ones where they are drawn, clear ones not at all. Parts smaller than half a
+/// texel, and what is farther than the range of a map, are left out. Distances are rounded to halves, 0.1 %. Returns
+/// the number of triangles drawn.
 uint64_t add_distance_maps(const FrameContext& frame, const gpu_scene::GpuScene& scene,
                            const gpu_scene::SceneFrame& poses, std::span<const MapToDraw> maps, const MapWords& words);
 

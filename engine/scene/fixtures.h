@@ -1,0 +1,18 @@
+// The meshes that hold a lamp and never hide it. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace vesper::scene {
+
+/// For each of these nodes, which have lamps, the nodes with meshes that are its fixture, ascending: those at and below
+/// the nearest node, of its own and those above it, that has any; none if the middle of one of their primitives is 20 m
+/// away or more. `world` as of world_transforms().
+std::vector<std::vector<uint32_t>> fixture_nodes(const Scene& scene, std::span<const uint32_t> lamp_nodes,
+                                                 std::span<const glm::dmat4> world);
+
+}  // namespace vesper::scene

@@ -175,9 +175,16 @@ void read_emission(GltfReader& reader, Properties& p) {
         p.made.emission_texture = read_texture(reader, *texture, p.emission_uv);
 }
 
+bool transmits(const JsonValue& material) {
+    const auto extensions = material.find("extensions");
+    const auto transmission = extensions ? extensions->find("KHR_materials_transmission") : std::nullopt;
+    return transmission && transmission->number_or("transmissionFactor", 0) > 0;
+}
+
 void read_alpha(GltfReader& reader, Properties& p) {
     const std::string mode = p.material->alphaMode;
     p.made.double_sided = p.material->doubleSided;
+    p.made.clear = mode == "BLEND" || transmits(p.material.json);
     if (mode == "OPAQUE") return;
     if (mode != "MASK" && mode != "BLEND")
         return reader.notes.add("an alpha mode that glTF does not have is read as OPAQUE");

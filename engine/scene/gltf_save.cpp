@@ -119,6 +119,10 @@ void write_materials(Writer& writer) {
             made.alphaMode = "MASK";
             made.alphaCutoff = material.alpha_cutoff;
         }
+        if (material.clear) {
+            made.extensions["KHR_materials_transmission"] = value_of({{"transmissionFactor", 1}});
+            writer.use("KHR_materials_transmission");
+        }
         made.doubleSided = material.double_sided;
     }
 }

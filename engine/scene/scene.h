@@ -64,6 +64,8 @@ struct Material {
     TextureUse emission_picture;  ///< instead of emission_texture: image is an index into Scene::luminance_pictures
     Alpha alpha = Alpha::Opaque;
     float alpha_cutoff = 0.5f;
+    bool clear = false;  ///< glass (in glTF alpha mode BLEND, or KHR_materials_transmission above 0): rays of `rays/`
+                         ///< pass; pictures draw it by `alpha`
     bool double_sided = false;
     uint32_t reflection_table = kNone;  ///< index into Scene::reflection_tables
     uint32_t retroreflector = kNone;    ///< index into Scene::retroreflectors; such a surface is no metal

@@ -64,6 +64,19 @@ TEST(GltfMaterial, ReadsFactorsAndEmission) {
     EXPECT_TRUE(m.double_sided);
 }
 
+TEST(GltfMaterial, KnowsGlass) {
+    const auto clear = [](const json& material) { return with_material(material).read().scene.materials.at(0).clear; };
+    const auto transmits = [](double factor) {
+        return json{{"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", factor}}}}}};
+    };
+    EXPECT_FALSE(clear(json::object()));
+    EXPECT_FALSE(clear({{"alphaMode", "MASK"}}));
+    EXPECT_TRUE(clear({{"alphaMode", "BLEND"}}));
+    EXPECT_TRUE(clear({{"alphaMode", "BLEND"}, {"emissiveFactor", {1, 1, 1}}})) << "of a lamp, drawn opaque";
+    EXPECT_TRUE(clear(transmits(0.9)));
+    EXPECT_FALSE(clear(transmits(0)));
+}
+
 TEST(GltfMaterial, NotesWhatIsReadWithAChange) {
     const scene::LoadedScene blend = with_material({{"alphaMode", "BLEND"}}).read();
     EXPECT_EQ(blend.scene.materials[0].alpha, scene::Material::Alpha::Mask);

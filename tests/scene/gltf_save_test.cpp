@@ -141,6 +141,25 @@ TEST_P(GltfSave, GivesTheSameSceneBack) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, GltfSave, testing::Values("scene.gltf", "scene.glb"));
 
+TEST(GltfSaveMaterials, GlassStaysGlass) {
+    const TempFolder folder;
+    Scene scene;
+    for (int i = 0; i < 4; ++i) {
+        scene::Material& material = scene.materials.emplace_back();
+        material.base_colour.a = 0.3f;  // below the cutoff of glTF, which glass that is opaque does not have
+        material.clear = i % 2 == 1;
+        if (i >= 2) material.alpha = scene::Material::Alpha::Mask, material.alpha_cutoff = 0.25f;
+    }
+    scene::save_gltf(scene, "test", folder / "scene.gltf");
+    const Scene got = scene::read_gltf(folder / "scene.gltf").scene;
+    ASSERT_EQ(got.materials.size(), 4u);
+    for (size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(got.materials[i].clear, scene.materials[i].clear) << i;
+        EXPECT_EQ(got.materials[i].alpha, scene.materials[i].alpha) << i;
+        EXPECT_EQ(got.materials[i].alpha_cutoff, scene.materials[i].alpha_cutoff) << i;
+    }
+}
+
 TEST(GltfSaveNames, MayBeMissingOrNoUtf8) {
     const TempFolder folder;
     Scene scene;

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "command_line.h"
 
@@ -20,7 +21,7 @@ namespace vesper::commands {
 namespace {
 
 struct RoadArguments {
-    std::string layout, csv, json, wanted, device, scene;
+    std::string layout, csv, json, wanted, device, scene, occlusion;
     std::vector<std::string> pictures;
     roads::LayoutOverrides overrides;
     bool grid = false;
@@ -33,8 +34,10 @@ scene::Scene lit_road(const roads::LoadedLayout& layout) {
     return scene;
 }
 
-void run(const RoadArguments& arguments) {
+/// Names the files that are read and written, and refuses options that do not go together.
+void check_arguments(const RoadArguments& arguments) {
     io::announce_read(arguments.layout);
+    io::announce_read(arguments.overrides.occluders);
     for (const std::string& file : arguments.pictures) {
         if (!file.ends_with(".png") && !file.ends_with(".exr"))
             throw Error("--render " + file + ": a .png or .exr file is expected");
@@ -47,11 +50,35 @@ void run(const RoadArguments& arguments) {
     io::announce_write("--scene", arguments.scene);
     if (!arguments.device.empty() && arguments.pictures.empty())
         throw Error("--device has a meaning only beside --render");
-    const roads::LoadedLayout layout = roads::read_layout(arguments.layout, arguments.overrides);
+}
+
+roads::LoadedLayout read_layout(const RoadArguments& arguments) {
+    roads::LayoutOverrides overrides = arguments.overrides;
+    overrides.occlusion = arguments.occlusion != "off";
+    roads::LoadedLayout layout = roads::read_layout(arguments.layout, overrides);
+    if (arguments.occlusion == "on" && !layout.hiding)
+        throw Error("--occlusion on: neither the layout nor --occluders names a scene");
+    if (layout.hiding && !arguments.pictures.empty())
+        throw Error("--render has no occluders: --occlusion off leaves them out of the calculation, too");
+    return layout;
+}
+
+/// The figures without occluders, if there are any.
+std::optional<roads::RoadLighting> standard_of(roads::LoadedLayout layout) {
+    if (!layout.hiding) return {};
+    layout.hiding = nullptr;
+    return roads::calculate_lighting(layout);
+}
+
+void run(const RoadArguments& arguments) {
+    check_arguments(arguments);
+    const roads::LoadedLayout layout = read_layout(arguments);
     const roads::RoadLighting result = io::in_file(arguments.layout, [&] { return roads::calculate_lighting(layout); });
+    const std::optional<roads::RoadLighting> counted = standard_of(layout);
+    const roads::RoadLighting* standard = counted ? &*counted : nullptr;
     const roads::LightingClass* wanted =
         roads::find_lighting_class(arguments.wanted.empty() ? layout.wanted_class : arguments.wanted);
-    apps::print_text(text_of(layout, result, wanted ? wanted : roads::reached_class(result)));
+    apps::print_text(text_of(layout, result, wanted ? wanted : roads::reached_class(result), standard));
     if (arguments.grid) apps::print_text(grid_text_of(result));
     RenderedRoad rendered;
     if (!arguments.pictures.empty()) {
@@ -64,7 +91,7 @@ void run(const RoadArguments& arguments) {
         scene::save_gltf(lit_road(layout), std::filesystem::path(arguments.layout).filename().string(),
                          arguments.scene);
     if (!arguments.csv.empty()) apps::write_text(arguments.csv, csv_of(layout, result, beside));
-    if (!arguments.json.empty()) apps::write_text(arguments.json, json_of(layout, result, wanted, beside));
+    if (!arguments.json.empty()) apps::write_text(arguments.json, json_of(layout, result, wanted, standard, beside));
 }
 
 }  // namespace
@@ -86,6 +113,12 @@ void add_road(apps::Command program) {
         "--scene", a->scene,
         "Write the road as a scene for vesper render: OUT.gltf or OUT.glb, with a camera for each observer");
     command.add_option("--device", a->device, "Where to render: part of a name, cpu, or an index of vesper devices");
+    command.add_option("--occluders", o.occluders,
+                       "Trees and buildings that hide luminaires: .gltf or .glb, placed as in OUT of --scene");
+    command
+        .add_option("--occlusion", a->occlusion,
+                    "Whether occluders count: off: figures of EN 13201-3 alone (default: on if there are any)")
+        .check(apps::one_of({"on", "off"}));
     command.add_option("--class", a->wanted, "Lighting class to compare with (default: that of the file)")
         .check(apps::one_of(classes));
     command.add_option("--luminaire", o.luminaire, "Another luminaire: .ies or .ldt");

@@ -1,7 +1,10 @@
 #include "road_report.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
+#include "base/one_line.h"
 #include "print.h"
 
 namespace vesper::commands {
@@ -31,6 +34,10 @@ double q0_of(const photometry::ReflectionTable& table) {
     return table.stated_q0 > 0 ? table.stated_q0 : photometry::average_luminance_coefficient(table);
 }
 
+std::string occluders_of(const roads::LoadedLayout& layout) {
+    return one_line(layout.occluders.filename().string(), 100);
+}
+
 std::string head_of(const roads::LoadedLayout& layout, const roads::RoadLighting& result) {
     std::string text = layout.name + "\n";
     text += format("  carriageway  %g m, %d lanes, surface %s with Q0 %.3g, S1 %.2f\n", layout.width, layout.lanes,
@@ -42,6 +49,11 @@ std::string head_of(const roads::LoadedLayout& layout, const roads::RoadLighting
                    photometry::luminous_flux(layout.distribution) * layout.flux_factor, layout.maintenance_factor);
     text += format("  grid         %zu x %zu points, %.3g m apart\n", result.field.x.size(), result.field.y.size(),
                    result.field.step);
+    if (layout.hiding)
+        text += format("  occluders    %s: %zu of %zu luminaire-point pairs are hidden\n", occluders_of(layout).c_str(),
+                       result.hidden_pairs, result.pairs);
+    else if (!layout.occluders.empty())
+        text += "  occluders    " + occluders_of(layout) + ": not counted, as in EN 13201-3\n";
     return text;
 }
 
@@ -76,6 +88,56 @@ bool holds(const Figure& figure, const roads::LightingClass& wanted) {
                                                                               : figure.value >= limit;
 }
 
+const char* verdict(const Figure& figure, const roads::LightingClass& wanted) {
+    return holds(figure, wanted) ? "ok" : "missed";
+}
+
+constexpr size_t kStandardColumn = 44;
+
+/// The figures against a class, and beside them those of the standard if they are others.
+std::string table_of(const roads::RoadLighting& result, const roads::LightingClass* wanted,
+                     const roads::RoadLighting* standard) {
+    std::string text;
+    const auto add_row = [&](std::string row, const std::string& beside) {
+        if (standard) row.resize(std::max(row.size(), kStandardColumn), ' ');
+        text += row + (standard ? beside : "") + "\n";
+    };
+    add_row(wanted ? format("                  value   %s asks", wanted->name) : "                  value",
+            "without occluders (EN 13201-3)");
+    const std::vector<Figure> figures = figures_of(result), others = figures_of(standard ? *standard : result);
+    for (size_t i = 0; i < figures.size(); ++i) {
+        const Figure &f = figures[i], &other = others[i];
+        std::string row = format("  %-4s %-6s %10.*f", f.name, f.unit, f.decimals, f.value);
+        std::string beside = format("%10.*f", other.decimals, other.value);
+        if (wanted && f.limit) {
+            const bool most = f.limit == &roads::LightingClass::threshold_increment_percent;
+            row += format("   %s %-5g %s", most ? "<=" : ">=", wanted->*f.limit, verdict(f, *wanted));
+            beside += format(" %s", verdict(other, *wanted));
+        }
+        add_row(row, beside);
+    }
+    const roads::RoadLighting& beside = standard ? *standard : result;
+    add_row(format("  Eav  lx     %10.2f", result.average_illuminance), format("%10.2f", beside.average_illuminance));
+    add_row(format("  Emin lx     %10.2f   Emin / Eav %.3f", result.minimum_illuminance,
+                   result.minimum_illuminance / result.average_illuminance),
+            format("%10.2f", beside.minimum_illuminance));
+    return text;
+}
+
+std::string class_line_of(const roads::RoadLighting& result, const roads::RoadLighting* standard) {
+    const auto name_of_class = [](const roads::RoadLighting& lighting) {
+        const roads::LightingClass* reached = roads::reached_class(lighting);
+        return reached ? reached->name : "none";
+    };
+    if (result.wet)
+        return "\nA wet surface: the other limits of the classes (EN 13201-2:2015) are those of the road when it is "
+               "dry\n";
+    if (standard)
+        return format("\nLighting class reached (EN 13201-2:2015, dry): %s; with occluders: %s\n",
+                      name_of_class(*standard), name_of_class(result));
+    return format("\nLighting class reached (EN 13201-2:2015, dry): %s\n", name_of_class(result));
+}
+
 nlohmann::ordered_json json_of(const RoadReading& reading) {
     return {{"average_luminance_cd_m2", reading.average_luminance},
             {"overall_uniformity", reading.overall_uniformity},
@@ -85,21 +147,21 @@ nlohmann::ordered_json json_of(const RoadReading& reading) {
             {"largest_difference_percent", reading.largest_difference}};
 }
 
+void add_figures(nlohmann::ordered_json& json, const roads::RoadLighting& result) {
+    for (const Figure& figure : figures_of(result)) json[figure.key] = figure.value;
+    json["edge_illuminance_ratio_right"] = result.edge_ratio_right;
+    json["edge_illuminance_ratio_left"] = result.edge_ratio_left;
+    json["average_illuminance_lx"] = result.average_illuminance;
+    json["minimum_illuminance_lx"] = result.minimum_illuminance;
+    const roads::LightingClass* reached = roads::reached_class(result);
+    json["class_reached"] = reached ? nlohmann::ordered_json(reached->name) : nlohmann::ordered_json();
+}
+
 }  // namespace
 
 std::string text_of(const roads::LoadedLayout& layout, const roads::RoadLighting& result,
-                    const roads::LightingClass* wanted) {
-    std::string text = head_of(layout, result) + "\n";
-    text += wanted ? format("                  value   %s asks\n", wanted->name) : "                  value\n";
-    for (const Figure& f : figures_of(result)) {
-        text += format("  %-4s %-6s %10.*f", f.name, f.unit, f.decimals, f.value);
-        if (wanted && f.limit)
-            text += format("   %s %-5g %s", f.limit == &roads::LightingClass::threshold_increment_percent ? "<=" : ">=",
-                           wanted->*f.limit, holds(f, *wanted) ? "ok" : "missed");
-        text += "\n";
-    }
-    text += format("  Eav  lx     %10.2f\n  Emin lx     %10.2f   Emin / Eav %.3f\n", result.average_illuminance,
-                   result.minimum_illuminance, result.minimum_illuminance / result.average_illuminance);
+                    const roads::LightingClass* wanted, const roads::RoadLighting* standard) {
+    std::string text = head_of(layout, result) + "\n" + table_of(result, wanted, standard);
     text += format("  EIR  right %.3f, left %.3f\n\n", result.edge_ratio_right, result.edge_ratio_left);
 
     text += "  lane  eye at y, m   Lav cd/m2      Uo      Ul    TI %   Lv cd/m2   worst from x, m\n";
@@ -107,13 +169,7 @@ std::string text_of(const roads::LoadedLayout& layout, const roads::RoadLighting
         text += format("  %4d  %11.2f  %10.3f  %6.3f  %6.3f  %6.2f  %9.4f  %16.1f\n", o.lane, o.eye.y,
                        o.average_luminance, o.overall_uniformity, o.longitudinal_uniformity,
                        o.threshold_increment_percent, o.veil, o.glare_eye.x);
-    const roads::LightingClass* reached = roads::reached_class(result);
-    if (result.wet)
-        text +=
-            "\nA wet surface: the other limits of the classes (EN 13201-2:2015) are those of the road when it is dry\n";
-    else
-        text += format("\nLighting class reached (EN 13201-2:2015, dry): %s\n", reached ? reached->name : "none");
-    return text;
+    return text + class_line_of(result, standard);
 }
 
 std::string grid_text_of(const roads::RoadLighting& result) {
@@ -138,7 +194,8 @@ std::string grid_text_of(const roads::RoadLighting& result) {
 }
 
 std::string csv_of(const roads::LoadedLayout& layout, const roads::RoadLighting& result, const RenderedRoad* rendered) {
-    std::string text = "# " + layout.name + ": surface " + layout.surface.name + ", x ahead and y to the left, m\n";
+    std::string text = "# " + layout.name + ": surface " + layout.surface.name + ", x ahead and y to the left, m";
+    text += layout.hiding ? "; less what " + occluders_of(layout) + " hides\n" : "\n";
     text += "x_m,y_m,E_h_lx";
     for (const roads::LaneObserver& o : result.observers) text += format(",L_lane%d_cd_m2", o.lane);
     if (rendered)
@@ -154,16 +211,16 @@ std::string csv_of(const roads::LoadedLayout& layout, const roads::RoadLighting&
 }
 
 std::string json_of(const roads::LoadedLayout& layout, const roads::RoadLighting& result,
-                    const roads::LightingClass* wanted, const RenderedRoad* rendered) {
+                    const roads::LightingClass* wanted, const roads::RoadLighting* standard,
+                    const RenderedRoad* rendered) {
     nlohmann::ordered_json json = {
         {"name", layout.name}, {"surface", layout.surface.name}, {"q0", q0_of(layout.surface)}, {"wet", result.wet}};
-    for (const Figure& figure : figures_of(result)) json[figure.key] = figure.value;
-    json["edge_illuminance_ratio_right"] = result.edge_ratio_right;
-    json["edge_illuminance_ratio_left"] = result.edge_ratio_left;
-    json["average_illuminance_lx"] = result.average_illuminance;
-    json["minimum_illuminance_lx"] = result.minimum_illuminance;
-    const roads::LightingClass* reached = roads::reached_class(result);
-    json["class_reached"] = reached ? nlohmann::ordered_json(reached->name) : nlohmann::ordered_json();
+    add_figures(json, result);
+    if (standard) {
+        json["occlusion"] = {
+            {"occluders", occluders_of(layout)}, {"pairs", result.pairs}, {"hidden_pairs", result.hidden_pairs}};
+        add_figures(json["occlusion"]["en_13201_3"], *standard);
+    }
     if (wanted) json["class_wanted"] = {{"name", wanted->name}, {"fulfilled", roads::fulfils(result, *wanted)}};
     for (const roads::LaneObserver& o : result.observers)
         json["observers"].push_back({{"lane", o.lane},

@@ -8,13 +8,15 @@
 
 namespace vesper::commands {
 
-/// Layout, figures against the limits of a class (may be null) and figures of each lane, for a terminal.
-std::string text_of(const roads::LoadedLayout&, const roads::RoadLighting&, const roads::LightingClass* wanted);
+/// Layout, figures against the limits of a class (may be null) and figures of each lane, for a terminal. `standard`: if
+/// occluders count, the figures without them.
+std::string text_of(const roads::LoadedLayout&, const roads::RoadLighting&, const roads::LightingClass* wanted,
+                    const roads::RoadLighting* standard);
 /// Illuminance and the luminances of every observer as tables: x across, y down, the left edge on top.
 std::string grid_text_of(const roads::RoadLighting&);
-/// One line for each point of the grid. Both with what was rendered, if anything was.
+/// One line for each point of the grid. The following with what was rendered, if anything was.
 std::string csv_of(const roads::LoadedLayout&, const roads::RoadLighting&, const RenderedRoad* rendered);
 std::string json_of(const roads::LoadedLayout&, const roads::RoadLighting&, const roads::LightingClass* wanted,
-                    const RenderedRoad* rendered);
+                    const roads::RoadLighting* standard, const RenderedRoad* rendered);
 
 }  // namespace vesper::commands

@@ -4,8 +4,10 @@
 #include <array>
 
 #include "base/error.h"
+#include "base/one_line.h"
 #include "io/named_file.h"
 #include "io/read_file.h"
+#include "roads/occluders.h"
 #include "scene/json_value.h"
 #include "scene/reflection_json.h"
 
@@ -123,12 +125,21 @@ void read_surface(LoadedLayout& layout, const JsonValue& source, const std::file
     layout.q0 = *overrides.q0;
 }
 
+void read_occluders(LoadedLayout& layout, const JsonValue& root, const std::filesystem::path& folder,
+                    const LayoutOverrides& overrides) {
+    if (const auto file = root.find("occluders")) layout.occluders = io::named_file(folder, file->text());
+    if (!overrides.occluders.empty()) layout.occluders = overrides.occluders;
+    if (overrides.occlusion && !layout.occluders.empty())
+        layout.hiding = std::make_shared<const Occluders>(layout.occluders);
+}
+
 }  // namespace
 
 LoadedLayout read_layout(const std::filesystem::path& file, const LayoutOverrides& overrides) {
     const scene::JsonFile json = scene::parse_json(io::read_file(file, kMaxLayoutBytes), file.string());
     const JsonValue root(json);
-    root.allow_only({"$schema", "version", "name", "carriageway", "surface", "luminaires", "observer_age", "class"});
+    root.allow_only(
+        {"$schema", "version", "name", "carriageway", "surface", "luminaires", "occluders", "observer_age", "class"});
     const JsonValue version = root.at("version");
     if (version.integer() != 1) version.fail("must be 1: this program knows no other");
     LoadedLayout layout;
@@ -141,6 +152,7 @@ LoadedLayout read_layout(const std::filesystem::path& file, const LayoutOverride
     read_carriageway(layout, root.at("carriageway"));
     read_luminaires(layout, root.at("luminaires"), file.parent_path(), overrides);
     read_surface(layout, root.at("surface"), file.parent_path(), overrides);
+    read_occluders(layout, root, file.parent_path(), overrides);
     layout.spacing = overrides.spacing.value_or(layout.spacing);
     layout.height = overrides.height.value_or(layout.height);
     layout.overhang = overrides.overhang.value_or(layout.overhang);
@@ -159,6 +171,7 @@ LoadedLayout load_layout(const RoadLayout& layout) {
     LoadedLayout loaded{layout, read_luminaire(layout.luminaire),
                         photometry::find_reflection_table(layout.reflection_table)};
     if (layout.q0 > 0) loaded.surface = photometry::rescaled(loaded.surface, layout.q0);
+    if (!layout.occluders.empty()) loaded.hiding = std::make_shared<const Occluders>(layout.occluders);
     return loaded;
 }
 

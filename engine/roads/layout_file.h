@@ -12,6 +12,8 @@ namespace vesper::roads {
 /// What takes the place of what the file says. Names of files are as the caller sees them.
 struct LayoutOverrides {
     std::string luminaire;         ///< a photometric file
+    std::string occluders;         ///< a scene
+    bool occlusion = true;         ///< false: occluders are not read and hide nothing
     std::string reflection_table;  ///< a built-in name or a file; its own Q0 counts unless one is given here
     std::optional<double> q0, spacing, height, overhang, tilt, maintenance_factor;
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -16,11 +17,14 @@ namespace vesper::roads {
 inline glm::dvec3 vector_of(const LayoutPoint& p) { return {p.x, p.y, p.z}; }
 inline LayoutPoint point_of(glm::dvec3 v) { return {v.x, v.y, v.z}; }
 
+class Occluders;
+
 /// A layout with the contents of its files.
 struct LoadedLayout : RoadLayout {
-    photometry::Distribution distribution;  ///< of `luminaire`
-    photometry::ReflectionTable surface;    ///< `reflection_table`, scaled to `q0`
-    double colour_temperature = 0;          ///< of the luminaires, for pictures, K; 0: white
+    photometry::Distribution distribution;    ///< of `luminaire`
+    photometry::ReflectionTable surface;      ///< `reflection_table`, scaled to `q0`
+    double colour_temperature = 0;            ///< of the luminaires, for pictures, K; 0: white
+    std::shared_ptr<const Occluders> hiding;  ///< `occluders`; null: nothing hides luminaires, as in the standard
 };
 
 /// Throw Error (starting with the layout's name) if a value is out of range.

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/angle.h"
 #include "base/error.h"
+#include "roads/occluders.h"
 #include "vision/glare.h"
 
 namespace vesper::roads {
@@ -16,13 +18,42 @@ double intensity_towards(const LoadedLayout& layout, const PlacedLuminaire& lamp
            photometry::intensity(layout.distribution, glm::transpose(lamp.axes) * (point - lamp.position));
 }
 
+/// The luminaires in the reach of all rules for a point of the road.
+bool in_reach(const PlacedLuminaire& lamp, glm::dvec2 point) {
+    const glm::dvec3 away = lamp.position - glm::dvec3(point, 0);
+    return away.x >= -5 * away.z && away.x <= 12 * away.z && std::abs(away.y) <= 5 * away.z;
+}
+
+/// The luminaires that a place sees; all of them without occluders, in their order.
+std::vector<PlacedLuminaire> seen_from(const LoadedLayout& layout, std::span<const PlacedLuminaire> lamps,
+                                       glm::dvec3 place) {
+    std::vector<PlacedLuminaire> seen;
+    for (const PlacedLuminaire& lamp : lamps)
+        if (!layout.hiding || !layout.hiding->hide(lamp.position, place)) seen.push_back(lamp);
+    return seen;
+}
+
+/// Likewise for a point of the road, of those in reach of it.
+std::vector<PlacedLuminaire> seen_from(const LoadedLayout& layout, std::span<const PlacedLuminaire> lamps,
+                                       glm::dvec2 point, RoadLighting* counted = nullptr) {
+    if (!layout.hiding) return {lamps.begin(), lamps.end()};
+    std::vector<PlacedLuminaire> reaching;
+    std::ranges::copy_if(lamps, std::back_inserter(reaching),
+                         [&](const PlacedLuminaire& lamp) { return in_reach(lamp, point); });
+    std::vector<PlacedLuminaire> seen = seen_from(layout, reaching, glm::dvec3(point, 0));
+    if (counted) counted->pairs += reaching.size(), counted->hidden_pairs += reaching.size() - seen.size();
+    return seen;
+}
+
 /// Mean illuminance on a strip that runs along the field from y = low to high.
 double strip_illuminance(const LoadedLayout& layout, std::span<const PlacedLuminaire> lamps,
                          const CalculationField& field, double low, double high) {
     double sum = 0;
     for (const double x : field.x)
-        for (int j = 0; j < 3; ++j)
-            sum += horizontal_illuminance(layout, lamps, {x, low + (j + 0.5) * (high - low) / 3});
+        for (int j = 0; j < 3; ++j) {
+            const glm::dvec2 point(x, low + (j + 0.5) * (high - low) / 3);
+            sum += horizontal_illuminance(layout, seen_from(layout, lamps, point), point);
+        }
     return sum / (3.0 * static_cast<double>(field.x.size()));
 }
 
@@ -33,7 +64,7 @@ void find_worst_glare(const LoadedLayout& layout, std::span<const PlacedLuminair
     observer.veil = -1;
     for (size_t i = 0; i < field.x.size(); ++i) {
         const glm::dvec3 eye(first + static_cast<double>(i) * field.step, observer.eye.y, observer.eye.z);
-        const double veil = veiling_luminance(layout, lamps, eye);
+        const double veil = veiling_luminance(layout, seen_from(layout, lamps, eye), eye);
         if (veil <= observer.veil) continue;
         observer.veil = veil;
         observer.glare_eye = point_of(eye);
@@ -136,9 +167,10 @@ RoadLighting calculate_lighting(const LoadedLayout& layout) {
 
     for (const double y : result.field.y)
         for (const double x : result.field.x) {
-            FieldPoint point{x, y, horizontal_illuminance(layout, lamps, {x, y}), {}};
+            const std::vector<PlacedLuminaire> seen = seen_from(layout, lamps, glm::dvec2(x, y), &result);
+            FieldPoint point{x, y, horizontal_illuminance(layout, seen, {x, y}), {}};
             for (const LaneObserver& o : result.observers)
-                point.luminance.push_back(luminance_towards(layout, lamps, {x, y}, {o.eye.x, o.eye.y}));
+                point.luminance.push_back(luminance_towards(layout, seen, {x, y}, {o.eye.x, o.eye.y}));
             result.points.push_back(std::move(point));
         }
     summarise_illuminance(layout, lamps, result);

@@ -21,7 +21,8 @@ double veiling_luminance(const LoadedLayout&, std::span<const PlacedLuminaire>, 
 /// Greatest distance along the road of luminaires that count as glare (CIE 140), m.
 constexpr double kGlareRange = 500;
 
-/// Calculates all figures. Throws Error if a value is out of range, or if no light reaches an observer.
+/// Calculates all figures; luminaires that occluders hide from a point do not light it, nor dazzle an eye that does not
+/// see them. Throws Error if a value is out of range, or if no light reaches an observer.
 RoadLighting calculate_lighting(const LoadedLayout&);
 
 }  // namespace vesper::roads

@@ -16,6 +16,8 @@
 
 #include "io/hdr_image.h"
 #include "places.h"
+#include "scene/gltf_save.h"
+#include "support/occluders.h"
 
 namespace {
 
@@ -79,6 +81,38 @@ TEST_F(Road, WritesItsScene) {
     EXPECT_GT(json["extras"]["vesper"]["openings"].size(), 0u);
     EXPECT_EQ(run("--scene road.obj"), 2);
     EXPECT_EQ(text_of("err.txt"), "vesper: --scene road.obj: a .gltf or .glb file is expected\n");
+}
+
+// A tree hides luminaires; the figures of the standard stand beside, and are all there is without occlusion.
+TEST_F(Road, CountsOccluders) {
+    vesper::test::OccluderScene tree;
+    tree.box({-8, 4.25f, -20}, {3, 3.75f, 4});  // over the left lane, from 0.5 m up
+    vesper::scene::save_gltf(tree.scene(), "tree", folder / "tree.gltf");
+    ASSERT_EQ(run("--json plain.json --csv plain.csv"), 0) << text_of("err.txt");
+    ASSERT_EQ(run("--occluders tree.gltf --json on.json --csv on.csv"), 0) << text_of("err.txt");
+    const std::string out = text_of("out.txt");
+    EXPECT_NE(out.find("without occluders (EN 13201-3)"), std::string::npos) << out;
+    EXPECT_NE(out.find("  1.164 ok\n"), std::string::npos) << out;
+    EXPECT_NE(out.find("dry): M5; with occluders"), std::string::npos) << out;
+    const auto plain = nlohmann::json::parse(text_of("plain.json")), on = nlohmann::json::parse(text_of("on.json"));
+    const size_t pairs = on["occlusion"]["pairs"], hidden = on["occlusion"]["hidden_pairs"];
+    EXPECT_GT(hidden, 0u);
+    EXPECT_LT(hidden, pairs);
+    const std::string stated =
+        "tree.gltf: " + std::to_string(hidden) + " of " + std::to_string(pairs) + " luminaire-point pairs are hidden\n";
+    EXPECT_NE(out.find(stated), std::string::npos) << out;
+    for (const char* figure : {"average_luminance_cd_m2", "threshold_increment_percent", "average_illuminance_lx"})
+        EXPECT_EQ(on["occlusion"]["en_13201_3"][figure], plain[figure]);
+    EXPECT_LT(on["average_illuminance_lx"], plain["average_illuminance_lx"]);
+    EXPECT_NE(text_of("on.csv").find("less what tree.gltf hides\n"), std::string::npos);
+    ASSERT_EQ(run("--occluders tree.gltf --occlusion off --json off.json --csv off.csv"), 0) << text_of("err.txt");
+    EXPECT_EQ(text_of("off.json"), text_of("plain.json"));
+    EXPECT_EQ(text_of("off.csv"), text_of("plain.csv"));
+    EXPECT_NE(text_of("out.txt").find("tree.gltf: not counted, as in EN 13201-3"), std::string::npos);
+    EXPECT_EQ(run("--occlusion on"), 2);
+    EXPECT_NE(text_of("err.txt").find("neither the layout nor --occluders"), std::string::npos);
+    EXPECT_EQ(run("--occluders tree.gltf --render x.png"), 2);
+    EXPECT_NE(text_of("err.txt").find("--render has no occluders"), std::string::npos);
 }
 
 /// Largest differences of points and of averages between calculation and pictures, %, of what `--json a.json` wrote.

@@ -7,9 +7,12 @@
 #include "io/named_file.h"
 #include "places.h"
 #include "roads/layout_scene.h"
+#include "roads/occluders.h"
 #include "roads/road_lighting.h"
 #include "scene/colour.h"
+#include "scene/gltf_save.h"
 #include "scene/scene_files.h"
+#include "support/occluders.h"
 
 namespace vesper::test {
 namespace {
@@ -60,6 +63,35 @@ TEST(LayoutFile, ReadsEverything) {
         (std::vector<double>{0.7, 0.8, 60, 2700}));
     EXPECT_EQ(layout.surface, photometry::rescaled(photometry::find_reflection_table("R2"), 0.09));
     EXPECT_NEAR(photometry::luminous_flux(layout.distribution), 8803, 1);
+}
+
+// A wall across the road, 10 m on and 5 m high.
+scene::Scene wall_across() {
+    OccluderScene made;
+    made.plate({0, 2.5f, -10}, {100, 0, 0}, {0, 2.5f, 0});
+    return made.scene();
+}
+
+TEST(LayoutFile, ReadsTheOccludersThatItNames) {
+    const TempFolder folder, elsewhere;
+    scene::save_gltf(wall_across(), "wall", folder / "wall.gltf");
+    scene::save_gltf(wall_across(), "wall", elsewhere / "wall.gltf");
+    json file = layout_json();
+    EXPECT_FALSE(layout_of(file).hiding);
+    file["occluders"] = "wall.gltf";
+    const std::filesystem::path path = folder.write("road.json", file.dump());
+    const roads::LoadedLayout layout = roads::read_layout(path);
+    ASSERT_TRUE(layout.hiding);
+    EXPECT_TRUE(layout.hiding->hide({20, 1, 9}, {0, 1, 0}));
+    EXPECT_FALSE(layout.hiding->hide({20, 1, 11}, {0, 1, 0}));
+    EXPECT_GT(roads::calculate_lighting(layout).hidden_pairs, 0u);
+    EXPECT_GT(roads::calculate_lighting(roads::load_layout(layout)).hidden_pairs, 0u) << "as hosts do";
+    EXPECT_FALSE(roads::read_layout(path, {.occlusion = false}).hiding);
+    EXPECT_TRUE(roads::read_layout(path, {.occluders = (elsewhere / "wall.gltf").string()}).hiding);
+    file["occluders"] = (elsewhere / "wall.gltf").string();
+    EXPECT_THROW(roads::read_layout(folder.write("road.json", file.dump())), Error) << "in another folder";
+    file["occluders"] = "none.gltf";
+    EXPECT_THROW(roads::read_layout(folder.write("road.json", file.dump())), Error);
 }
 
 TEST(LayoutFile, OverridesTakeThePlaceOfTheFile) {

@@ -11,6 +11,7 @@
 #define VESPER_ROAD_LIGHTING_HPP
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -71,6 +72,10 @@ struct RoadLayout {
 
     double observer_age = 23;      /**< for TI, 1 to 120 years */
     std::string wanted_class = {}; /**< M1 to M6 if a layout file names one; nothing depends on it */
+
+    /** A glTF scene whose surfaces hide luminaires (trees, buildings), with the road at Y = 0, x along -Z and y along
+     * -X. Empty: none; EN 13201-3 knows none. */
+    std::filesystem::path occluders = {};
 };
 
 /** The calculated points: all pairs of x and y. */
@@ -115,6 +120,8 @@ struct RoadLighting {
     double edge_ratio_left = 0;             /**< likewise of the left edge */
     double edge_ratio = 0;                  /**< EIR, the lesser of both */
     bool wet = false;                       /**< as the reflection table is */
+    std::size_t pairs = 0;                  /**< with occluders: points and luminaires in reach of one another */
+    std::size_t hidden_pairs = 0;           /**< pairs of which the point does not see the luminaire */
 };
 
 /** A lighting class for motorised traffic (EN 13201-2:2015, Table 1). */

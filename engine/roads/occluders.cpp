@@ -1,0 +1,44 @@
+#include "roads/occluders.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "roads/layout_scene.h"
+#include "scene/fixtures.h"
+#include "scene/gltf.h"
+
+namespace vesper::roads {
+namespace {
+
+std::vector<uint32_t> nodes_with_lamps(const scene::Scene& scene) {
+    std::vector<uint32_t> nodes;
+    for (uint32_t i = 0; i < scene.nodes.size(); ++i)
+        if (scene.nodes[i].lamp != scene::kNone) nodes.push_back(i);
+    return nodes;
+}
+
+}  // namespace
+
+Occluders::Occluders(const std::filesystem::path& file) : Occluders(scene::read_gltf(file).scene) {}
+
+Occluders::Occluders(scene::Scene scene)
+    : scene_(std::move(scene)), world_(scene::world_transforms(scene_, 0)), rays_(scene_, world_) {
+    const std::vector<uint32_t> nodes = nodes_with_lamps(scene_);
+    for (const uint32_t node : nodes) lamps_.emplace_back(world_[node][3]);
+    fixtures_ = scene::fixture_nodes(scene_, nodes, world_);
+}
+
+bool Occluders::hide(glm::dvec3 luminaire, glm::dvec3 point) const {
+    const glm::dvec3 from = layout_to_world(luminaire), way = layout_to_world(point) - from;
+    std::span<const uint32_t> own;
+    double nearest = kSameLamp;
+    for (size_t i = 0; i < lamps_.size(); ++i)
+        if (const double distance = glm::distance(lamps_[i], from); distance <= nearest)
+            nearest = distance, own = fixtures_[i];
+    const double begin = kHousing / glm::length(way);
+    const double end = point.z < kKerb ? (luminaire.z - kKerb) / (luminaire.z - point.z) : 1;
+    return begin < end && rays_.blocked(from + begin * way, from + end * way, own);
+}
+
+}  // namespace vesper::roads

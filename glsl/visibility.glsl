@@ -67,3 +67,9 @@ float visibility(FetchedMap map, vec3 from, vec3 normal) {
     const vec2 column = mix(low, high, share.y);
     return !p.inside || mix(column.x, column.y, share.x) >= 0.5 ? 1.0 : 0.0;
 }
+
+// The same by one texel.
+bool glances(FetchedMap map, vec3 from, vec3 normal) {
+    const MapPoint p = map_point(map, from, normal);
+    return !p.inside || sees(map, p, ivec2(floor(p.texel)));
+}

@@ -84,8 +84,10 @@ void print_statistics(const RenderArguments& arguments, const gpu::Device& devic
           double(renderer.device_bytes()) / (1 << 20));
     print("clusters: to %.0f m, at most %u lamps in a froxel, %u froxels overflowed (and looked at every lamp)\n",
           double(frame.far), frame.clusters.longest, frame.clusters.overflowed);
-    if (const auto& [lit, dark, mixed] = frame.visibility; lit + dark + mixed > 0)
-        print("shadows: of pairs of a block of pixels and a lamp, %u lit, %u dark, %u mixed\n", lit, dark, mixed);
+    if (const auto& [lit, dark, mixed, faint] = frame.visibility; lit + dark + mixed + faint > 0)
+        print(
+            "shadows: of pairs of a block of pixels and a lamp, %u lit, %u dark, %u mixed, %u mixed of little light\n",
+            lit, dark, mixed, faint);
     if (arguments.settings.shadows)
         print(
             "distance maps: %u, %.0f MiB; for this frame %u were drawn anew, and %u tiles of others; %u are out of "

@@ -107,8 +107,9 @@ std::string missing_support(VkPhysicalDevice device) {
     VkPhysicalDeviceProperties2 more{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &subgroup};
     vkGetPhysicalDeviceProperties2(device, &more);
     if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) ||
-        !(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_VOTE_BIT))
-        list(names, "subgroup votes in compute shaders");
+        !(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_VOTE_BIT) ||
+        !(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) || subgroup.subgroupSize < 8)
+        list(names, "subgroups of at least 8 with votes and arithmetic in compute shaders");
     for (const char* extension : kDeviceExtensions)
         if (!has_extension(device, extension)) list(names, extension);
     uint32_t families = 0;

@@ -26,7 +26,7 @@ struct MapLayout {
     uint32_t texels() const { return hemispheres * side * side; }
 };
 
-constexpr uint64_t kMostMapTexels = 40u << 20u;  ///< of all maps: 80 MiB
+constexpr uint64_t kMostMapTexels = 48u << 20u;  ///< of all maps: 96 MiB
 
 /// The maps of all lamps of a scene, in the order of placed_lamps().
 struct MapPlan {

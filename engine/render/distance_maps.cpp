@@ -55,7 +55,6 @@ DistanceMaps::DistanceMaps(gpu::Device& device, const gpu_scene::GpuScene& resid
       pipelines_(device),
       executor_(device) {
     distances_ = make_words(device, arena_, places_.texels() / 2);
-    bounds_ = make_words(device, arena_, places_.map_texels() / 8);
 }
 
 bool DistanceMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses,
@@ -211,38 +210,32 @@ void DistanceMaps::plan_tiles(std::map<TileKey, Cover> wanted, const gpu_scene::
 // By way of another buffer, so that no map is overwritten before it has moved.
 void DistanceMaps::make_moves() {
     if (moves_.empty()) return;
-    uint64_t texels = 0;
-    for (const MapPlaces::Move& move : moves_) texels += move.texels;
-    gpu::Arena arena(kernels_.device());
-    const auto move_all = [&](VkBuffer words, uint32_t texels_in_word) {
-        const gpu::OwnedBuffer between =
-            gpu::make_buffer(kernels_.device(), texels / texels_in_word * sizeof(uint32_t),
-                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-        arena.bind(between.get());
-        std::vector<VkBufferCopy> out, in;
-        uint64_t at = 0;
-        for (const MapPlaces::Move& move : moves_) {
-            const auto bytes = [&](uint64_t first) { return first / texels_in_word * sizeof(uint32_t); };
-            out.push_back({bytes(move.from), bytes(at), bytes(move.texels)});
-            in.push_back({bytes(at), bytes(move.to), bytes(move.texels)});
-            at += move.texels;
-        }
-        kernels_.device().run_once([&](VkCommandBuffer commands) {
-            const VkMemoryBarrier2 after{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                         .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                         .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                         .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                         .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
-            gpu::pipeline_barrier(commands, {}, &after);
-            vkCmdCopyBuffer(commands, words, between.get(), uint32_t(out.size()), out.data());
-            gpu::pipeline_barrier(commands, {}, &after);
-            vkCmdCopyBuffer(commands, between.get(), words, uint32_t(in.size()), in.data());
-            gpu::pipeline_barrier(commands, {}, &after);
-        });
-    };
-    move_all(distances_.get(), 2);
-    move_all(bounds_.get(), 8);
+    constexpr VkDeviceSize kTexel = sizeof(uint16_t);
+    std::vector<VkBufferCopy> out, in;
+    VkDeviceSize at = 0;
+    for (const MapPlaces::Move& move : moves_) {
+        out.push_back({kTexel * move.from, at, kTexel * move.texels});
+        in.push_back({at, kTexel * move.to, kTexel * move.texels});
+        at += kTexel * move.texels;
+    }
     moves_.clear();
+    const gpu::Device& device = kernels_.device();
+    gpu::Arena arena(device);
+    const gpu::OwnedBuffer between =
+        gpu::make_buffer(device, at, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    arena.bind(between.get());
+    device.run_once([&](VkCommandBuffer commands) {
+        const VkMemoryBarrier2 after{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                     .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                     .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                                     .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                                     .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+        gpu::pipeline_barrier(commands, {}, &after);
+        vkCmdCopyBuffer(commands, distances_.get(), between.get(), uint32_t(out.size()), out.data());
+        gpu::pipeline_barrier(commands, {}, &after);
+        vkCmdCopyBuffer(commands, between.get(), distances_.get(), uint32_t(in.size()), in.data());
+        gpu::pipeline_barrier(commands, {}, &after);
+    });
 }
 
 void DistanceMaps::draw(const gpu_scene::SceneFrame& poses) {
@@ -250,12 +243,9 @@ void DistanceMaps::draw(const gpu_scene::SceneFrame& poses) {
     const auto run = [&](const std::vector<MapToDraw>& maps) {
         if (maps.empty()) return;
         graph::FrameGraph graph;
-        const uint64_t texels = places_.texels();
-        const MapWords words{
-            graph.lasting("map distances", distances_.get(), texels / 2 * sizeof(uint32_t), VK_FORMAT_R32_UINT),
-            graph.lasting("map bounds", bounds_.get(), places_.map_texels() / 8 * sizeof(uint32_t),
-                          VK_FORMAT_R32_UINT)};
-        add_distance_maps({graph, kernels_, pipelines_, {}}, resident_, poses, maps, words);
+        const graph::Resource distances = graph.lasting("map distances", distances_.get(),
+                                                        places_.texels() / 2 * sizeof(uint32_t), VK_FORMAT_R32_UINT);
+        add_distance_maps({graph, kernels_, pipelines_, {}}, resident_, poses, maps, distances);
         executor_.run(graph);
     };
     std::vector<MapToDraw> maps, tiles;
@@ -293,10 +283,8 @@ VisibilityMaps DistanceMaps::maps(graph::FrameGraph& graph, const gpu_scene::Lam
     for (uint32_t i = 0; i < list.placed(); ++i)
         lamps.push_back(gpu_scene::lamp_map(places_[list.indices[i]],
                                             gpu_scene::map_frame(poses.world[lamps_[list.indices[i]].node]), view));
-    return {
-        graph.upload("lamp maps", lamps, VK_FORMAT_R32G32B32A32_SFLOAT),
-        graph.external("distances", distances_.get(), texels * 2, VK_FORMAT_R16_SFLOAT),
-        graph.external("bounds", bounds_.get(), places_.map_texels() / 8 * sizeof(uint32_t), VK_FORMAT_R16G16_SFLOAT)};
+    return {graph.upload("lamp maps", lamps, VK_FORMAT_R32G32B32A32_SFLOAT),
+            graph.external("distances", distances_.get(), texels * sizeof(uint16_t), VK_FORMAT_R16_SFLOAT)};
 }
 
 }  // namespace vesper::render

@@ -82,7 +82,7 @@ private:
     MapPlaces places_;
     MovingPlacements moving_;
     gpu::Arena arena_;
-    gpu::OwnedBuffer distances_, bounds_;
+    gpu::OwnedBuffer distances_;
     std::vector<bool> drawn_;              // of lamps: the map holds what stands still
     std::vector<bool> whole_;              // of lamps: the map is drawn as that of one that moves
     std::vector<uint64_t> drawn_version_;  // of what moves, in maps of lamps that move

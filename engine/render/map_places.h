@@ -12,7 +12,7 @@ namespace vesper::render {
 /// Gives maps their sides as a view needs them, and places; and single tiles (shared::kRegion texels square) beside.
 class MapPlaces {
 public:
-    static constexpr uint32_t kTiles = 1280;  ///< 10 MiB
+    static constexpr uint32_t kTiles = 2048;  ///< 16 MiB
     static constexpr uint32_t kTileTexels = shared::kRegion * shared::kRegion;
 
     /// `scale`: of sides, see gpu_scene::choose_sides.
@@ -20,7 +20,6 @@ public:
 
     const gpu_scene::MapLayout& operator[](uint32_t lamp) const { return layouts_[lamp]; }
     uint64_t texels() const { return texels_ + uint64_t(kTiles) * kTileTexels; }  ///< of the buffer
-    uint64_t map_texels() const { return texels_; }                               ///< those of maps come first
 
     struct Move {
         uint32_t from, to, texels;  ///< first texels, and how many

@@ -106,7 +106,7 @@ ToneChain Renderer::declare(const FrameContext& frame, const gpu_scene::SceneFra
     const GBuffer surfaces = add_gbuffer(frame, scene_->resident, poses);
     const Clusters clusters = add_clusters(frame, surfaces.surface, inputs.lamps, inputs.tables, inputs.clusters);
     Blocks blocks = add_blocks(frame, surfaces, clusters);
-    blocks = add_visibility(frame, surfaces, clusters, blocks, inputs.shading.maps);
+    blocks = add_visibility(frame, surfaces, clusters, blocks, inputs.shading.maps, inputs.shading.faint);
     blocks = add_merging(frame, surfaces, clusters, blocks, inputs.shading.merge_tolerance);
     graph::Resource scene = add_shading(frame, surfaces, clusters, blocks, inputs.shading);
     scene = add_daylight(frame, surfaces, scene, inputs.daylight);

@@ -16,7 +16,8 @@ layout(local_size_x = 8) in;
 layout(constant_id = 0) const uint kCones = 1u;   // there are points and spots,
 layout(constant_id = 1) const uint kPowers = 1u;  // cosine powers,
 layout(constant_id = 2) const uint kTables = 1u;    // measured distributions,
-layout(constant_id = 3) const uint kRoads = 1u;   // roads with a table
+layout(constant_id = 3) const uint kRoads = 1u;   // roads with a table,
+layout(constant_id = 4) const uint kMaps = 1u;    // distance maps of lamps
 
 layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
@@ -48,6 +49,7 @@ vec3 points[kPoints];              // m
 Road roads[kPoints];
 float radius;                      // of the points around the middle one, m
 vec3 sum[kNodes];                  // see shared/blocks.h
+bool lookups;                      // whether pixels look up lamps in distance maps
 
 // Where a node or point is, from -1 to 1 between the outer nodes.
 vec2 unit_of(uint k) {
@@ -124,7 +126,7 @@ bool shows_nodes(vec2 at[kPoints]) {
 
 // Adds a lamp if it is smooth over the plane: wrong by at most the tolerance, or by a quarter of the threshold, below which lamps are left out
 // anyway. Such a lamp counts where it gives less than that, too. Returns whether it stays on the list.
-bool remains(FetchedLamp lamp, bool cone) {
+bool remains(FetchedLamp lamp, float share, bool cone) {
     float value[kPoints];
     vec2 at[kPoints];
     bool lit = true, none_counts = true, even = true;
@@ -151,7 +153,7 @@ bool remains(FetchedLamp lamp, bool cone) {
     bool resolved = radius * nearest <= widest_cone(lamp, cone);
     if (!cone && kTables != 0u) resolved = resolved && (!lamp.measured || shows_nodes(at));
     const bool taken = resolved && even && lit && error <= max(push.tolerance * least, 0.25 * push.view.threshold);
-    [[unroll]] for (uint k = 0u; k < kNodes; ++k) sum[k] += lamp.colour * (taken ? value[k] : 0.0);
+    [[unroll]] for (uint k = 0u; k < kNodes; ++k) sum[k] += lamp.colour * (taken ? share * value[k] : 0.0);
     return !(taken || (resolved && none_counts));
 }
 
@@ -162,20 +164,21 @@ bool covers(uint entry) { return (slices & ~slices_of(entry)) == 0u; }
 bool merge_block(uint block) {
     const int counts = int(2u * block), first = int(block * push.capacity), last = first + int(push.capacity) - 1;
     const uint cones = imageLoad(block_counts, counts).r, others = imageLoad(block_counts, counts + 1).r;
+    lookups = kMaps != 0u && cones == kAllLamps;
     const uint tables_from = push.view.lamps.cones + push.view.lamps.powers;
     if (!plane || cones == kAllLamps || push.tolerance < 0.0) return cones + others != 0u || push.tolerance < 0.0;
     int kept_cones = 0, kept_others = 0;
     if (kCones != 0u)
         for (int i = 0; i < int(cones); ++i) {
             const uint entry = imageLoad(entries, first + i).r;
-            if (covers(entry) && (entry & kMixedBit) == 0u && !remains(fetch(lamp_of(entry), true, tables_from), true)) continue;
+            if (covers(entry) && (entry & kMixedBit) == 0u && !remains(fetch(lamp_of(entry), true, tables_from), share_of(entry), true)) continue;
             imageStore(entries, first + kept_cones, uvec4(entry));
             ++kept_cones;
         }
     if (kPowers != 0u || kTables != 0u)
         for (int i = 0; i < int(others); ++i) {
             const uint entry = imageLoad(entries, last - i).r;
-            if (covers(entry) && (entry & kMixedBit) == 0u && !remains(fetch(lamp_of(entry), false, tables_from), false)) continue;
+            if (covers(entry) && (entry & kMixedBit) == 0u && !remains(fetch(lamp_of(entry), false, tables_from), share_of(entry), false)) continue;
             imageStore(entries, last - kept_others, uvec4(entry));
             ++kept_others;
         }
@@ -186,7 +189,7 @@ bool merge_block(uint block) {
 
 uint class_of(bool listed) {
     if (!drawn) return kClassEmpty;
-    if (retro) return kClassRetro;
+    if (retro || lookups) return kClassRetro;
     if (glossy) return paved ? kClassGlossyPaved : kClassGlossy;
     if (paved) return listed ? kClassPavedListed : kClassPaved;
     return listed ? kClassMattListed : kClassMatt;

@@ -25,7 +25,8 @@ layout(constant_id = 8) const uint kMerged = 1u;    // or added up;
 layout(constant_id = 9) const uint kGlossy = 1u;      // surfaces with a specular lobe,
 layout(constant_id = 10) const uint kRoads = 1u;      // roads with a table,
 layout(constant_id = 11) const uint kRetro = 1u;      // retroreflective surfaces,
-layout(constant_id = 12) const uint kMaps = 1u;       // distance maps of lamps
+layout(constant_id = 12) const uint kMaps = 1u;       // distance maps of lamps,
+layout(constant_id = 13) const uint kLookups = 1u;    // which pixels look up where every lamp counts
 
 layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
@@ -40,6 +41,7 @@ layout(binding = 9) uniform usamplerBuffer class_counts;
 layout(binding = 10) uniform usamplerBuffer class_blocks;
 layout(binding = 11) uniform samplerBuffer maps;
 layout(binding = 12) uniform samplerBuffer distances;
+layout(binding = 13) uniform usamplerBuffer shares;
 layout(push_constant, scalar) uniform Push { ShadePush push; };
 
 #include "lamp.glsl"
@@ -92,11 +94,18 @@ bool returns_light(uint r, vec3 toward_lamp, float normal_lamp) {
 
 float seen[kRows];  // share of a lamp that each pixel sees
 
-// Looks from the pixels at a lamp that something hides from some of them: a loop of one turn, so that a CPU device does
-// nothing for other lamps.
-void look_at(uint index, vec3 position_of_lamp, bool mixed) {
-    [[unroll]] for (uint r = 0u; r < kRows; ++r) seen[r] = 1.0;
-    for (uint k = 0u; k < (mixed ? 1u : 0u); ++k) {
+// Finds how much the pixels see of a lamp that something may hide from some of them. Loops of one turn, so that a CPU
+// device does nothing for other lamps.
+void look_at(uint index, vec3 position_of_lamp, uint entry, uint block, bool every_lamp) {
+    const float share = every_lamp ? 1.0 : share_of(entry);
+    [[unroll]] for (uint r = 0u; r < kRows; ++r) seen[r] = share;
+    for (uint k = 0u; k < (!every_lamp && (entry & kMixedBit) != 0u ? 1u : 0u); ++k) {
+        const uint column = gl_LocalInvocationID.x % kBlockSize, row = gl_LocalInvocationID.y * kRows % kBlockSize;
+        const uint word = texelFetch(shares, int((block * kSharePlaces + place_of(entry)) * kBlockSize + column)).r;
+        [[unroll]] for (uint r = 0u; r < kRows; ++r) seen[r] = float(word >> 4u * (row + r) & 15u) / 15.0;
+    }
+    if (kLookups == 0u) return;
+    for (uint k = 0u; k < (every_lamp ? 1u : 0u); ++k) {
         const FetchedMap map = fetch_map(index);
         [[unroll]] for (uint r = 0u; r < kRows; ++r) seen[r] = visibility(map, position[r] - position_of_lamp, normal[r]);
     }
@@ -136,25 +145,25 @@ void add_lamp(FetchedLamp lamp, uint slices, bool cone) {
 
 // The list of a block: entries of cones from the front, of others from the back. Or, all of them, every lamp there is.
 struct List {
-    uint cones, others, first, last;
+    uint block, cones, others, first, last;
     bool all_of_them;
 };
 
 List list_of(uint block) {
     const uint others = push.lamps.powers + push.lamps.tables;
-    const List every_lamp = List(push.lamps.cones, others, 0u, push.lamps.cones + others - 1u, true);
+    const List every_lamp = List(block, push.lamps.cones, others, 0u, push.lamps.cones + others - 1u, true);
     if (kEveryLamp != 0u) return every_lamp;
     const uint cones = texelFetch(block_counts, int(2u * block)).r;
     if (cones == kAllLamps) return every_lamp;
     const uint first = block * push.capacity;
-    return List(cones, texelFetch(block_counts, int(2u * block + 1u)).r, first, first + push.capacity - 1u, false);
+    return List(block, cones, texelFetch(block_counts, int(2u * block + 1u)).r, first, first + push.capacity - 1u, false);
 }
 
 void add_entry(List list, uint at, uint number, bool cone) {
     const uint entry = list.all_of_them ? number : texelFetch(entries, int(at)).r;
     const uint index = list.all_of_them ? number : lamp_of(entry);
     const FetchedLamp lamp = fetch(index, cone, push.lamps.cones + push.lamps.powers);
-    if (kMaps != 0u) look_at(index, lamp.position, list.all_of_them || (entry & kMixedBit) != 0u);
+    if (kMaps != 0u) look_at(index, lamp.position, entry, list.block, list.all_of_them);
     add_lamp(lamp, list.all_of_them ? ~0u : slices_of(entry), cone);
 }
 

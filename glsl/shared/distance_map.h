@@ -12,8 +12,7 @@ SHARED_BEGIN
 const uint kMapTexels = 2u;        // rgba32f per lamp, see LampMap
 const uint kMapUnit = 64u;         // maps begin at multiples of that many texels
 const uint kRegion = 64u;          // texels, side of what a workgroup stores; the smallest side of a map
-const uint kGroup = 4u;            // texels, side of a group of the lowest level of bounds
-const uint kBoundLevels = 5u;      // groups of 4, 8, 16, 32 and 64 texels
+const uint kGroup = 4u;            // texels, side of what an invocation stores
 const uint kNotSaved = 0x7fffffffu;
 const uint kSaveNow = 0x80000000u; // the texels of the map are to be saved first
 // How far a surface may be off its plane, or a distance off the truth, before it counts as before the surface: kMapBias (m)
@@ -32,10 +31,6 @@ struct LampMap {
     float radius;      // of the luminous opening, m; 0: a point
 };
 SHARED_SIZE(LampMap, 32)
-
-// Texels of one level of bounds of a hemisphere before level k: (side^2 - (side >> k)^2) / 12; of all its levels at most
-// side^2 / 12, in a place of side^2 / 8. Each is two halves: the least and the greatest distance, the least negative if
-// the texels, with those around them, are not one smooth surface.
 
 // One square of kRegion texels of a hemisphere that was drawn. Where only what moves was drawn, over what stands still, the
 // texels without it are saved elsewhere.

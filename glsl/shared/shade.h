@@ -13,9 +13,16 @@ const float kRoadKind = -1.0;
 const uint kBlockSize = 8u;  // px, side of a block; a tile is a whole number of blocks
 
 // A block of pixels has a list of its own: the lamps of its froxels that can light what is drawn
-// in it. An entry is a lamp's index and, above it, whether something may hide the lamp from some of the pixels, and the
-// first and the last slice whose pixels it is for.
+// in it. An entry is a lamp's index and, above it, the share of the lamp that the block sees on average, in sixteenths (0:
+// all of it), or with kMixedBit the place that has the shares of its pixels; and the first and the last slice whose pixels
+// it is for.
+const uint kShareShift = 15u;
+const uint kShareMask = 31u;
+const uint kShares = 16u;
 const uint kMixedBit = 1u << 21u;
+// Place k of a block: a word for each column of pixels, from word (block * kSharePlaces + k) * kBlockSize on; four bits for
+// each pixel, the first one lowest, in fifteenths of the lamp.
+const uint kSharePlaces = 16u;
 const uint kFirstSliceShift = 22u;
 const uint kLastSliceShift = 27u;
 

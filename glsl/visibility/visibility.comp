@@ -2,18 +2,21 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
+#extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
 
-// Visibility of lamps from blocks of pixels, one block per invocation. Of the lamps on a block's list, those that nothing
-// of the block sees leave it, and those that some of it may not see are marked (kMixedBit). What a surface sees of a lamp
-// changes at edges of the lamp's distance map alone: where the part of the map that a block covers has none, one look
-// tells for all of a plane; where it has some, looks at every texel of that part do. For other surfaces sixteen of the
-// block's pixels speak for all.
+// Visibility of lamps from blocks of pixels: one block per workgroup, which is one subgroup. Sixteen pixels of the block,
+// the probes, tell what it sees of each lamp on its list: one lamp per invocation. Where they differ, and the lamp gives
+// a good part of the block's light, all pixels look: one column of them per invocation. Lamps that nothing of the block
+// sees leave its list.
 
 #include "blocks.glsl"
 #include "normal.glsl"
 #include "shared/visibility.h"
 
-layout(local_size_x = 8) in;
+layout(local_size_x = 8) in;  // kBlockSize
+layout(constant_id = 0) const uint kPowers = 1u;  // there are cosine powers,
+layout(constant_id = 1) const uint kTables = 1u;  // measured distributions
 
 layout(binding = 0, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 1) uniform samplerBuffer lamps;
@@ -21,155 +24,149 @@ layout(binding = 2, r32ui) uniform uimageBuffer block_counts;
 layout(binding = 3, r32ui) uniform uimageBuffer entries;
 layout(binding = 4) uniform samplerBuffer maps;
 layout(binding = 5) uniform samplerBuffer distances;
-layout(binding = 6) uniform samplerBuffer bounds;  // halves: least distance, negative at edges; greatest
-layout(binding = 7, r32ui) uniform uimageBuffer report;
+layout(binding = 6) uniform samplerBuffer tables;
+layout(binding = 7, r32ui) writeonly uniform uimageBuffer shares;
+layout(binding = 8, r32ui) uniform uimageBuffer report;
 layout(push_constant, scalar) uniform Push { VisibilityPush push; };
 
+#include "lamp.glsl"
 #include "visibility.glsl"
-
+const float kMostSheen = 8.0;  // what a sheen or a wide lobe has, at most, in place of a cosine
 const uint kProbes = 16u;
-const int kMostGroups = 16, kMostTexels = 144;
-const float kMostTilt = 1e-3, kMostLift = 1e-3;  // of a plane's pixels: rad; and of their distance from the eye
+const uint kMostLamps = 256u;  // of a block
 
-vec3 probe_position[kProbes], probe_normal[kProbes];  // pixels of the block; the first ones are repeated where nothing is drawn
-vec3 corners[4];  // of a plane
-bool plane;       // all of the block's surfaces are one
+vec3 position[kBlockSize], normal[kBlockSize];  // of the column
+bool drawn[kBlockSize];
+bool shiny;          // of the block: whether some surface with a specular lobe or road with a table is drawn
+vec3 probe_position[kProbes], probe_normal[kProbes];  // two in each column and row, and in the corners
+bool probe_drawn[kProbes];
+shared uint found[kMostLamps];       // of lamps: what their blocks see, see below; each is its invocation's own
+shared float brightest[kMostLamps];  // the largest illuminance that they give a probe, lx
 
 void look_at_block(uvec2 corner) {
-    const uvec2 end = min(corner + kBlockSize, push.size);
-    vec3 normal = vec3(0.0, 0.0, 1.0), place = vec3(0.0);
-    bool drawn = false;
-    float away = 0.0;
-    plane = true;
-    for (uint y = corner.y; y < end.y; ++y)
-        for (uint x = corner.x; x < end.x; ++x) {
-            const vec4 surface = imageLoad(surface_image, ivec2(x, y));
-            const bool here = surface.z > 0.0, first = here && !drawn;
-            const vec3 n = decode_normal(surface.xy), position = pixel_ray(push.grid, vec2(x, y)) * surface.z;
-            drawn = drawn || here;
-            normal = first ? n : normal;
-            place = first ? position : place;
-            away = first ? dot(n, position) : away;
-            plane = plane && (!here || (distance(n, normal) <= kMostTilt && abs(dot(normal, position) - away) <= kMostLift * surface.z));
-        }
-    [[unroll]] for (uint k = 0u; k < 4u; ++k) {
-        const vec3 ray = pixel_ray(push.grid, vec2(k % 2u == 0u ? corner.x : end.x - 1u, k < 2u ? corner.y : end.y - 1u));
-        const float depth = away / dot(normal, ray);
-        plane = plane && depth > 0.0 && depth < 1e6;
-        corners[k] = ray * depth;
+    const uint column = gl_LocalInvocationID.x;
+    bool shines = false;
+    [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
+        const uvec2 pixel = corner + uvec2(column, r);
+        const vec4 surface = imageLoad(surface_image, ivec2(min(pixel, push.size - 1u)));
+        drawn[r] = surface.z > 0.0 && all(lessThan(pixel, push.size));
+        position[r] = pixel_ray(push.grid, vec2(pixel)) * surface.z;
+        normal[r] = decode_normal(surface.xy);
+        shines = shines || (drawn[r] && surface.w < 1.0);
     }
+    shiny = subgroupAny(shines);
     [[unroll]] for (uint k = 0u; k < kProbes; ++k) {
-        const uvec2 at = corner + uvec2(k % 4u, k / 4u) * 2u + uvec2(k / 4u % 2u, k % 2u);
-        const vec4 surface = imageLoad(surface_image, ivec2(min(at, push.size - 1u)));
-        const bool here = surface.z > 0.0 && all(lessThan(at, end));
-        probe_position[k] = here ? pixel_ray(push.grid, vec2(at)) * surface.z : place;
-        probe_normal[k] = here ? decode_normal(surface.xy) : normal;
+        const uvec2 pixel = corner + uvec2(k / 2u, ((k % 2u == 0u ? 0x04652130u : 0x71234657u) >> 4u * (k / 2u)) & 7u);
+        const vec4 surface = imageLoad(surface_image, ivec2(min(pixel, push.size - 1u)));
+        probe_drawn[k] = surface.z > 0.0 && all(lessThan(pixel, push.size));
+        probe_position[k] = pixel_ray(push.grid, vec2(pixel)) * surface.z;
+        probe_normal[k] = decode_normal(surface.xy);
     }
 }
 
-const uint kLit = 0u, kDark = 1u, kMixed = 2u;
+const uint kLit = 0u, kDark = kShares + 1u, kMixed = kShares + 2u;  // of `found`; between: sixteenths that are seen
 
-vec2 low_texel, high_texel;  // of a map: the part that the block covers
-bool within;                 // the map has all of it
-bool bends;                  // it crosses the border of a quadrant
-
-// The corners of a plane. Within a quadrant of the map they bound what is between them; across its borders straight lines
-// bend.
-void cover_plane(FetchedMap map, vec3 lamp) {
-    low_texel = vec2(1e30), high_texel = vec2(-1e30), within = true;
-    bvec4 sides = bvec4(false);
-    int hemisphere = 0;
-    [[unroll]] for (uint k = 0u; k < 4u; ++k) {
-        const MapPoint p = map_point(map, corners[k] - lamp, probe_normal[0]);
-        const vec2 square = p.texel - 0.5 * float(map.side);
-        const float x = square.x + square.y, y = square.x - square.y;
-        sides = bvec4(sides.x || x < 0.0, sides.y || x > 0.0, sides.z || y < 0.0, sides.w || y > 0.0);
-        low_texel = min(low_texel, p.texel);
-        high_texel = max(high_texel, p.texel);
-        hemisphere = k == 0u ? p.first : hemisphere;
-        within = within && p.inside && p.first == hemisphere;
-    }
-    bends = (sides.x && sides.y) || (sides.z && sides.w);
-    const vec2 more = bends ? 0.5 * (high_texel - low_texel) : vec2(0.0);
-    low_texel -= more, high_texel += more;
-}
-
-// Pixels of a surface of any shape.
-uint probe(FetchedMap map, vec3 lamp) {
-    uint seen = 0u;
-    for (uint k = 0u; k < kProbes && (seen == k || seen == 0u); ++k) {
-        const MapPoint p = map_point(map, probe_position[k] - lamp, probe_normal[k]);
-        seen += !p.inside || sees(map, p, ivec2(floor(p.texel))) ? 1u : 0u;
-    }
-    return seen == kProbes ? kLit : seen == 0u ? kDark : kMixed;
-}
-
-uint visibility_of(uint lamp) {
-    const FetchedMap map = fetch_map(lamp);
-    if (map.side == 0) return kLit;
-    const vec3 position = texelFetch(lamps, int(lamp * kTexelsPerLamp)).xyz;
-    if (!plane) return probe(map, position);
-    cover_plane(map, position);
-    const MapPoint p = map_point(map, probe_position[0] - position, probe_normal[0]);
-    const float margin = 1.0;  // texels that a look takes besides
-    const vec2 low = low_texel - margin, high = high_texel + margin;
-    if (!within || any(lessThan(low, vec2(0.0))) || any(greaterThanEqual(high, vec2(map.side)))) return kMixed;
-    // The lowest level at which few groups cover it.
-    ivec2 from, to;
-    uint level = 0u;
-    for (; level < kBoundLevels; ++level) {
-        from = ivec2(low) >> int(level + 2u), to = ivec2(high) >> int(level + 2u);
-        if ((to.x - from.x + 1) * (to.y - from.y + 1) <= kMostGroups) break;
-    }
-    if (level == kBoundLevels) return kMixed;
-    const int row = map.side >> int(level + 2u);
-    const int base = p.first / 8 + (map.side * map.side - (map.side >> int(level)) * (map.side >> int(level))) / 12;
-    bool edge = false;
-    for (int y = from.y; y <= to.y; ++y)
-        for (int x = from.x; x <= to.x; ++x) {
-            edge = edge || texelFetch(bounds, base + y * row + x).x < 0.0;
+// Looks from the probes at one lamp for each invocation. Returns the mean of what they get of it, lx.
+float probe(uint number, uint index, bool cone) {
+    const FetchedMap map = fetch_map(index);
+    const FetchedLamp lamp = fetch(index, cone, push.lamps.cones + push.lamps.powers);
+    uint seen = 0u, before = 0u, valid = 0u;
+    float sum = 0.0, most = 0.0;
+    [[unroll]] for (uint k = 0u; k < kProbes; ++k) {
+        const vec3 to = lamp.position - probe_position[k];
+        const bool lights = probe_drawn[k] && dot(probe_normal[k], to) > 0.0;
+        const bool sees_it = lights && glances(map, -to, probe_normal[k]);
+        seen += sees_it ? 1u : 0u;
+        before += lights ? 1u : 0u;
+        if (k % 4u == 0u) {
+            const float inverse = inversesqrt(max(dot(to, to), 1e-12));
+            const float beam = lamp.intensity * relative_intensity(lamp, -dot(lamp.axis, to) * inverse, -to, inverse, cone) * inverse * inverse;
+            const float cosine = dot(probe_normal[k], to) * inverse;
+            sum += sees_it ? beam * cosine : 0.0;
+            most = max(most, lights ? beam * (shiny ? kMostSheen : cosine) : 0.0);
+            valid += probe_drawn[k] ? 1u : 0u;
         }
-    if (!edge) return sees(map, p, ivec2(floor(p.texel))) ? kLit : kDark;
-    // Not every edge is one of a shadow: it may be beside it, or behind the plane.
-    const ivec2 first = ivec2(floor(low_texel - 0.5)), last = ivec2(floor(high_texel - 0.5)) + 1;
-    const int width = last.x - first.x + 1, count = width * (last.y - first.y + 1);
-    if (bends || count > kMostTexels) return kMixed;
-    int seen = 0;
-    for (int i = 0; i < count && (seen == i || seen == 0); ++i) seen += sees(map, p, first + ivec2(i % width, i / width)) ? 1 : 0;
-    return seen == count ? kLit : seen == 0 ? kDark : kMixed;
+    }
+    found[number] = seen == 0u ? kDark : seen == before ? kLit : clamp(kShares * seen / before, 1u, kShares - 1u);
+    brightest[number] = most;
+    return sum / float(max(valid, 1u));
 }
 
-uint lit = 0u, dark = 0u, mixed = 0u;
-
-// Looks at entries from `first` on, every `step`-th. Returns how many are left.
-uint keep_visible(uint count, int first, int step_) {
-    int kept = 0;
-    for (int i = 0; i < int(count); ++i) {
-        const uint entry = imageLoad(entries, first + step_ * i).r;
-        const uint visible = visibility_of(lamp_of(entry));
-        lit += visible == kLit ? 1u : 0u;
-        dark += visible == kDark ? 1u : 0u;
-        mixed += visible == kMixed ? 1u : 0u;
-        if (visible == kDark) continue;
-        imageStore(entries, first + step_ * kept, uvec4(visible == kMixed ? entry | kMixedBit : entry));
-        ++kept;
+// What all pixels see: a share of the lamp for each of the column, four bits; and what the block sees.
+uint look(uint index, out uint word) {
+    const FetchedMap map = fetch_map(index);
+    const vec3 lamp = texelFetch(lamps, int(index * kTexelsPerLamp)).xyz;
+    uint kinds = 0u;  // 1: some pixel does not see all of it; 2: some sees something
+    word = 0u;
+    [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
+        const vec3 from = position[r] - lamp;
+        const uint share = uint(visibility(map, from, normal[r]) * 15.0 + 0.5);
+        const bool before = drawn[r] && dot(normal[r], from) < 0.0;
+        kinds |= !before ? 0u : (share < 15u ? 1u : 0u) | (share > 0u ? 2u : 0u);
+        word |= share << 4u * r;
     }
-    return uint(kept);
+    kinds = subgroupOr(kinds);
+    return kinds == 3u ? kMixed : kinds == 1u ? kDark : kLit;
 }
 
 void main() {
     const uint even_rows = (push.blocks_y + 1u) / 2u, turn = gl_WorkGroupID.y;  // as in merge_lamps
-    const uint y = turn < even_rows ? 2u * turn : 2u * (turn - even_rows) + 1u, x = gl_GlobalInvocationID.x;
-    if (x >= push.blocks_x) return;
+    const uint y = turn < even_rows ? 2u * turn : 2u * (turn - even_rows) + 1u, x = gl_WorkGroupID.x, lane = gl_LocalInvocationID.x;
     const uint block = y * push.blocks_x + x;
-    const int counts = int(2u * block), first = int(block * push.capacity);
-    const uint cones = imageLoad(block_counts, counts).r, others = imageLoad(block_counts, counts + 1).r;
-    if (cones == kAllLamps || cones + others == 0u) return;
+    const int counts = int(2u * block), first = int(block * push.capacity), last = first + int(push.capacity) - 1;
+    const uint cones = imageLoad(block_counts, counts).r, all_ = cones + imageLoad(block_counts, counts + 1).r;
+    if (cones == kAllLamps || all_ == 0u) return;
     look_at_block(uvec2(x, y) * kBlockSize);
-    const uint kept_cones = keep_visible(cones, first, 1), kept_others = keep_visible(others, first + int(push.capacity) - 1, -1);
-    imageStore(block_counts, counts, uvec4(kept_cones));
-    imageStore(block_counts, counts + 1, uvec4(kept_others));
+
+    float light = 0.0;  // the mean of the block is the sum of all invocations, lx
+    for (uint i = lane; i < all_; i += kBlockSize) {
+        const uint entry = imageLoad(entries, i < cones ? first + int(i) : last - int(i - cones)).r;
+        light += probe(i, lamp_of(entry), i < cones);
+    }
+    // What a lamp must give for all pixels to look at it: more than the faint share of the block's mean light, and so much
+    // that there are places for all such lamps.
+    float limit = max(push.faint * subgroupAdd(light), 1e-9);
+    for (bool fits = false; !fits; limit *= fits ? 1.0 : 2.0) {
+        uint matter = 0u;
+        for (uint i = lane; i < all_; i += kBlockSize) matter += found[i] > kLit && found[i] < kDark && brightest[i] > limit ? 1u : 0u;
+        fits = subgroupAdd(matter) <= kSharePlaces;
+    }
+
+    uint lit = 0u, dark = 0u, mixed = 0u, kept = 0u;  // kept: cones, and from bit 16 on others
+    for (uint begin = 0u; begin < all_; begin += kBlockSize) {
+        const uint i = begin + lane;
+        const bool there = i < all_, cone = i < cones;
+        const uint entry = there ? imageLoad(entries, cone ? first + int(i) : last - int(i - cones)).r : 0u;
+        uint visible = there ? found[i] : kDark, mark = 0u;
+        const bool matters = there && visible > kLit && visible < kDark && brightest[i] > limit;
+        // Lamps that all pixels look at, one after another.
+        uint next = subgroupMax(matters ? i + 1u : 0u);
+        while (next != 0u) {
+            const bool mine = i + 1u == next;
+            const uint lamp = subgroupMax(mine ? lamp_of(entry) : 0u);
+            uint word;
+            const uint sees_it = look(lamp, word);
+            if (sees_it == kMixed)
+                imageStore(shares, int((block * kSharePlaces + mixed) * kBlockSize + lane), uvec4(word));
+            visible = mine ? sees_it : visible;
+            mark = mine && sees_it == kMixed ? kMixedBit | mixed << kShareShift : mark;
+            mixed += sees_it == kMixed ? 1u : 0u;
+            next = subgroupMax(matters && i + 1u < next ? i + 1u : 0u);
+        }
+        mark = visible < kShares ? visible << kShareShift : mark;
+        const bool stays = visible != kDark;
+        const uint one = stays ? (cone ? 1u : 1u << 16u) : 0u, before = kept + subgroupExclusiveAdd(one);
+        if (stays) imageStore(entries, cone ? first + int(before & 0xffffu) : last - int(before >> 16u), uvec4(entry | mark));
+        kept += subgroupAdd(one);
+        lit += visible == kLit ? 1u : 0u;
+        dark += there && visible == kDark ? 1u : 0u;
+    }
+    lit = subgroupAdd(lit), dark = subgroupAdd(dark);
+    if (lane != 0u) return;
+    imageStore(block_counts, counts, uvec4(kept & 0xffffu));
+    imageStore(block_counts, counts + 1, uvec4(kept >> 16u));
     imageAtomicAdd(report, 0, lit);
     imageAtomicAdd(report, 1, dark);
     imageAtomicAdd(report, 2, mixed);
+    imageAtomicAdd(report, 3, all_ - lit - dark - mixed);
 }

@@ -46,20 +46,4 @@ struct HemisphereMap {
     }
 };
 
-/// Bounds of a square of texels.
-struct MapBounds {
-    double least = std::numeric_limits<double>::infinity(), greatest = 0;
-    bool edge = false;
-};
-inline MapBounds map_bounds(const HemisphereMap& map, uint32_t x, uint32_t y, uint32_t size) {
-    MapBounds b;
-    for (uint32_t j = y; j < y + size; ++j)
-        for (uint32_t i = x; i < x + size; ++i) {
-            b.least = std::min(b.least, map.at(int(i), int(j)));
-            b.greatest = std::max(b.greatest, map.at(int(i), int(j)));
-            b.edge = b.edge || map.edge(int(i), int(j));
-        }
-    return b;
-}
-
 }  // namespace vesper::reference

@@ -63,12 +63,9 @@ TEST(DistanceMapReference, PlanesHaveNoEdgesWithinAQuadrant) {
             (seam ? across : edges) += map.edge(x, y) ? 1 : 0;
         }
     EXPECT_EQ(edges, 0);
-    EXPECT_GT(across, 0);  // rows bend there: looked at pixel by pixel, which costs time alone
+    EXPECT_GT(across, 0);  // rows bend there
     map.norms[size_t(20 * 64 + 30)] *= 0.99;
     EXPECT_TRUE(map.edge(29, 20) && map.edge(30, 20) && map.edge(31, 20) && map.edge(30, 19) && map.edge(30, 21));
-    const reference::MapBounds b = reference::map_bounds(map, 28, 20, 4);
-    EXPECT_TRUE(b.edge);
-    EXPECT_NEAR(b.least, map.at(30, 20) < b.greatest ? std::min(b.least, map.at(30, 20)) : b.least, 1e-12);
 }
 
 }  // namespace

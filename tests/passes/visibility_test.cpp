@@ -169,11 +169,8 @@ TEST(Visibility, PixelsLookAtTheTexelsOfTheReference) {
         const std::vector map{gpu_scene::lamp_map(
             {.side = kSide, .hemispheres = hemispheres, .zoom = float(zoom), .range = 1, .radius = 0, .first = 0},
             turned, view)};
-        const render::VisibilityMaps seen{
-            graph.upload("maps", map, VK_FORMAT_R32G32B32A32_SFLOAT),
-            graph.upload("distances", texels, VK_FORMAT_R16_SFLOAT),
-            graph.upload("bounds", std::vector<uint32_t>(hemispheres * kSide * kSide / 8, 0x80008000),
-                         VK_FORMAT_R16G16_SFLOAT)};
+        const render::VisibilityMaps seen{graph.upload("maps", map, VK_FORMAT_R32G32B32A32_SFLOAT),
+                                          graph.upload("distances", texels, VK_FORMAT_R16_SFLOAT)};
         const LitBlocks shaded = light(frame, g, list, no_tables(graph), {}, {.all_lamps = true, .maps = seen});
         const graph::Resource picture = keep<glm::vec4>(graph, shaded.scene);
         rig.run(graph);
@@ -196,6 +193,33 @@ TEST(Visibility, PixelsLookAtTheTexelsOfTheReference) {
         }
         EXPECT_GT(dark, 500u);
         EXPECT_GT(lit, 500u);
+
+        // Block by block it is the same; but a lamp that gives little counts with a mean.
+        const auto by_blocks = [&](float faint, shared::VisibilityReport& pairs) {
+            graph::FrameGraph again;
+            const render::VisibilityMaps same{again.upload("maps", map, VK_FORMAT_R32G32B32A32_SFLOAT),
+                                              again.upload("distances", texels, VK_FORMAT_R16_SFLOAT)};
+            const LitBlocks lit_blocks = light(rig.frame(again, view), upload(again, s), list, no_tables(again), {},
+                                               {.merge_tolerance = -1, .maps = same, .faint = faint});
+            const graph::Resource seen_picture = keep<glm::vec4>(again, lit_blocks.scene),
+                                  report = keep<shared::VisibilityReport>(again, lit_blocks.blocks.visibility);
+            rig.run(again);
+            pairs = rig.got<shared::VisibilityReport>(report).at(0);
+            return rig.got<glm::vec4>(seen_picture);
+        };
+        shared::VisibilityReport pairs{};
+        const std::vector<glm::vec4> exact = by_blocks(0, pairs);
+        size_t other = 0;
+        for (size_t i = 0; i < pixels.size(); ++i) other += exact[i] == pixels[i] ? 0 : 1;
+        EXPECT_LE(other, pixels.size() / 200) << "blocks whose probes agree and other pixels do not";
+        EXPECT_GT(pairs.mixed, 30u);
+        EXPECT_EQ(pairs.faint, 0u);
+        const std::vector<glm::vec4> mean = by_blocks(100, pairs);
+        EXPECT_EQ(pairs.mixed, 0u);
+        EXPECT_GT(pairs.faint, 30u);
+        double sum = 0, truth = 0;
+        for (size_t i = 0; i < pixels.size(); ++i) sum += double(mean[i].x), truth += double(exact[i].x);
+        EXPECT_NEAR(sum, truth, 0.05 * truth);  // sixteen probes of each block, rounded down to sixteenths
     }
     EXPECT_EQ(rig.complaints(), "");
 }

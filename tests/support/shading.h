@@ -56,7 +56,7 @@ inline LitBlocks light(const render::FrameContext& frame, const render::GBuffer&
     LitBlocks lit{
         .clusters = render::add_clusters(frame, g.surface, list, tables, clusters), .blocks = {}, .scene = {}};
     lit.blocks = render::add_blocks(frame, g, lit.clusters);
-    lit.blocks = render::add_visibility(frame, g, lit.clusters, lit.blocks, settings.maps);
+    lit.blocks = render::add_visibility(frame, g, lit.clusters, lit.blocks, settings.maps, settings.faint);
     lit.blocks =
         render::add_merging(frame, g, lit.clusters, lit.blocks, settings.all_lamps ? -1 : settings.merge_tolerance);
     lit.scene = render::add_shading(frame, g, lit.clusters, lit.blocks, settings);

@@ -63,14 +63,15 @@ Blocks add_merging(const FrameContext& frame, const GBuffer& surfaces, const Clu
     graph::FrameGraph& graph = frame.graph;
     const VkExtent2D extent = frame.view.extent;
     const LampKinds kinds = lamp_kinds(clusters);
-    const uint32_t rows = blocks.count / blocks.columns;
+    const uint32_t rows = blocks.count / blocks.columns, maps = blocks.shares ? 1 : 0;
     blocks.sums = graph.transient(
         "block sums", graph::buffer_shape(uint64_t(blocks.count) * shared::kMergedTexels * sizeof(glm::vec4),
                                           VK_FORMAT_R32G32B32A32_SFLOAT));
     blocks.class_counts = words(graph, "class counts", shared::kBlockClasses * shared::kClassWords);
     blocks.class_blocks = words(graph, "class blocks", uint64_t(blocks.count) * shared::kBlockClasses);
     graph.copy("begin classes", graph.upload("no blocks", empty_classes(), kWords), blocks.class_counts);
-    const gpu::Kernel& merge = frame.kernels.get(kMergeLamps, {kinds.cones, kinds.powers, kinds.tables, kinds.roads});
+    const gpu::Kernel& merge =
+        frame.kernels.get(kMergeLamps, {kinds.cones, kinds.powers, kinds.tables, kinds.roads, maps});
     graph.dispatch("merge lamps", merge,
                    {load(surfaces.reflectance), load(surfaces.surface), sample(clusters.lamps), update(blocks.counts),
                     update(blocks.entries), store(blocks.sums), sample(clusters.tables.texels),

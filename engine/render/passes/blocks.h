@@ -14,6 +14,7 @@ struct Blocks {
     graph::Resource counts, entries;  ///< lists of the lamps that its pixels evaluate one by one (shared/shade.h)
     graph::Resource sums;             ///< merged light of the other lamps
     graph::Resource class_counts, class_blocks;
+    graph::Resource shares;      ///< of lamps that pixels see (shared/shade.h); none without distance maps
     graph::Resource visibility;  ///< shared::VisibilityReport
 };
 

@@ -6,10 +6,8 @@
 #include <string>
 #include <tuple>
 
-#include "shaders/distance_map/bound_distances.comp.inc"
 #include "shaders/distance_map/distance_map.frag.inc"
 #include "shaders/distance_map/distance_map.vert.inc"
-#include "shaders/distance_map/find_edges.comp.inc"
 #include "shaders/distance_map/store_distances.comp.inc"
 
 namespace vesper::render {
@@ -18,8 +16,7 @@ namespace {
 using gpu_scene::GpuScene;
 using graph::sample, graph::update;
 
-constexpr gpu::Shader kStore{"store_distances.comp", store_distances_comp}, kEdges{"find_edges.comp", find_edges_comp},
-    kBound{"bound_distances.comp", bound_distances_comp};
+constexpr gpu::Shader kStore{"store_distances.comp", store_distances_comp};
 
 struct MaskPush {
     float base_opacity, cutoff;
@@ -272,7 +269,7 @@ DrawnParts parts_of(const Collector& collector, const GpuScene& scene, const Dra
 }  // namespace
 
 uint64_t add_distance_maps(const FrameContext& frame, const GpuScene& scene, const gpu_scene::SceneFrame& poses,
-                           std::span<const MapToDraw> maps, const MapWords& words) {
+                           std::span<const MapToDraw> maps, graph::Resource distances) {
     graph::FrameGraph& graph = frame.graph;
     const Collector collector(scene, poses);
     uint64_t triangles = 0;
@@ -293,15 +290,9 @@ uint64_t add_distance_maps(const FrameContext& frame, const GpuScene& scene, con
                      });
 
         const std::vector<shared::MapRegion> regions = regions_of(image.squares);
-        const graph::Groups each{uint32_t(regions.size()), 1, 1};
         const graph::Resource list = graph.upload("map regions" + which, regions, VK_FORMAT_R32G32B32A32_UINT);
         graph.dispatch("store distances" + which, frame.kernels.get(kStore),
-                       {sample(depth), sample(list), update(words.distances)}, each);
-        graph.dispatch("find edges" + which, frame.kernels.get(kEdges),
-                       {sample(list), sample(words.distances), update(words.bounds)}, each);
-        const gpu::Kernel& bound = frame.kernels.get(kBound);
-        graph.dispatch("bound distances" + which, bound, {sample(list), update(words.bounds)}, uint32_t(regions.size()),
-                       graph::cover(uint32_t(regions.size()), 1, bound.group[0], 1));
+                       {sample(depth), sample(list), update(distances)}, graph::Groups{uint32_t(regions.size()), 1, 1});
     }
     return triangles;
 }

@@ -23,7 +23,8 @@ enum ShadeVariant : uint32_t {
     kGlossy = 64,
     kRoads = 128,
     kRetro = 256,
-    kMaps = 512
+    kMaps = 512,
+    kLookups = 1024
 };
 
 // The kinds of lamps and surfaces in the frame.
@@ -37,7 +38,7 @@ const gpu::Kernel& shade_kernel(const gpu::KernelCache& kernels, const PixelGrou
     const auto has = [variant](ShadeVariant bit) -> uint32_t { return variant & bit ? 1 : 0; };
     return kernels.get(
         kShade, {groups.width, groups.height, groups.rows, has(kEveryLamp), has(kCones), has(kPowers), has(kTables),
-                 has(kListed), has(kMerged), has(kGlossy), has(kRoads), has(kRetro), has(kMaps)});
+                 has(kListed), has(kMerged), has(kGlossy), has(kRoads), has(kRetro), has(kMaps), has(kLookups)});
 }
 
 // What is in the blocks of a class, as bits of a shading kernel, beside the lamps that the frame has.
@@ -85,14 +86,16 @@ graph::Resource add_shading(const FrameContext& frame, const GBuffer& g, const C
         if (variant & kRetro) variant = (variant & ~uint32_t{kRetro}) | (present & (kRetro | kRoads));
         if (variant & kListed) variant |= present & (kCones | kPowers | kTables);
         if (variant & kListed && settings.all_lamps) variant |= kEveryLamp;
-        if (variant & kListed && settings.maps.lamps) variant |= kMaps;
+        if (variant & kListed && settings.maps.lamps)
+            variant |= kMaps | (settings.all_lamps || c.variant & kRetro ? uint32_t{kLookups} : 0u);
         frame.graph.dispatch(
             c.name, shade_kernel(frame.kernels, groups, variant),
             {load(g.reflectance), load(g.surface), update(g.emission), sample(clusters.lamps), sample(blocks.counts),
              sample(blocks.entries), sample(clusters.tables.texels), sample(retro), sample(blocks.sums),
              sample(blocks.class_counts), sample(blocks.class_blocks),
              sample(settings.maps.lamps ? settings.maps.lamps : clusters.lamps),
-             sample(settings.maps.lamps ? settings.maps.distances : clusters.lamps)},
+             sample(settings.maps.lamps ? settings.maps.distances : clusters.lamps),
+             sample(settings.maps.lamps ? blocks.shares : blocks.entries)},
             push,
             graph::Arguments{blocks.class_counts, uint64_t(push.block_class) * shared::kClassWords * sizeof(uint32_t)});
     }

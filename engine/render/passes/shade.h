@@ -19,6 +19,7 @@ struct ShadeSettings {
     bool all_lamps = false;         ///< evaluate every lamp in every pixel, for comparison
     float merge_tolerance = 1e-3f;  ///< of add_merging
     VisibilityMaps maps{};          ///< of the lamps; without: nothing hides a lamp
+    float faint = 0.005f;           ///< of add_visibility
     graph::Resource retro{};        ///< rgba32f texels of shared/retro.h; without: no surface is retroreflective
 };
 

@@ -10,12 +10,13 @@ namespace vesper::render {
 struct VisibilityMaps {
     graph::Resource lamps{};      ///< rgba32f, shared::kMapTexels of each lamp that has a place
     graph::Resource distances{};  ///< r16f
-    graph::Resource bounds{};     ///< rg16f
 };
 
-/// Takes the lamps that nothing of a block sees off its list, and marks the entries of those that some of it may not
-/// see (shared::kMixedBit). Without maps nothing changes.
+/// Takes the lamps that nothing of a block sees off its list, and tells what its pixels see of those that some of it
+/// does not (shared::kMixedBit, Blocks::shares). Lamps that give no probe, of sixteen in a block, more than the share
+/// `faint` of the mean light of all lamps count with the mean of what the probes see of them, unless a surface of the
+/// block has a specular lobe: each is wrong by less than that share. Without maps nothing changes.
 Blocks add_visibility(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, Blocks blocks,
-                      const VisibilityMaps& maps);
+                      const VisibilityMaps& maps, float faint);
 
 }  // namespace vesper::render

@@ -28,10 +28,17 @@ std::string height_text(const scene::LampReport& lamp) {
     return format("%.2f to %.2f", *lamp.lowest, *lamp.highest);
 }
 
+std::string fixture_text(const scene::LampReport& lamp) {
+    const std::string rule = scene::name_of(lamp.fixture);
+    if (lamp.fixture == scene::FixtureRule::None) return rule;
+    return rule + (lamp.least_meshes == lamp.most_meshes ? format(", %zu", lamp.most_meshes)
+                                                         : format(", %zu to %zu", lamp.least_meshes, lamp.most_meshes));
+}
+
 std::string lamps_text(const scene::SceneReport& report) {
     if (report.lamps.empty()) return "\nno lamps\n";
-    std::string text =
-        "\n" + apps::column("lamp", 26) + "  kind          number         cd         lm  colour         height, m\n";
+    std::string text = "\n" + apps::column("lamp", 26) +
+                       "  kind          number         cd         lm  colour         height, m       fixture\n";
     size_t number = 0;
     for (const scene::LampReport& lamp : report.lamps) {
         number += lamp.number;
@@ -43,10 +50,13 @@ std::string lamps_text(const scene::SceneReport& report) {
         text +=
             apps::column(one_line(lamp.name), 26) +
             format("  %-12s %7zu %10.4g %10.4g  ", scene::name_of(lamp.kind), lamp.number, lamp.candela, lamp.lumens);
-        text += apps::column(colour_text(lamp.colour), 14) + " " + height_text(lamp) + "\n";
+        text += apps::column(colour_text(lamp.colour), 14) + " " + apps::column(height_text(lamp), 15) + " " +
+                fixture_text(lamp) + "\n";
     }
-    return text + format("%zu lamps, %.4g lm together; heights are above the lowest surface under a lamp\n", number,
-                         report.lumens);
+    return text +
+           format("%zu lamps, %.4g lm together; heights are above the lowest surface under a lamp\n", number,
+                  report.lumens) +
+           "fixture: the rule for meshes that never hide a lamp, and the number of these\n";
 }
 
 std::string picture_text(const scene::MaterialReport& m) {
@@ -90,6 +100,7 @@ nlohmann::ordered_json json_of(const scene::SceneReport& report) {
         if (const double kelvin = scene::temperature_of(glm::dvec3(l.colour)); kelvin > 0)
             lamp["colour_temperature_K"] = kelvin;
         if (l.lowest) lamp["height_m"] = {*l.lowest, *l.highest};
+        if (!sun) lamp["fixture"] = {{"rule", scene::name_of(l.fixture)}, {"meshes", {l.least_meshes, l.most_meshes}}};
         lamp["without_surface_below"] = l.over_nothing;
         lamp["below_ground"] = l.under_ground;
         json["lamps"].push_back(lamp);

@@ -42,6 +42,7 @@ json block_of(const Conversion& conversion, const std::filesystem::path& input,
     if (!conversion.environment.is_null()) block["environment"] = conversion.environment;
     if (!conversion.lobes.empty()) block["lobes"] = conversion.lobes;
     if (!conversion.openings.empty()) block["openings"] = conversion.openings;
+    if (!conversion.fixtures.empty()) block["fixtures"] = conversion.fixtures;
     if (!conversion.roads.empty()) {
         block["reflection_tables"] = conversion.reflection_tables;
         block["roads"] = conversion.roads;

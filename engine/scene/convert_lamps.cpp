@@ -54,14 +54,6 @@ void remove_lights(Conversion& conversion) {
                                              " of the original (sun or sky) removed");
 }
 
-/// Names of a node and of as many ancestors as patterns can ask for.
-std::vector<std::string> path_of(std::span<const JsonValue> nodes, const std::vector<uint32_t>& parents, uint32_t node,
-                                 size_t depth) {
-    std::vector<std::string> path;
-    for (; node != kNone && path.size() < depth; node = parents[node]) path.push_back(nodes[node].text_or("name", ""));
-    return path;
-}
-
 json light_of(const LampRule& rule) {
     const Lamp& lamp = rule.lamp;
     // The format wants components of at most 1; the intensity makes up for it, so that intensity * Y(color) is in cd.
@@ -158,8 +150,9 @@ Reference reference_of(Conversion& conversion, const LampRule& rule) {
     return {kLights, {{"light", lamp}}};
 }
 
-void add_lamp(Conversion& conversion, const LampRule& rule, const Reference& reference, uint32_t node,
-              glm::dvec3 scale) {
+/// Returns the node that has the lamp: this one, or a new child.
+size_t add_lamp(Conversion& conversion, const LampRule& rule, const Reference& reference, uint32_t node,
+                glm::dvec3 scale) {
     json& root = conversion.document.edit();
     // A measured lamp has no name but that of its node.
     const bool named = reference.extension != kMeasured || root["nodes"][node].value("name", "") == rule.name;
@@ -167,7 +160,7 @@ void add_lamp(Conversion& conversion, const LampRule& rule, const Reference& ref
     json& extensions = object_member(conversion.document, root["nodes"][node], "extensions");
     if (plain && !extensions.contains(kLights) && !extensions.contains(kMeasured)) {
         extensions[reference.extension] = reference.use;
-        return;
+        return node;
     }
     if (extensions.empty()) root["nodes"][node].erase("extensions");
     json child = {{"name", rule.name}, {"extensions", {{reference.extension, reference.use}}}};
@@ -179,6 +172,26 @@ void add_lamp(Conversion& conversion, const LampRule& rule, const Reference& ref
     }
     root["nodes"][node]["children"].push_back(root["nodes"].size());
     root["nodes"].push_back(std::move(child));
+    return root["nodes"].size() - 1;
+}
+
+/// Puts the lamp of a rule on all nodes that match it, and notes its fixture for the extras block.
+void add_lamps(Conversion& conversion, const LampRule& rule, const std::vector<uint32_t>& nodes,
+               const std::vector<glm::dmat4>& world, const std::vector<uint32_t>& parents) {
+    const bool own = rule.fixture == "own", none = rule.fixture == "none";
+    std::vector<uint32_t> fixtures;
+    if (!own && !none) fixtures = named_fixtures(conversion, rule, nodes, parents);
+    const Reference reference = reference_of(conversion, rule);
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        const size_t lamp = add_lamp(conversion, rule, reference, nodes[i], axis_lengths(conversion, world, nodes[i]));
+        if (own || conversion.original.node_of[nodes[i]] == kNone) continue;
+        conversion.fixtures.push_back({{"node", lamp}, {"fixture", none ? json("none") : json(fixtures[i])}});
+    }
+}
+
+std::string fixture_text(const LampRule& rule) {
+    if (rule.fixture == "own") return "";
+    return rule.fixture == "none" ? ", no fixture" : ", fixture " + in_quotes(rule.fixture);
 }
 
 /// What the opening of a lamp shows on its axis.
@@ -262,9 +275,9 @@ void convert_lamps(Conversion& conversion) {
     const std::vector<glm::dmat4> world = world_transforms(conversion.original.scene, 0);
     std::vector<std::vector<uint32_t>> matched(conversion.photometry.lamps.size());
     std::set<size_t> lamp_nodes;
+    std::vector<uint32_t> parents(count, kNone);
     {
         const auto nodes = conversion.document.list("nodes");
-        std::vector<uint32_t> parents(count, kNone);
         for (uint32_t i = 0; i < count; ++i)
             for (const JsonValue& child : nodes[i].elements_of("children")) parents[child.index(count, "nodes")] = i;
         for (uint32_t i = 0; i < count; ++i) {
@@ -291,10 +304,8 @@ void convert_lamps(Conversion& conversion) {
             continue;
         }
         warn_of_mirrors(conversion, rule, matched[r], world);
-        const Reference reference = reference_of(conversion, rule);
-        for (const uint32_t node : matched[r])
-            add_lamp(conversion, rule, reference, node, axis_lengths(conversion, world, node));
-        conversion.report.changes.push_back(describe(conversion, rule, matched[r].size()));
+        add_lamps(conversion, rule, matched[r], world, parents);
+        conversion.report.changes.push_back(describe(conversion, rule, matched[r].size()) + fixture_text(rule));
     }
     add_profile_buffer(conversion);
     conversion.lamp_nodes = std::move(matched);

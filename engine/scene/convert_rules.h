@@ -23,7 +23,7 @@ struct Conversion {
     nlohmann::json reflection_tables = nlohmann::json::array(), roads = nlohmann::json::array();          ///< the same
     nlohmann::json retroreflectors = nlohmann::json::array(), retroreflective = nlohmann::json::array();  ///< the same
     nlohmann::json environment{};                                                                         ///< the same
-    nlohmann::json openings = nlohmann::json::array();                                                    ///< the same
+    nlohmann::json openings = nlohmann::json::array(), fixtures = nlohmann::json::array();                ///< the same
     nlohmann::json luminance_pictures = nlohmann::json::array(), luminous = nlohmann::json::array();      ///< the same
     std::map<uint32_t, size_t> picture_of{};  ///< in luminance_pictures, for those of the photometry file
     /// Light profile of EXT_lights_ies for a measured lamp and the length, width and roundness of its opening.
@@ -41,6 +41,15 @@ void use_extension(nlohmann::json& root, const std::string& name);
 /// A new buffer that holds these bytes, and the index of a view of it.
 size_t add_buffer_view(nlohmann::json& root, std::span<const uint8_t> bytes);
 std::string in_quotes(const std::string& name);
+
+/// Names of a node of the file and of as many of those above it as fit into `depth`. `parents` of all nodes.
+std::vector<std::string> path_of(std::span<const JsonValue> nodes, const std::vector<uint32_t>& parents, uint32_t node,
+                                 size_t depth);
+/// For each of these nodes of the file the node that the rule's pattern names as the fixture of its lamp: the nearest
+/// of the node itself and those above it that matches, else the only one of the file that does. kNone for nodes that
+/// the scene does not show. Throws Error where no node, or more than one, can be meant.
+std::vector<uint32_t> named_fixtures(Conversion& conversion, const LampRule& rule, std::span<const uint32_t> nodes,
+                                     const std::vector<uint32_t>& parents);
 
 /// Removes the lights there are, puts lamps on nodes.
 void convert_lamps(Conversion& conversion);

@@ -7,16 +7,6 @@ namespace {
 
 constexpr double kLargestFixture = 20;  // m
 
-// Whether there is a mesh at or below each node.
-std::vector<bool> nodes_above_meshes(const Scene& scene) {
-    std::vector<bool> has_mesh(scene.nodes.size());
-    for (size_t i = scene.nodes.size(); i-- > 0;) {  // children come after their parents
-        has_mesh[i] = has_mesh[i] || scene.nodes[i].mesh != kNone;
-        if (has_mesh[i] && scene.nodes[i].parent != kNone) has_mesh[scene.nodes[i].parent] = true;
-    }
-    return has_mesh;
-}
-
 bool is_near(const Scene& scene, uint32_t node, const glm::dmat4& world, glm::dvec3 place) {
     return std::ranges::all_of(scene.meshes[scene.nodes[node].mesh].primitives, [&](const Primitive& primitive) {
         const Bounds& bounds = primitive.bounds;
@@ -27,10 +17,20 @@ bool is_near(const Scene& scene, uint32_t node, const glm::dmat4& world, glm::dv
 
 }  // namespace
 
+std::vector<bool> nodes_above_meshes(const Scene& scene) {
+    std::vector<bool> has_mesh(scene.nodes.size());
+    for (size_t i = scene.nodes.size(); i-- > 0;) {  // children come after their parents
+        has_mesh[i] = has_mesh[i] || scene.nodes[i].mesh != kNone;
+        if (has_mesh[i] && scene.nodes[i].parent != kNone) has_mesh[scene.nodes[i].parent] = true;
+    }
+    return has_mesh;
+}
+
 std::vector<std::vector<uint32_t>> fixture_nodes(const Scene& scene, std::span<const uint32_t> lamp_nodes,
                                                  std::span<const glm::dmat4> world) {
     const std::vector<bool> has_mesh = nodes_above_meshes(scene);
     const auto root_of = [&](uint32_t node) {
+        if (scene.nodes[node].fixture) return *scene.nodes[node].fixture;
         while (node != kNone && !has_mesh[node]) node = scene.nodes[node].parent;
         return node;
     };
@@ -47,7 +47,8 @@ std::vector<std::vector<uint32_t>> fixture_nodes(const Scene& scene, std::span<c
         const uint32_t root = root_of(lamp);
         if (root == kNone) continue;
         const glm::dvec3 place(world[lamp][3]);
-        if (std::ranges::all_of(by_root[root], [&](uint32_t i) { return is_near(scene, i, world[i], place); }))
+        if (scene.nodes[lamp].fixture ||
+            std::ranges::all_of(by_root[root], [&](uint32_t i) { return is_near(scene, i, world[i], place); }))
             own.back() = by_root[root];
     }
     return own;

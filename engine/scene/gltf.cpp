@@ -62,6 +62,7 @@ void read_all(GltfReader& reader) {
     read_distributions(reader);
     read_photometry_block(reader);
     read_nodes(reader);
+    read_fixtures(reader);
     read_animations(reader);
     check_world(reader);
     check_unused(reader);

@@ -100,6 +100,32 @@ void read_uniform(const JsonValue& source, const char* quantity, float& value, g
     colour = glm::vec3(rgb / luminance(rgb));
 }
 
+std::optional<JsonValue> photometry_block(const GltfReader& reader) {
+    const auto extras = reader.document.root().find("extras");
+    return extras && extras->json().is_object() ? extras->find("vesper") : std::nullopt;
+}
+
+/// The meshes that never hide the lamp of a node.
+void read_fixture(GltfReader& reader, const JsonValue& source) {
+    source.allow_only({"node", "fixture"});
+    const size_t count = reader.node_of.size();
+    const JsonValue node = source.at("node"), fixture = source.at("fixture");
+    const uint32_t lamp = reader.node_of[node.index(count, "nodes")];
+    uint32_t named = kNone;
+    if (!fixture.json().is_string()) {
+        named = reader.node_of[fixture.index(count, "nodes")];
+        if (named == kNone) fixture.fail("is a node that the scene does not show");
+    } else if (fixture.text() != "none") {
+        fixture.fail("is neither \"none\" nor the index of a node");
+    }
+    if (lamp == kNone) return;  // not shown
+    Node& holder = reader.scene.nodes[lamp];
+    if (holder.lamp == kNone || reader.scene.lamps[holder.lamp].kind == Lamp::Kind::Directional)
+        node.fail("has no lamp");
+    if (holder.fixture) node.fail("is named twice");
+    holder.fixture = named;
+}
+
 }  // namespace
 
 void read_lights(GltfReader& reader) {
@@ -114,16 +140,16 @@ void read_lights(GltfReader& reader) {
 }
 
 void read_photometry_block(GltfReader& reader) {
-    const auto extras = reader.document.root().find("extras");
-    const auto block = extras && extras->json().is_object() ? extras->find("vesper") : std::nullopt;
+    const auto block = photometry_block(reader);
     if (!block) return;
     reader.photometric = true;
     const JsonValue version = block->at("version");
     if (version.integer() != 1)
         version.fail("vesper extras of version " + std::to_string(version.integer()) +
                      ": this program reads version 1");
-    block->allow_only({"version", "transfer", "ambient", "sky", "environment", "lobes", "openings", "reflection_tables",
-                       "roads", "retroreflectors", "retroreflective", "luminance_pictures", "luminous", "provenance"});
+    block->allow_only({"version", "transfer", "ambient", "sky", "environment", "lobes", "openings", "fixtures",
+                       "reflection_tables", "roads", "retroreflectors", "retroreflective", "luminance_pictures",
+                       "luminous", "provenance"});
     if (const auto transfer = block->find("transfer")) {
         transfer->allow_only({"kind", "gamma"});
         const std::string& kind = transfer->at("kind").text();
@@ -141,6 +167,11 @@ void read_photometry_block(GltfReader& reader) {
     read_reflection_tables(reader, *block);
     read_retroreflectors(reader, *block);
     read_luminance_pictures(reader, *block);
+}
+
+void read_fixtures(GltfReader& reader) {
+    if (const auto block = photometry_block(reader))
+        for (const JsonValue& fixture : block->elements_of("fixtures")) read_fixture(reader, fixture);
 }
 
 }  // namespace vesper::scene

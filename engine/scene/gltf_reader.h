@@ -113,6 +113,8 @@ uint32_t add_node(GltfReader& reader, const JsonValue& source, Node node);
 void read_animations(GltfReader& reader);
 /// The extras block of a converted file (docs/gltf.md).
 void read_photometry_block(GltfReader& reader);
+/// "fixtures" of that block. Nodes have been read.
+void read_fixtures(GltfReader& reader);
 /// "reflection_tables" and "roads" of that block.
 void read_reflection_tables(GltfReader& reader, const JsonValue& block);
 /// "retroreflectors" and "retroreflective".

@@ -309,6 +309,11 @@ void write_block(const Scene& scene, json& block, const std::string& source) {
         if (material.retroreflector != kNone)
             block["retroreflective"].push_back({{"material", m}, {"retroreflector", material.retroreflector}});
     }
+    for (size_t i = 0; i < scene.nodes.size(); ++i) {
+        const std::optional<uint32_t>& fixture = scene.nodes[i].fixture;
+        if (scene.nodes[i].lamp != kNone && fixture)
+            block["fixtures"].push_back({{"node", i}, {"fixture", *fixture == kNone ? json("none") : json(*fixture)}});
+    }
     block["provenance"] = {{"input", source}, {"vesper", VESPER_VERSION}};
 }
 

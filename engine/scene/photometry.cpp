@@ -59,12 +59,12 @@ namespace {
 void read_lobe(Lamp& lamp, const JsonValue& rule) {
     const JsonValue type = rule.at("type");
     if (type.text() == "point") {
-        rule.allow_only(
-            {"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m", "opening"});
+        rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
+                         "opening", "fixture"});
         lamp.kind = Lamp::Kind::Point;
     } else if (type.text() == "spot") {
         rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
-                         "opening", "aim", "inner_cone_deg", "outer_cone_deg"});
+                         "opening", "fixture", "aim", "inner_cone_deg", "outer_cone_deg"});
         lamp.kind = Lamp::Kind::Spot;
         const double outer = rule.at("outer_cone_deg").number(0.5, 90);
         const double inner = rule.number_or("inner_cone_deg", 0, 0, 90);
@@ -74,7 +74,7 @@ void read_lobe(Lamp& lamp, const JsonValue& rule) {
         lamp.inner_cone = static_cast<float>(std::min(inner, outer * 0.9999) * kRadiansPerDegree);
     } else if (type.text() == "cosine_power") {
         rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
-                         "opening", "aim", "exponent"});
+                         "opening", "fixture", "aim", "exponent"});
         lamp.kind = Lamp::Kind::CosinePower;
         lamp.exponent = static_cast<float>(rule.at("exponent").number(0, 1e5));
         // For viewers that know only spots: the cone ends where the lobe has fallen to a thousandth.
@@ -130,6 +130,10 @@ LampRule read_lamp(const JsonValue& source, const std::filesystem::path& folder,
     rule.lamp.colour = glm::vec3(read_colour(source, &rule.kelvin));
     if (const auto offset = source.find("offset_m")) rule.offset = read_vector(*offset);
     if (const auto opening = source.find("opening")) rule.lamp.opening = read_opening(*opening, rule, made);
+    if (const auto fixture = source.find("fixture")) {
+        rule.fixture = fixture->text(), rule.fixture_place = fixture->place();
+        if (rule.fixture.empty()) fixture->fail("must be \"own\", \"none\" or the name of a node");
+    }
     return rule;
 }
 

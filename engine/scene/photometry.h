@@ -20,6 +20,8 @@ struct LampRule {
     std::optional<glm::dvec3> aim;   ///< axis of the lobe in the node's frame, unit length; -Z where missing
     std::optional<glm::dquat> turn;  ///< Measured: from the luminaire's frame to the node's, where they differ
     glm::dvec3 offset{0};            ///< m, along the node's axes
+    std::string fixture = "own";     ///< or "none", or a pattern for the node whose meshes never hide the lamp
+    std::string fixture_place;       ///< file and JSON pointer of the line above, for messages
 };
 
 /// A distribution used by rules.

@@ -120,7 +120,8 @@ void read_measured(const JsonValue& source, const std::filesystem::path& folder,
                        "rotation_deg",
                        "pitch_deg",
                        "yaw_deg",
-                       "opening"});
+                       "opening",
+                       "fixture"});
     rule.lamp.kind = Lamp::Kind::Measured;
     rule.lamp.distribution = measured_lamp(source, folder, made);
     const photometry::Distribution& distribution = made.measured[rule.lamp.distribution].distribution;

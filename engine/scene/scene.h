@@ -127,6 +127,8 @@ struct Node {
     glm::vec3 scale{1};
     std::optional<glm::dmat4> matrix;  ///< replaces the three above if the file has one
     uint32_t mesh = kNone, lamp = kNone, camera = kNone;
+    std::optional<uint32_t> fixture;  ///< of its lamp: the node at and below which meshes never hide it, kNone: every
+                                      ///< mesh hides it; without a value by the rule of scene/fixtures.h
 };
 
 /// Key frames of one property of one node. Times in s, ascending.

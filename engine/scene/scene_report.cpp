@@ -13,6 +13,7 @@
 #include "base/budget.h"
 #include "base/srgb.h"
 #include "scene/colour.h"
+#include "scene/fixtures.h"
 #include "scene/lamp.h"
 #include "scene/reflectance.h"
 #include "scene/scene_warnings.h"
@@ -21,6 +22,7 @@ namespace vesper::scene {
 namespace {
 
 struct ReportedLamp {
+    uint32_t node = 0;
     glm::dvec3 position{0};
     size_t report = 0;
     double lowest = HUGE_VAL, highest = -HUGE_VAL;  // surfaces in the lamp's vertical, m
@@ -34,9 +36,14 @@ std::string stem_of(std::string name) {
     return end > 0 ? name.substr(0, end) : name;
 }
 
+FixtureRule rule_of(const Node& node) {
+    if (!node.fixture) return FixtureRule::Own;
+    return *node.fixture == kNone ? FixtureRule::None : FixtureRule::Named;
+}
+
 /// What lamps that are reported together share.
-auto group_of(const Lamp& l) {
-    return std::tuple(stem_of(l.name), l.kind, l.intensity, l.colour.r, l.colour.g, l.colour.b, l.inner_cone,
+auto group_of(const Lamp& l, FixtureRule rule) {
+    return std::tuple(stem_of(l.name), rule, l.kind, l.intensity, l.colour.r, l.colour.g, l.colour.b, l.inner_cone,
                       l.outer_cone, l.exponent, l.distribution);
 }
 
@@ -55,15 +62,16 @@ double largest_luminance(glm::vec3 colour, const Image& image) {
 std::vector<ReportedLamp> reported_lamps(const Scene& scene, const std::vector<glm::dmat4>& world,
                                          SceneReport& report) {
     std::vector<ReportedLamp> lamps;
-    std::map<decltype(group_of({})), size_t> place;
-    for (size_t i = 0; i < scene.nodes.size(); ++i) {
+    std::map<decltype(group_of({}, {})), size_t> place;
+    for (uint32_t i = 0; i < scene.nodes.size(); ++i) {
         const uint32_t index = scene.nodes[i].lamp;
         if (index == kNone) continue;
         const Lamp& lamp = scene.lamps[index];
-        const auto [entry, added] = place.try_emplace(group_of(lamp), report.lamps.size());
+        const FixtureRule rule = rule_of(scene.nodes[i]);
+        const auto [entry, added] = place.try_emplace(group_of(lamp, rule), report.lamps.size());
         if (added) {
             LampReport made{.name = lamp.name, .kind = lamp.kind, .candela = static_cast<double>(lamp.intensity)};
-            made.colour = lamp.colour;
+            made.colour = lamp.colour, made.fixture = rule;
             if (lamp.kind == Lamp::Kind::Measured) {
                 const photometry::Distribution& d = scene.distributions[lamp.distribution];
                 made.lumens = made.candela * photometry::luminous_flux(d);
@@ -76,7 +84,7 @@ std::vector<ReportedLamp> reported_lamps(const Scene& scene, const std::vector<g
         LampReport& alike = report.lamps[entry->second];
         ++alike.number;
         report.lumens += alike.lumens;
-        if (lamp.kind != Lamp::Kind::Directional) lamps.push_back({glm::dvec3(world[i][3]), entry->second});
+        if (lamp.kind != Lamp::Kind::Directional) lamps.push_back({i, glm::dvec3(world[i][3]), entry->second});
     }
     return lamps;
 }
@@ -210,6 +218,21 @@ void report_heights(const std::vector<ReportedLamp>& lamps, SceneReport& report)
     }
 }
 
+void report_fixtures(const Scene& scene, const std::vector<ReportedLamp>& lamps, const std::vector<glm::dmat4>& world,
+                     SceneReport& report) {
+    std::vector<uint32_t> nodes;
+    for (const ReportedLamp& lamp : lamps) nodes.push_back(lamp.node);
+    const std::vector<std::vector<uint32_t>> fixtures = fixture_nodes(scene, nodes, world);
+    std::vector<bool> known(report.lamps.size());
+    for (size_t i = 0; i < lamps.size(); ++i) {
+        LampReport& into = report.lamps[lamps[i].report];
+        const size_t meshes = fixtures[i].size();
+        into.least_meshes = known[lamps[i].report] ? std::min(into.least_meshes, meshes) : meshes;
+        into.most_meshes = std::max(into.most_meshes, meshes);
+        known[lamps[i].report] = true;
+    }
+}
+
 }  // namespace
 
 SceneReport report_scene(const Scene& scene) {
@@ -226,6 +249,7 @@ SceneReport report_scene(const Scene& scene) {
         report.cameras.push_back(name.empty() ? node.name : name);
     }
     report_heights(lamps, report);
+    report_fixtures(scene, lamps, world, report);
     report.extent = measure.extent();
     report.triangles = measure.triangles;
     double reflected = 0;
@@ -272,6 +296,10 @@ const char* name_of(Lamp::Kind kind) {
             return "measured";
     }
     return "";
+}
+
+const char* name_of(FixtureRule rule) {
+    return rule == FixtureRule::Own ? "own" : rule == FixtureRule::None ? "none" : "named";
 }
 
 }  // namespace vesper::scene

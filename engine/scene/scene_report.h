@@ -9,7 +9,10 @@
 
 namespace vesper::scene {
 
-/// Lamps that shine alike and whose names differ by a number at most.
+/// Which meshes never hide a lamp: those of scene/fixtures.h, none, those at and below a named node.
+enum class FixtureRule : uint8_t { Own, None, Named };
+
+/// Lamps that shine alike, whose fixtures follow the same rule and whose names differ by a number at most.
 struct LampReport {
     std::string name;
     Lamp::Kind kind = Lamp::Kind::Point;
@@ -19,6 +22,8 @@ struct LampReport {
     glm::vec3 colour{1};  ///< linear, luminance 1
     /// Above the lowest surface under each, m; nothing where there is none under any of them.
     std::optional<double> lowest, highest;
+    FixtureRule fixture = FixtureRule::Own;
+    size_t least_meshes = 0, most_meshes = 0;   ///< nodes with meshes in the fixture of one; Directional: 0
     size_t over_nothing = 0, under_ground = 0;  ///< lamps with no surface below; of these, such with one above
 };
 
@@ -50,5 +55,6 @@ struct SceneReport {
 SceneReport report_scene(const Scene&);
 
 const char* name_of(Lamp::Kind);
+const char* name_of(FixtureRule);  ///< "own", "none", "named"
 
 }  // namespace vesper::scene

@@ -72,6 +72,8 @@ TEST_F(Inspect, AScene) {
     EXPECT_NEAR(lamp["luminous_flux_lm"].get<double>(), 12566, 2);
     EXPECT_NEAR(lamp["colour_temperature_K"].get<double>(), 2700, 60);
     EXPECT_NEAR(lamp["height_m"].at(0).get<double>(), 6.54, 0.1);
+    EXPECT_EQ(lamp["fixture"]["rule"], "own");
+    EXPECT_GE(lamp["fixture"]["meshes"].at(0).get<int>(), 1);
     EXPECT_NEAR(night["luminous_flux_lm"].get<double>(), 12566 * lamp["number"].get<double>(), 200);
 }
 

@@ -48,6 +48,19 @@ TEST(Fixtures, AreSmall) {
     EXPECT_EQ(fixture_of(scene, 3), Nodes{}) << "a node that holds a whole street is no fixture";
 }
 
+TEST(Fixtures, AreStatedByTheNode) {
+    scene::Scene scene = street();
+    scene.nodes[3].fixture = scene::kNone;
+    EXPECT_EQ(fixture_of(scene, 3), Nodes{}) << "its own housing hides it";
+    scene.nodes[3].fixture = 1;
+    EXPECT_EQ(fixture_of(scene, 3), (Nodes{1, 2}));
+    scene.nodes[0].translation = {0, 0, -100};
+    scene.nodes[3].fixture = 0;
+    EXPECT_EQ(fixture_of(scene, 3), Nodes{0}) << "however far away";
+    scene.nodes[3].fixture = 4;
+    EXPECT_EQ(fixture_of(scene, 3), Nodes{}) << "a node without meshes";
+}
+
 TEST(Fixtures, AreFoundForSeveralLampsAtOnce) {
     const scene::Scene scene = street();
     const Nodes lamps{4, 3, 3};

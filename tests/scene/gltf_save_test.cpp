@@ -63,6 +63,7 @@ Scene example() {
     root.mesh = 0;
     car.translation = {1, 2, 3}, car.camera = 0;
     lamp.rotation = glm::angleAxis(0.5f, glm::vec3(0, 1, 0)), lamp.lamp = 0;
+    lamp.fixture = 0, second.fixture = scene::kNone;
     second.lamp = 2, second.scale = {2, 2, 2};
     scene::Node third{.name = "third"};
     third.lamp = 1;
@@ -124,6 +125,9 @@ TEST_P(GltfSave, GivesTheSameSceneBack) {
             EXPECT_NEAR(scene::luminous_intensity(a, got.distributions, direction),
                         scene::luminous_intensity(b, scene.distributions, direction), 1e-3 * b.intensity + 0.01);
     }
+    EXPECT_EQ(&got.nodes.at(find(got, "lamp").fixture.value()), &find(got, "root"));
+    EXPECT_EQ(find(got, "second").fixture, scene::kNone);
+    EXPECT_FALSE(find(got, "third").fixture);
     const auto placed = [&](const Scene& of, const char* node, double time) {
         return scene::world_transforms(of, time)[static_cast<size_t>(&find(of, node) - of.nodes.data())];
     };

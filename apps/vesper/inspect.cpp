@@ -59,12 +59,15 @@ void run(const InspectArguments& a) {
     only(!a.probes.empty(), Kind::Picture, "--probe is for pictures (.exr, .hdr)");
     only(a.low > 0 || a.high > 0, Kind::Picture, "--low and --high are for pictures (.exr, .hdr)");
     only(a.contours, Kind::Picture, "--contours is for pictures (.exr, .hdr)");
-    if (!a.picture.empty() && (kind == Kind::Scene || kind == Kind::Table))
-        throw Error("-o " + a.picture + ": there is a picture of lamps and of pictures only");
+    only(!a.lamp.empty(), Kind::Scene, "--lamp is for scenes (.gltf, .glb)");
+    if (a.lamp.empty() && (a.lamp_number > 1 || !a.device.empty()))
+        throw Error("--lamp-number and --device have a meaning only beside --lamp");
+    if (!a.picture.empty() && ((kind == Kind::Scene && a.lamp.empty()) || kind == Kind::Table))
+        throw Error("-o " + a.picture + ": there is a picture of lamps and of pictures only (of a scene: with --lamp)");
     Inspection found;
     switch (kind) {
         case Kind::Scene:
-            found = inspect_scene(a);
+            found = a.lamp.empty() ? inspect_scene(a) : inspect_lamp_map(a);
             break;
         case Kind::Distribution:
             found = inspect_distribution(a);
@@ -93,7 +96,12 @@ void add_inspect(apps::Command program) {
                     "A scene (.gltf, .glb), lamp (.ies, .ldt, .csv, .exr), r-table (.csv) or picture (.exr, .hdr)")
         .required();
     command.add_option("--json", a->json, "Write the report to a JSON file");
-    command.add_option("--output,-o", a->picture, "OUT.png: diagrams of a lamp, false colours of a picture");
+    command.add_option("--output,-o", a->picture,
+                       "OUT.png: diagrams of a lamp, false colours of a picture, distances from --lamp");
+    command.add_option("--lamp", a->lamp, "Scenes: how far the lamp of this name, or at this node, sees; a pattern");
+    command.add_option("--lamp-number", a->lamp_number, "Scenes: which of the lamps of that name, from 1")
+        .check(apps::between(1, 1e6));
+    command.add_option("--device", a->device, "With --lamp: part of a name, cpu, or an index of vesper devices");
     command.add_option("--probe", a->probes, "Pictures: X,Y from the top left, px; may be repeated");
     command.add_option("--layer", a->layer, apps::kLayerHelp);
     command.add_option("--low", a->low, "Pictures: lower end of the colour scale, cd/m^2")
@@ -105,6 +113,7 @@ void add_inspect(apps::Command program) {
     command.add_allow_outside();
     command.footer(
         "Examples:\n  vesper inspect night.gltf\n  vesper inspect data/road/luminaire.ldt -o luminaire.png\n"
+        "  vesper inspect night.gltf --lamp \"street lamp\" -o map.png\n"
         "  vesper inspect night.exr --probe 840,700 -o luminance.png\n");
     command.callback([a] { run(*a); });
 }

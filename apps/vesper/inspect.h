@@ -9,7 +9,8 @@
 namespace vesper::commands {
 
 struct InspectArguments {
-    std::string file, json, picture, layer;
+    std::string file, json, picture, layer, lamp, device;
+    uint32_t lamp_number = 1;  ///< of those that `lamp` names, from 1
     std::vector<std::string> probes;
     double low = 0, high = 0;  ///< ends of the colour scale; 0: found
     bool contours = false;
@@ -22,6 +23,7 @@ struct Inspection {
 };
 
 Inspection inspect_scene(const InspectArguments&);
+Inspection inspect_lamp_map(const InspectArguments&);      ///< of a scene; writes the picture if one is wanted
 Inspection inspect_distribution(const InspectArguments&);  ///< writes the picture if one is wanted
 Inspection inspect_table(const InspectArguments&);         ///< an r-table
 Inspection inspect_picture(const InspectArguments&);       ///< writes the picture if one is wanted

@@ -98,6 +98,77 @@ TEST_F(Inspect, NamesAreShownAsText) {
     EXPECT_EQ(json("a.json")["cameras"][0], name);
 }
 
+/// A lamp 3 m over a plate of 2 m, 1 m above a wide floor; and one that shines to all sides.
+struct LampOverPlate {
+    GltfFile file;
+    LampOverPlate() {
+        const auto square = [&](float half) {
+            return nlohmann::json{
+                {"attributes",
+                 {{"POSITION", file.vec3({-half, 0, -half, half, 0, -half, half, 0, half, -half, 0, half})}}},
+                {"indices", file.indices({0, 2, 1, 0, 3, 2})}};
+        };
+        file.show(square(1), {{"name", "plate"}, {"translation", {0, 1, 0}}});
+        file.show(square(40), {{"name", "floor"}});
+        const nlohmann::json down = {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)};
+        const auto light = [](int index) { return nlohmann::json{{"KHR_lights_punctual", {{"light", index}}}}; };
+        file.root["nodes"].push_back(
+            {{"name", "spot"}, {"translation", {0, 4, 0}}, {"rotation", down}, {"extensions", light(0)}});
+        file.root["nodes"].push_back({{"name", "all"}, {"translation", {10, 2, 0}}, {"extensions", light(1)}});
+        file.root["nodes"].push_back({{"name", "sun"}, {"extensions", light(2)}});
+        file.root["extensionsUsed"] = {"KHR_lights_punctual"};
+        file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+            {{"type", "spot"}, {"name", "lamp 1"}, {"intensity", 100}, {"spot", {{"outerConeAngle", 1.2}}}},
+            {{"type", "point"}, {"name", "lamp 2"}, {"intensity", 100}},
+            {{"type", "directional"}, {"name", "sun"}, {"intensity", 1}}};
+    }
+};
+
+TEST_F(Inspect, WhatALampSees) {
+    folder.write("a.gltf", LampOverPlate().file.text());
+    ASSERT_EQ(inspect("a.gltf --lamp spot -o spot.png --json a.json"), 0) << said;
+    EXPECT_TRUE(prints("lamp 'lamp 1' at node 'spot' (1 of 1 of this name)")) << printed;
+    EXPECT_TRUE(prints("512 x 512 texels, one hemisphere")) << printed;
+    const auto spot = json("a.json");
+    EXPECT_EQ(spot["kind"], "distance map");
+    const auto axis = spot["directions"].at(0);
+    EXPECT_NEAR(axis["distance_m"].get<double>(), 3, 0.01);
+    EXPECT_NEAR(axis["world"].at(1).get<double>(), -1, 1e-6);
+    EXPECT_NEAR(spot["surfaces_m"].at(0).get<double>(), 3, 0.01);
+    EXPECT_EQ(spot["fixture_meshes"], 0);
+    // Beside the plate the floor; the cone of 1.2 rad sees it 4 m below, everywhere.
+    const auto corner = spot["directions"].at(1);
+    EXPECT_NEAR(corner["distance_m"].get<double>(), 4 / -corner["world"].at(1).get<double>(), 0.3);
+    EXPECT_LT(corner["world"].at(2).get<double>(), -0.5) << "+Y of the lamp is -Z of the world";
+    const Image one = picture("spot.png");
+    EXPECT_GT(one.width, 512u + 90);
+    EXPECT_GT(one.height, 512u);
+
+    ASSERT_EQ(inspect("a.gltf --lamp 'lamp ?' --lamp-number 2 -o all.png --json b.json"), 0) << said;
+    EXPECT_TRUE(prints("at node 'all' (2 of 2 of this name)")) << printed;
+    const auto all = json("b.json");
+    EXPECT_EQ(all["hemispheres"], 2);
+    EXPECT_TRUE(all["directions"].at(0)["distance_m"].is_null()) << "nothing along the axis, which is level";
+    EXPECT_NEAR(all["nothing"].get<double>(), 0.5, 0.06) << "the floor ends";
+    EXPECT_EQ(picture("all.png").width, one.width + 512 + 16);
+    EXPECT_EQ(picture("all.png").height, one.height);
+}
+
+TEST_F(Inspect, RefusesLampsThatHaveNoMap) {
+    folder.write("a.gltf", LampOverPlate().file.text());
+    const auto refuses = [&](const std::string& arguments, const std::string& reason) {
+        EXPECT_EQ(inspect(arguments), 2) << arguments;
+        EXPECT_TRUE(contains(said, reason)) << said;
+    };
+    refuses("a.gltf --lamp lantern", "no lamp, and no node with a lamp, is named 'lantern'");
+    refuses("a.gltf --lamp spot --lamp-number 2", "--lamp-number 2: 1 lamp is named 'spot'");
+    refuses("a.gltf --lamp sun", "lamp 'sun' has no distance map: it is directional");
+    refuses("a.gltf -o a.png", "with --lamp");
+    refuses("a.gltf --lamp-number 2", "only beside --lamp");
+    refuses("a.gltf --device cpu", "only beside --lamp");
+    refuses(kData + "road/luminaire.ldt --lamp x", "--lamp is for scenes");
+}
+
 TEST_F(Inspect, ASourceThatIsAPicture) {
     io::HdrImage image{.width = 2, .height = 1, .rgb = {100, 100, 100, 700, 700, 700}, .white_luminance = 1};
     io::write_exr(folder / "sign.exr", image);

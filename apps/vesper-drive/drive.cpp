@@ -15,7 +15,7 @@ namespace {
 // Options that say nothing where the others are as they are, and why.
 void refuse_idle(const apps::Command& program, const DriveArguments& a) {
     const bool logs = !a.log.empty(), films = !a.video.empty(), replays = !a.replay.empty();
-    const auto camera = a.settings.find("camera");
+    const auto camera = a.settings.find("camera"), shadows = a.settings.find("shadows");
     struct Rule {
         bool here;
         std::vector<const char*> options;
@@ -37,6 +37,9 @@ void refuse_idle(const apps::Command& program, const DriveArguments& a) {
         {a.headless && !replays && (camera == a.settings.end() || camera->second != "free"),
          {"--free"},
          "only that camera stands there: give --camera free"},
+        {a.headless && !replays && (shadows == a.settings.end() || shadows->second != "on"),
+         {"--shadow-budget"},
+         "of which shadows? give --shadows on"},
     };
     for (const Rule& rule : rules)
         for (const char* option : rule.options)

@@ -42,6 +42,7 @@ constexpr std::array kBindings{
     KeyBinding{Action::SunUp, GLFW_KEY_RIGHT_BRACKET, 0, "]", "sun-up", "Sun half a degree higher", "Light and eye"},
     KeyBinding{Action::SunDown, GLFW_KEY_LEFT_BRACKET, 0, "[", "sun-down",
                "Sun half a degree lower; below -18 degrees: night", "Light and eye"},
+    KeyBinding{Action::Shadows, GLFW_KEY_F10, 0, "F10", "shadows", "Shadows of lamps, or none", "Light and eye"},
 
     KeyBinding{Action::Keys, GLFW_KEY_F1, 0, "F1", "keys", "This list", "Instruments"},
     KeyBinding{Action::Clean, GLFW_KEY_F2, 0, "F2", "clean", "Nothing but the picture, or everything again",

@@ -32,6 +32,7 @@ enum class Action : uint8_t {
     YoungerObserver,
     SunUp,
     SunDown,
+    Shadows,
     Keys,
     Clean,
     Performance,

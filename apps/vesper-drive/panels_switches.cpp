@@ -101,6 +101,8 @@ void Instruments::draw_switches(const FrameState& now, std::vector<Change>& chan
             ImGui::SameLine();
             to.slider("##sun", "sun", float(*settings.sun()), -18, 60, "%.1f° above the horizon");
         }
+        bool shadows = render.shadows;
+        if (ImGui::Checkbox("shadows of lamps (F10)", &shadows)) to.change("shadows", shadows ? "on" : "off");
         ImGui::PopItemWidth();
     }
     ImGui::End();

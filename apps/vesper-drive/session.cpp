@@ -69,6 +69,12 @@ gpu_scene::View Session::view(VkExtent2D extent) const { return scenery_.view(mo
 
 render::Frame Session::render(VkExtent2D extent, render::Outputs outputs) { return render(view(extent), outputs); }
 
+render::RenderSettings Session::frame_settings() const {
+    render::RenderSettings settings = settings_.render();
+    if (!settings_.values().contains("shadow-budget")) settings.shadow_budget = shadow_budget_;
+    return settings;
+}
+
 void Session::begin_frame() { eye_step_ = rendered_ ? double(world_->steps() - *rendered_) * options_.time_step : 0; }
 
 void Session::end_frame(const shared::EyeState& eye) {
@@ -79,7 +85,7 @@ void Session::end_frame(const shared::EyeState& eye) {
 
 render::Frame Session::render(const gpu_scene::View& view, render::Outputs outputs) {
     begin_frame();
-    render::Frame frame = renderer_->render(settings_.render(), view, moment(), float(eye_step_), outputs);
+    render::Frame frame = renderer_->render(frame_settings(), view, moment(), float(eye_step_), outputs);
     end_frame(frame.eye);
     return frame;
 }
@@ -88,7 +94,7 @@ ChannelMosaic Session::render(const Channels& channels, render::Outputs outputs)
     if (!wall_) wall_ = std::make_unique<ChannelRenderer>(*device_);
     begin_frame();
     ChannelMosaic wall =
-        wall_->render(*renderer_, channels, settings_.render(), view({1, 1}), moment(), float(eye_step_), outputs);
+        wall_->render(*renderer_, channels, frame_settings(), view({1, 1}), moment(), float(eye_step_), outputs);
     end_frame(wall.shown.eye);
     return wall;
 }

@@ -64,6 +64,9 @@ public:
     void set(const std::string& name, const std::string& value);
 
     // Pictures.
+    /// Tiles of distance maps drawn for a frame where the setting "shadow-budget" is not set; at first all. It is not
+    /// recorded: a replay draws all unless it is told otherwise.
+    void set_shadow_budget(uint64_t tiles) { shadow_budget_ = tiles; }
     /// What the camera of the settings sees in a picture of that size.
     gpu_scene::View view(VkExtent2D) const;
     /// Where everything stands now and how it is lit.
@@ -91,6 +94,7 @@ public:
 
 private:
     DriveStart start() const;
+    render::RenderSettings frame_settings() const;
     void begin_frame();
     void end_frame(const shared::EyeState&);
 
@@ -106,6 +110,7 @@ private:
     std::optional<uint64_t> rendered_;       // steps at the last frame
     shared::EyeState eye_{};
     double eye_step_ = 0;
+    uint64_t shadow_budget_ = render::kNoShadowBudget;
     std::unique_ptr<DriveRecorder> recorder_;
 };
 

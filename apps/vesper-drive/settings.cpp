@@ -26,6 +26,8 @@ struct SettingsArguments {
     std::vector<double> free{0, 2, 0, 0, 0};
     double sun = 0, fov = 0;
     float threshold = render::ClusterSettings{}.threshold;
+    std::string shadows = "off";
+    uint64_t shadow_budget = render::kNoShadowBudget;
 };
 
 void add(apps::Command command, SettingsArguments& a) {
@@ -48,6 +50,15 @@ void add(apps::Command command, SettingsArguments& a) {
     command.add_option("--threshold", a.threshold, "Illuminance below which a lamp counts as dark, lx")
         .check(apps::between(1e-9, 1e3))
         .shows_default();
+    command.add_option("--shadows", a.shadows, "on: lamps light only what they see; off: they shine through everything")
+        .check(apps::one_of({"on", "off"}))
+        .shows_default();
+    command
+        .add_option("--shadow-budget", a.shadow_budget,
+                    "Tiles of distance maps (64 x 64 texels) that are drawn for a frame; what is left is out of date "
+                    "in it\nDefault: " +
+                        std::to_string(kWindowShadowBudget) + " in a window, all without one and in replays")
+        .check(apps::not_negative());
     command.help_group();
 }
 
@@ -122,6 +133,7 @@ void DriveSettings::apply(const Values& values) {
     render::RenderSettings render;
     static_cast<render::ToneChainSettings&>(render) = apps::tone_settings(a.tone);
     render.clusters.threshold = a.threshold;
+    render.shadows = a.shadows == "on", render.shadow_budget = a.shadow_budget;
     const FreeCamera free = free_camera_of(a.free);
     render_ = std::move(render);
     sun_ = command.count("--sun") ? std::optional(a.sun) : std::nullopt;

@@ -114,6 +114,7 @@ void WindowedDrive::open_session(const Drive& drive) {
         drive, arguments_.settings, [&](const DriveSettings& settings) { check_display(scenery.check(settings)); },
         [](const DriveSettings&) {});
     session_ = std::make_unique<Session>(*device_, start, std::move(scenery));
+    if (arguments_.replay.empty()) session_->set_shadow_budget(kWindowShadowBudget);
     watch_contacts();
     apps::print_notes(session_->scenery().notes());
 }
@@ -134,6 +135,7 @@ void WindowedDrive::reload(const std::string& scene) {
                                                                    .settings = settings});
         if (!recording_.empty()) session_->stop_recording();
         session_ = std::move(made);
+        session_->set_shadow_budget(kWindowShadowBudget);
         watch_contacts();
     } catch (const Error& error) {
         return say(error.what(), true);
@@ -250,6 +252,15 @@ void WindowedDrive::watch_contacts() {
     };
 }
 
+void WindowedDrive::draw(const render::Outputs& outputs, ChannelMosaic& wall) {
+    if (channels_) {
+        wall = session_->render(*channels_, outputs);
+        frame_ = looked_at(wall, *channels_);
+    } else {
+        frame_ = session_->render(view_, outputs);
+    }
+}
+
 void WindowedDrive::render(bool moved) {
     const VkExtent2D extent = picture_extent();
     const bool ldr = session_->settings().render().tone_operator == render::Operator::Ldr;
@@ -259,11 +270,17 @@ void WindowedDrive::render(bool moved) {
     if (!moved && !stale_ && !lacks) return;
     view_ = session_->view(extent);
     ChannelMosaic wall;
-    if (channels_) {
-        wall = session_->render(*channels_, outputs);
-        frame_ = looked_at(wall, *channels_);
-    } else {
-        frame_ = session_->render(view_, outputs);
+    try {
+        draw(outputs, wall);
+    } catch (const gpu::DeviceLost&) {
+        throw;
+    } catch (const Error& error) {
+        // Too many lamps for shadows end these, not the drive. A recording that has ended is no matter of shadows.
+        const bool recorded = recording_.empty() || session_->recording();
+        if (!session_->settings().render().shadows || !recorded) throw;
+        change("shadows", "off");
+        say(error.what(), true);
+        draw(outputs, wall);
     }
     rendered_ = extent, stale_ = false, ++frame_number_;
     instruments_.remember(*session_, frame_);

@@ -57,6 +57,7 @@ private:
     void watch_contacts();
     bool replay_to_next_frame();
     void render(bool moved);
+    void draw(const render::Outputs&, ChannelMosaic&);
     void present();
     std::pair<gpu_scene::View, std::optional<glm::uvec2>> view_at(std::optional<glm::uvec2> pixel) const;
     void say(const std::string& text, bool alarm = false);

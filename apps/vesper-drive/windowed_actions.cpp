@@ -122,6 +122,9 @@ void WindowedDrive::press(Action action) {
         case Action::Reload:
             reload(arguments_.scene);
             break;
+        case Action::Shadows:
+            change("shadows", session_->settings().render().shadows ? "off" : "on");
+            break;
         case Action::Leave:
         case Action::Quit:
             window_.close();

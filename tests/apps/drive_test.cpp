@@ -233,6 +233,70 @@ TEST(Drive, GivenSettingsWinOverRecordedOnes) {
     EXPECT_EQ(session.settings().values().at("operator"), "ward");
 }
 
+/// A lamp over a plate over a wide floor, and a camera that takes a plate of its own along.
+std::string plates() {
+    GltfFile file;
+    const auto square = [&](float half, nlohmann::json node) {
+        file.show({{"attributes",
+                    {{"POSITION", file.vec3({-half, 0, -half, half, 0, -half, half, 0, half, -half, 0, half})}}},
+                   {"indices", file.indices({0, 2, 1, 0, 3, 2})}},
+                  node);
+    };
+    square(40, {{"name", "floor"}});
+    square(1, {{"name", "plate"}, {"translation", {0, 2, -10}}});
+    square(0.5f, {{"name", "bonnet"}, {"translation", {0, -0.8, -3}}});
+    file.root["nodes"].push_back({{"name", "eye"}, {"camera", 0}, {"translation", {0, 1.5, 0}}, {"children", {2}}});
+    file.root["nodes"].push_back(
+        {{"name", "lamp"}, {"translation", {0, 4, -10}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    file.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}}};
+    file.root["extensionsUsed"] = {"KHR_lights_punctual"};
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 1000}}};
+    file.root["extras"]["vesper"] = {{"version", 1}};
+    return file.text();
+}
+
+// The switch is recorded; what a window leaves out of date is not, unless it is asked for.
+TEST(Drive, ShadowsAreSwitchedAndRecorded) {
+    const TempFolder scratch;
+    const auto scene = scratch.write("plates.gltf", plates());
+    gpu::Device device({.select = ""});
+    Session session(device, {.scene = scene, .settings = {}});
+    const auto frame = [&](Session& of) { return of.render(kSize, {.display = true, .scene = true}); };
+    session.record(scratch / "drive.json");
+    const Frame without = frame(session);
+    EXPECT_EQ(without.maps.lamps, 0u);
+    session.set("shadows", "on");
+    const Frame with = frame(session);
+    EXPECT_EQ(with.maps.maps, 1u);
+    EXPECT_NE(with.scene, without.scene);
+    const auto drive_on = [&] {
+        for (int i = 0; i < 6; ++i) session.step({.throttle = 1});
+        return frame(session);
+    };
+    session.set_shadow_budget(0);
+    const Frame late = drive_on();
+    EXPECT_GT(late.maps.carried, 0u) << "nothing that moves is drawn anew";
+    EXPECT_EQ(late.maps.tiles, 0u);
+    session.set("shadow-budget", "100000");
+    const Frame whole = drive_on();
+    EXPECT_EQ(whole.maps.carried, 0u) << "the setting wins";
+    EXPECT_GT(whole.maps.tiles, 0u);
+    session.set("shadows", "off");
+    EXPECT_EQ(frame(session).maps.lamps, 0u);
+    session.stop_recording();
+
+    const drive::Drive drive = drive::read_drive(scratch / "drive.json");
+    Session again(device, {.scene = drive.start.scene, .settings = drive.start.settings});
+    const std::vector<Frame> replayed = play(again, drive.events);
+    ASSERT_EQ(replayed.size(), 5u);
+    EXPECT_EQ(replayed[0].scene, without.scene);
+    EXPECT_EQ(replayed[1].scene, with.scene);
+    EXPECT_EQ(replayed[2].maps.carried, 0u) << "a replay draws all";
+    EXPECT_EQ(replayed[3].scene, whole.scene);
+    EXPECT_TRUE(contains(complaint_of([&] { session.set("shadows", "soft"); }), "--shadows"));
+    EXPECT_TRUE(contains(complaint_of([&] { session.set("shadow-budget", "-1"); }), "--shadow-budget"));
+}
+
 TEST(Drive, LampsThatAreNotThereAreRefused) {
     gpu::Device device({.select = ""});
     EXPECT_TRUE(contains(complaint_of([&] {

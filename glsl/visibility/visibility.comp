@@ -6,8 +6,8 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
 // Visibility of lamps from blocks of pixels: one block per workgroup, which is one subgroup. Sixteen pixels of the block,
-// the probes, tell what it sees of each lamp on its list: one lamp per invocation. Where they differ, and the lamp gives
-// a good part of the block's light, all pixels look: one column of them per invocation. Lamps that nothing of the block
+// the probes, tell what it sees of each lamp on its list: one lamp per invocation. Where they differ, or the block is no
+// plane, and the lamp gives a good part of its light, all pixels look: one column of them per invocation. Lamps that nothing of the block
 // sees leave its list.
 
 #include "blocks.glsl"
@@ -33,15 +33,16 @@ layout(push_constant, scalar) uniform Push { VisibilityPush push; };
 #include "visibility.glsl"
 const float kMostSheen = 8.0;  // what a sheen or a wide lobe has, at most, in place of a cosine
 const uint kProbes = 16u;
-const uint kMostLamps = 256u;  // of a block
+const float kMostTilt = 1e-3, kMostLift = -1e-3;  // of a plane's pixels: rad; and of their distance from the eye, z < 0
 
 vec3 position[kBlockSize], normal[kBlockSize];  // of the column
 bool drawn[kBlockSize];
+bool plane;          // all of the block's surfaces are one
 bool shiny;          // of the block: whether some surface with a specular lobe or road with a table is drawn
 vec3 probe_position[kProbes], probe_normal[kProbes];  // two in each column and row, and in the corners
 bool probe_drawn[kProbes];
-shared uint found[kMostLamps];       // of lamps: what their blocks see, see below; each is its invocation's own
-shared float brightest[kMostLamps];  // the largest illuminance that they give a probe, lx
+shared uint found[kBlockCapacity];       // of lamps: what their blocks see, see below; each is its invocation's own
+shared float brightest[kBlockCapacity];  // the largest illuminance that they give a probe, lx
 
 void look_at_block(uvec2 corner) {
     const uint column = gl_LocalInvocationID.x;
@@ -62,33 +63,42 @@ void look_at_block(uvec2 corner) {
         probe_position[k] = pixel_ray(push.grid, vec2(pixel)) * surface.z;
         probe_normal[k] = decode_normal(surface.xy);
     }
+    bool same = probe_drawn[0];
+    [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
+        const bool level = abs(dot(probe_normal[0], position[r] - probe_position[0])) <= kMostLift * probe_position[0].z;
+        same = same && (!drawn[r] || (level && distance(normal[r], probe_normal[0]) <= kMostTilt));
+    }
+    plane = subgroupAll(same);
 }
 
 const uint kLit = 0u, kDark = kShares + 1u, kMixed = kShares + 2u;  // of `found`; between: sixteenths that are seen
+
+// Whether other pixels may see what the probes do not: of a plane, where these differ.
+bool is_open(uint seen) { return !plane || (seen > kLit && seen < kDark); }
 
 // Looks from the probes at one lamp for each invocation. Returns the mean of what they get of it, lx.
 float probe(uint number, uint index, bool cone) {
     const FetchedMap map = fetch_map(index);
     const FetchedLamp lamp = fetch(index, cone, push.lamps.cones + push.lamps.powers);
     uint seen = 0u, before = 0u, valid = 0u;
-    float sum = 0.0, most = 0.0;
+    float sum = 0.0, beam = 0.0, cosine = 0.0;
     [[unroll]] for (uint k = 0u; k < kProbes; ++k) {
         const vec3 to = lamp.position - probe_position[k];
-        const bool lights = probe_drawn[k] && dot(probe_normal[k], to) > 0.0;
+        const float inverse = inversesqrt(max(dot(to, to), 1e-12)), cosine_here = dot(probe_normal[k], to) * inverse;
+        const bool lights = probe_drawn[k] && cosine_here > 0.0;
         const bool sees_it = lights && glances(map, -to, probe_normal[k]);
         seen += sees_it ? 1u : 0u;
         before += lights ? 1u : 0u;
-        if (k % 4u == 0u) {
-            const float inverse = inversesqrt(max(dot(to, to), 1e-12));
-            const float beam = lamp.intensity * relative_intensity(lamp, -dot(lamp.axis, to) * inverse, -to, inverse, cone) * inverse * inverse;
-            const float cosine = dot(probe_normal[k], to) * inverse;
-            sum += sees_it ? beam * cosine : 0.0;
-            most = max(most, lights ? beam * (shiny ? kMostSheen : cosine) : 0.0);
+        cosine = max(cosine, lights ? cosine_here : 0.0);
+        if (k % 4u == 0u) {  // light changes slowly
+            const float here = lamp.intensity * relative_intensity(lamp, -dot(lamp.axis, to) * inverse, -to, inverse, cone) * inverse * inverse;
+            sum += sees_it ? here * cosine_here : 0.0;
+            beam = max(beam, probe_drawn[k] ? here : 0.0);
             valid += probe_drawn[k] ? 1u : 0u;
         }
     }
-    found[number] = seen == 0u ? kDark : seen == before ? kLit : clamp(kShares * seen / before, 1u, kShares - 1u);
-    brightest[number] = most;
+    found[number] = seen == 0u ? kDark : seen == before ? kLit : clamp((kShares * seen + before / 2u) / before, 1u, kShares - 1u);
+    brightest[number] = beam * (shiny && before > 0u ? kMostSheen : cosine);
     return sum / float(max(valid, 1u));
 }
 
@@ -128,7 +138,7 @@ void main() {
     float limit = max(push.faint * subgroupAdd(light), 1e-9);
     for (bool fits = false; !fits; limit *= fits ? 1.0 : 2.0) {
         uint matter = 0u;
-        for (uint i = lane; i < all_; i += kBlockSize) matter += found[i] > kLit && found[i] < kDark && brightest[i] > limit ? 1u : 0u;
+        for (uint i = lane; i < all_; i += kBlockSize) matter += is_open(found[i]) && brightest[i] > limit ? 1u : 0u;
         fits = subgroupAdd(matter) <= kSharePlaces;
     }
 
@@ -138,7 +148,7 @@ void main() {
         const bool there = i < all_, cone = i < cones;
         const uint entry = there ? imageLoad(entries, cone ? first + int(i) : last - int(i - cones)).r : 0u;
         uint visible = there ? found[i] : kDark, mark = 0u;
-        const bool matters = there && visible > kLit && visible < kDark && brightest[i] > limit;
+        const bool matters = there && is_open(visible) && brightest[i] > limit;
         // Lamps that all pixels look at, one after another.
         uint next = subgroupMax(matters ? i + 1u : 0u);
         while (next != 0u) {

@@ -215,11 +215,12 @@ TEST(Visibility, PixelsLookAtTheTexelsOfTheReference) {
         EXPECT_GT(pairs.mixed, 30u);
         EXPECT_EQ(pairs.faint, 0u);
         const std::vector<glm::vec4> mean = by_blocks(100, pairs);
-        EXPECT_EQ(pairs.mixed, 0u);
+        EXPECT_LT(pairs.mixed, 20u) << "blocks of which no probe sees anything";
         EXPECT_GT(pairs.faint, 30u);
         double sum = 0, truth = 0;
         for (size_t i = 0; i < pixels.size(); ++i) sum += double(mean[i].x), truth += double(exact[i].x);
-        EXPECT_NEAR(sum, truth, 0.05 * truth);  // sixteen probes of each block, rounded down to sixteenths
+        // Probes take one texel, pixels what most of four say: in noise that is more often the likelier answer.
+        EXPECT_NEAR(sum, truth, 0.1 * truth);
     }
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -366,6 +367,57 @@ TEST(Visibility, WhatTheBudgetDoesNotReachIsCarriedOver) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+// What a part of a picture shows, in pixels from its top left corner.
+gpu_scene::View part_of(gpu_scene::View view, glm::dvec2 corner, VkExtent2D extent) {
+    const glm::vec2 size(float(view.extent.width), float(view.extent.height));
+    const glm::vec2 per_pixel = (view.tangent_high - view.tangent_low) / size;
+    view.tangent_low.x += per_pixel.x * float(corner.x);
+    view.tangent_high.y -= per_pixel.y * float(corner.y);
+    view.tangent_high.x = view.tangent_low.x + per_pixel.x * float(extent.width);
+    view.tangent_low.y = view.tangent_high.y - per_pixel.y * float(extent.height);
+    view.extent = extent;
+    return view;
+}
+
+// Of matt pixels: luminance for a reflectance of 1, cd/m^2, added up.
+struct StreetLight {
+    double got = 0, truth = 0, leaked = 0, lost = 0;
+    size_t pixels = 0, within = 0;  // with 1.3 lx and more; within 5 % of the truth
+};
+
+void compare_with_rays(Lit& street, const RayCaster& rays, const gpu_scene::View& view, StreetLight& light) {
+    const Lit::Picture p = street.render(view);
+    const glm::dmat4 to_world = glm::inverse(view.world_to_view);
+    for (size_t i = 0; i < p.pixels.size(); ++i) {
+        const glm::vec4 surface = p.surfaces[i], colour = p.colours[i];
+        if (!(surface.z > 0) || surface.w < 1 || colour.w != 0) continue;  // matt alone
+        const glm::dvec3 point = reference::view_position(
+            p.grid, glm::dvec2(i % view.extent.width, i / view.extent.width) + 0.5, double(surface.z));
+        const glm::dvec3 normal = reference::octahedral_decode(glm::dvec2(surface));
+        const glm::dvec3 in_world(to_world * glm::dvec4(point + 2e-3 * normal, 1));
+        double expected = 0;  // lx, times reflectance over pi
+        for (uint32_t l = 0; l < p.list.placed(); ++l) {
+            reference::Shaded sum;
+            reference::add_lamp(p.list.lamps[l], reference::kind_of(l, p.list.counts), point, normal,
+                                glm::dvec3(colour) / kPi, {}, 1, 0.001, sum);
+            if (!(sum.luminance.y > 0)) continue;
+            const std::vector<uint32_t>& fixture = street.plan.fixtures[p.list.indices[l]];
+            const glm::dvec3 lamp(street.poses.world[street.lamps[p.list.indices[l]].node][3]);
+            const double hit = rays.hit(lamp, in_world, 0, 1, [&](uint32_t node) {
+                return std::ranges::none_of(fixture,
+                                            [&](uint32_t f) { return street.resident.placements()[f].node == node; });
+            });
+            if (!(hit < 1)) expected += sum.luminance.y;
+        }
+        const double got = double(p.pixels[i].y);
+        light.got += got, light.truth += expected;
+        light.leaked += std::max(got - expected, 0.0), light.lost += std::max(expected - got, 0.0);
+        if (std::max(got, expected) < 1.3 * double(colour.y) / kPi) continue;
+        ++light.pixels;
+        light.within += std::abs(got - expected) <= 0.05 * expected ? 1 : 0;
+    }
+}
+
 // The light of all lamps on matt pixels of the night street, with rays deciding which of them each pixel sees.
 TEST(Visibility, NightStreetAgreesWithRays) {
     TempFolder folder;
@@ -378,45 +430,17 @@ TEST(Visibility, NightStreetAgreesWithRays) {
     ASSERT_EQ(rays.size(), street.resident.triangles());
 
     for (const char* camera : {"driver", "crossing"}) {
-        const gpu_scene::View view = gpu_scene::camera_view(scene, street.poses, camera, {84, 52});
-        const Lit::Picture p = street.render(view);
-        const glm::dmat4 to_world = glm::inverse(view.world_to_view);
-        size_t pixels = 0, within = 0;
-        double light = 0, truth = 0, leaked = 0, lost = 0;
-        for (size_t i = 0; i < p.pixels.size(); ++i) {
-            const glm::vec4 surface = p.surfaces[i], colour = p.colours[i];
-            if (!(surface.z > 0) || surface.w < 1 || colour.w != 0) continue;  // matt alone
-            const glm::dvec3 point = reference::view_position(
-                p.grid, glm::dvec2(i % view.extent.width, i / view.extent.width) + 0.5, double(surface.z));
-            const glm::dvec3 normal = reference::octahedral_decode(glm::dvec2(surface));
-            const glm::dvec3 in_world(to_world * glm::dvec4(point + 2e-3 * normal, 1));
-            double expected = 0;  // lx, times reflectance over pi
-            for (uint32_t l = 0; l < p.list.placed(); ++l) {
-                reference::Shaded sum;
-                reference::add_lamp(p.list.lamps[l], reference::kind_of(l, p.list.counts), point, normal,
-                                    glm::dvec3(colour) / kPi, {}, 1, 0.001, sum);
-                if (!(sum.luminance.y > 0)) continue;
-                const std::vector<uint32_t>& fixture = street.plan.fixtures[p.list.indices[l]];
-                const glm::dvec3 lamp(street.poses.world[street.lamps[p.list.indices[l]].node][3]);
-                const double hit = rays.hit(lamp, in_world, 0, 1, [&](uint32_t node) {
-                    return std::ranges::none_of(
-                        fixture, [&](uint32_t f) { return street.resident.placements()[f].node == node; });
-                });
-                if (!(hit < 1)) expected += sum.luminance.y;
-            }
-            const double got = double(p.pixels[i].y);
-            light += got, truth += expected;
-            leaked += std::max(got - expected, 0.0), lost += std::max(expected - got, 0.0);
-            if (std::max(got, expected) < 1.3 * double(colour.y) / kPi) continue;  // of 1.3 lx and more
-            ++pixels;
-            within += std::abs(got - expected) <= 0.05 * expected ? 1 : 0;
-        }
+        StreetLight light;
+        const gpu_scene::View whole = gpu_scene::camera_view(scene, street.poses, camera, {1680, 1050});
+        for (const double x : {0.1, 0.45, 0.8})
+            for (const double y : {0.35, 0.55, 0.75})
+                compare_with_rays(street, rays, part_of(whole, {1680 * x, 1050 * y}, {32, 24}), light);
         // Without maps the light is 1.4 to 1.9 times as much. What differs are edges of shadows, by less than a texel.
-        EXPECT_NEAR(light, truth, 0.01 * truth) << camera;
-        EXPECT_LT(leaked, 0.012 * truth) << camera;
-        EXPECT_LT(lost, 0.012 * truth) << camera;
-        EXPECT_GT(double(within), 0.9 * double(pixels)) << camera;
-        EXPECT_GT(pixels, 2000u);
+        EXPECT_NEAR(light.got, light.truth, 0.01 * light.truth) << camera;
+        EXPECT_LT(light.leaked, 0.006 * light.truth) << camera;
+        EXPECT_LT(light.lost, 0.008 * light.truth) << camera;
+        EXPECT_GT(double(light.within), 0.94 * double(light.pixels)) << camera;
+        EXPECT_GT(light.pixels, 2000u);
     }
     EXPECT_EQ(rig.complaints(), "");
 }

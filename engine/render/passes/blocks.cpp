@@ -11,8 +11,6 @@ using graph::load, graph::sample, graph::store, graph::update;
 
 constexpr gpu::Shader kCullLamps{"cull_lamps.comp", cull_lamps_comp}, kMergeLamps{"merge_lamps.comp", merge_lamps_comp};
 
-constexpr uint32_t kBlockCapacity = 256;  // lamps of a block of pixels; more, and its pixels evaluate all lamps
-
 constexpr uint64_t kWord = sizeof(uint32_t);
 constexpr VkFormat kWords = VK_FORMAT_R32_UINT;
 
@@ -43,16 +41,16 @@ Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clus
                     " has more blocks than the device can shade in one dispatch");
     const Blocks blocks{.columns = grid.x,
                         .count = count,
-                        .capacity = kBlockCapacity,
+                        .capacity = shared::kBlockCapacity,
                         .counts = words(graph, "block counts", count * 2),
-                        .entries = words(graph, "block entries", uint64_t(count) * kBlockCapacity)};
+                        .entries = words(graph, "block entries", uint64_t(count) * shared::kBlockCapacity)};
 
     const gpu::Kernel& cull = frame.kernels.get(kCullLamps, {kinds.powers, kinds.tables});
     graph.dispatch(
         "cull lamps", cull,
         {load(surfaces.surface), sample(clusters.lamps), sample(clusters.counts), sample(clusters.indices),
          store(blocks.counts), store(blocks.entries), sample(clusters.tables.texels), sample(clusters.block_slices)},
-        shared::CullPush{clusters.push, pixels, grid.x, kBlockCapacity},
+        shared::CullPush{clusters.push, pixels, grid.x, shared::kBlockCapacity},
         graph::cover(grid.x, grid.y, cull.group[0], cull.group[1]));
 
     return blocks;

@@ -119,14 +119,16 @@ MapPlan map_plan(const scene::Scene& scene, const GpuScene& resident, const std:
 
 double choose_sides(std::vector<MapLayout>& layouts, const std::vector<double>& distances, double scale,
                     uint64_t most_texels) {
-    constexpr double kStep = 0.5;
+    constexpr double kStep = 0.125, kLeast = std::countr_zero(kLeastMapSide), kMost = std::countr_zero(kMostMapSide);
+    std::vector<double> powers;  // of two, at a scale of 0
+    for (size_t i = 0; i < layouts.size(); ++i) {
+        const double away = std::sqrt(std::max(distances[i], kNearestEye)) * double(layouts[i].zoom);
+        powers.push_back(std::log2(std::sqrt(std::max(double(layouts[i].range), 1e-30)) / away));
+    }
     const auto with = [&](double tried) {
         for (size_t i = 0; i < layouts.size(); ++i) {
-            MapLayout& layout = layouts[i];
-            const double away = std::sqrt(std::max(distances[i], kNearestEye)) * double(layout.zoom);
-            const double power = layout.range > 0 ? tried + std::log2(std::sqrt(double(layout.range)) / away) : 0;
-            constexpr double kLeast = std::countr_zero(kLeastMapSide), kMost = std::countr_zero(kMostMapSide);
-            layout.side = layout.range > 0 ? 1u << uint32_t(std::clamp(std::round(power), kLeast, kMost)) : 0;
+            const double power = std::clamp(std::round(tried + powers[i]), kLeast, kMost);
+            layouts[i].side = layouts[i].range > 0 ? 1u << uint32_t(power) : 0;
         }
         return texels_of(layouts);
     };

@@ -41,7 +41,7 @@ MapPlan map_plan(const scene::Scene& scene, const GpuScene& resident, const std:
 constexpr uint32_t kLeastMapSide = shared::kRegion, kMostMapSide = 2048;  ///< texels
 /// Sets the sides of maps that an eye at these distances (m) sees: powers of two within the limits above, nearest to
 /// 2^scale I^1/4 / (sqrt(distance) zoom), I the largest intensity, distances of at least 4 m; 0 for lamps without a
-/// map. Where these take more than `most_texels` the scale is less by half steps. Returns it. Throws Error if nothing
+/// map. Where these take more than `most_texels` the scale is less by steps of 1/8. Returns it. Throws Error if nothing
 /// fits.
 double choose_sides(std::vector<MapLayout>& layouts, const std::vector<double>& distances, double scale,
                     uint64_t most_texels);

@@ -111,10 +111,10 @@ TEST(LampMaps, SidesFallWithDistanceAndFillTheMemory) {
         EXPECT_LE(texels, most);
         if (scale < 8) {
             std::vector<MapLayout> more = layouts;
-            gpu_scene::choose_sides(more, distances, scale + 0.5, ~uint64_t{0});
+            gpu_scene::choose_sides(more, distances, scale + 0.125, ~uint64_t{0});
             texels = 0;
             for (const MapLayout& layout : more) texels += layout.texels();
-            EXPECT_GT(texels, most) << "half a step more would not fit";
+            EXPECT_GT(texels, most) << "a step more would not fit";
         }
     }
     EXPECT_THROW(gpu_scene::choose_sides(layouts, distances, 8, 199 << 12), Error);

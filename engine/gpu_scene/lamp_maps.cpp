@@ -127,7 +127,8 @@ double choose_sides(std::vector<MapLayout>& layouts, const std::vector<double>& 
     }
     const auto with = [&](double tried) {
         for (size_t i = 0; i < layouts.size(); ++i) {
-            const double power = std::clamp(std::round(tried + powers[i]), kLeast, kMost);
+            const double wanted = std::round(tried + powers[i]);
+            const double power = wanted > kLeast ? std::min(wanted, kMost) : kLeast;  // also where it is no number
             layouts[i].side = layouts[i].range > 0 ? 1u << uint32_t(power) : 0;
         }
         return texels_of(layouts);

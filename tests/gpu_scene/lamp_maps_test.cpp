@@ -122,6 +122,10 @@ TEST(LampMaps, SidesFallWithDistanceAndFillTheMemory) {
     layouts.resize(2), layouts[0].zoom = 8, distances = {10, 10};
     gpu_scene::choose_sides(layouts, distances, 6, uint64_t(1) << 20);
     EXPECT_EQ(layouts[0].side * 8, layouts[1].side);
+    // A lamp that is nowhere has the least map.
+    distances[0] = std::numeric_limits<double>::quiet_NaN();
+    gpu_scene::choose_sides(layouts, distances, 6, uint64_t(1) << 20);
+    EXPECT_EQ(layouts[0].side, gpu_scene::kLeastMapSide);
 }
 
 }  // namespace

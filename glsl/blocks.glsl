@@ -13,11 +13,12 @@ uint slice_bit(ClusterGrid grid, float depth) {
 
 uint entry_of(uint lamp, uint first_slice, uint last_slice) { return lamp | first_slice << kFirstSliceShift | last_slice << kLastSliceShift; }
 uint lamp_of(uint entry) { return entry & ((1u << kShareShift) - 1u); }
+// Of an entry with kMixedBit.
+uint place_of(uint entry) { return entry >> kShareShift & kShareMask; }
 // That all pixels see.
 float share_of(uint entry) {
-    const uint share = entry >> kShareShift & kShareMask;
+    const uint share = place_of(entry);
     return share == 0u || (entry & kMixedBit) != 0u ? 1.0 : float(share) / float(kShares);
 }
-uint place_of(uint entry) { return entry >> kShareShift & kShareMask; }
 // A bit for each.
 uint slices_of(uint entry) { return (2u << (entry >> kLastSliceShift)) - (1u << (entry >> kFirstSliceShift & 31u)); }

@@ -67,6 +67,11 @@ Sphere sphere_of(const GpuScene::Part& part, const glm::mat4& m) {
     return {glm::vec3(m * glm::vec4(part.centre, 1)), part.radius * largest_stretch(m)};
 }
 
+WorldSphere world_sphere_of(const GpuScene::Part& part, const glm::dmat4& to_world) {
+    const glm::dvec3 centre(to_world * glm::dvec4(part.centre, 1));
+    return {centre, double(sphere_of(part, glm::mat4(glm::dmat4(glm::dmat3(to_world)))).radius)};
+}
+
 gpu::OwnedBuffer upload_buffer(const gpu::Device& device, gpu::Arena& arena, std::span<const std::byte> bytes,
                                VkBufferUsageFlags usage) {
     gpu::OwnedBuffer buffer = gpu::make_buffer(device, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT);

@@ -83,6 +83,12 @@ struct Sphere {
 };
 /// A sphere around a part of a mesh after a transform.
 Sphere sphere_of(const GpuScene::Part& part, const glm::mat4& transform);
+/// The same where things are far from the origin.
+struct WorldSphere {
+    glm::dvec3 centre;  ///< m
+    double radius;      ///< m
+};
+WorldSphere world_sphere_of(const GpuScene::Part& part, const glm::dmat4& to_world);
 
 /// Copies bytes into a new device-local buffer, by way of a host buffer, and waits.
 gpu::OwnedBuffer upload_buffer(const gpu::Device& device, gpu::Arena& arena, std::span<const std::byte> bytes,

@@ -125,6 +125,7 @@ std::map<DistanceMaps::TileKey, DistanceMaps::Cover> DistanceMaps::covers(const 
                                                                           const gpu_scene::SceneFrame& poses,
                                                                           const gpu_scene::View& view) const {
     std::map<TileKey, Cover> wanted;
+    if (moving_.moving().empty()) return wanted;
     std::vector<double> light(list.placed());  // lx
     std::vector<gpu_scene::MapFrame> frames;
     for (uint32_t i = 0; i < list.placed(); ++i)

@@ -34,23 +34,20 @@ std::vector<uint32_t> MovingPlacements::update(const gpu_scene::SceneFrame& pose
     return begun;
 }
 
+// A sphere around the box around the spheres of the parts.
 MovingPlacements::Moving MovingPlacements::at_pose(uint32_t placement, const glm::dmat4& world) const {
     const gpu_scene::GpuScene::Placement& of = scene_.placements()[placement];
+    std::vector<gpu_scene::WorldSphere> spheres;
     glm::dvec3 low(1e300), high(-1e300);
     for (uint32_t i = of.first_part; i < of.first_part + of.part_count; ++i) {
-        const gpu_scene::GpuScene::Part& part = scene_.parts()[i];
-        const double radius = double(gpu_scene::sphere_of(part, glm::mat4(glm::dmat4(glm::dmat3(world)))).radius);
-        const glm::dvec3 centre(world * glm::dvec4(part.centre, 1));
-        low = glm::min(low, centre - radius), high = glm::max(high, centre + radius);
+        const gpu_scene::WorldSphere sphere = gpu_scene::world_sphere_of(scene_.parts()[i], world);
+        low = glm::min(low, sphere.centre - sphere.radius), high = glm::max(high, sphere.centre + sphere.radius);
+        spheres.push_back(sphere);
     }
-    // A sphere around boxes around spheres: no more than sqrt(3) times too large.
     double radius = 0;
     const glm::dvec3 centre = 0.5 * (low + high);
-    for (uint32_t i = of.first_part; i < of.first_part + of.part_count; ++i) {
-        const gpu_scene::GpuScene::Part& part = scene_.parts()[i];
-        const double own = double(gpu_scene::sphere_of(part, glm::mat4(glm::dmat4(glm::dmat3(world)))).radius);
-        radius = std::max(radius, glm::distance(centre, glm::dvec3(world * glm::dvec4(part.centre, 1))) + own);
-    }
+    for (const gpu_scene::WorldSphere& sphere : spheres)
+        radius = std::max(radius, glm::distance(centre, sphere.centre) + sphere.radius);
     return {placement, version_, centre, radius};
 }
 

@@ -20,8 +20,8 @@ void main() {
     const ivec2 image = ivec2(a.xy), corner = ivec2(a.zw);
     const int side = int(b.x);
     const ivec2 group = ivec2(gl_LocalInvocationID.xy) * int(kGroup);
-    const bool over = b.w != kNotSaved, save = over && (b.w & kSaveNow) != 0u;
-    const int saved = int((b.w & ~kSaveNow) * (kMapUnit / 2u));
+    const bool over = b.z != kNotSaved, save = over && (b.z & kSaveNow) != 0u;
+    const int saved = int((b.z & ~kSaveNow) * (kMapUnit / 2u));
     for (int k = 0; k < 8; ++k) {
         const ivec2 texel = group + ivec2(k % 2 * 2, k / 2);
         const vec2 s = vec2(texelFetch(drawn, image + texel, 0).r, texelFetch(drawn, image + texel + ivec2(1, 0), 0).r) * (1.0 / kMapNear);

@@ -39,8 +39,8 @@ struct MapRegion {
     uint x, y;                // and in the hemisphere, texels
     uint side;                // of the hemisphere, texels
     uint first;               // texel of the hemisphere, in units of kMapUnit
-    float zoom;
     uint saved;               // kNotSaved: all was drawn; or the first texel of those saved, in units of kMapUnit, and kSaveNow
+    uint unused;
 };
 SHARED_SIZE(MapRegion, 32)
 

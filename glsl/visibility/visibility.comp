@@ -31,9 +31,10 @@ layout(push_constant, scalar) uniform Push { VisibilityPush push; };
 
 #include "lamp.glsl"
 #include "visibility.glsl"
+
 const float kMostSheen = 8.0;  // what a sheen or a wide lobe has, at most, in place of a cosine
 const uint kProbes = 16u;
-const float kMostTilt = 1e-3, kMostLift = -1e-3;  // of a plane's pixels: rad; and of their distance from the eye, z < 0
+const float kMostTilt = 1e-3, kMostLift = 1e-3;  // of a plane's pixels: rad; and of their distance from the eye
 
 vec3 position[kBlockSize], normal[kBlockSize];  // of the column
 bool drawn[kBlockSize];
@@ -65,7 +66,7 @@ void look_at_block(uvec2 corner) {
     }
     bool same = probe_drawn[0];
     [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
-        const bool level = abs(dot(probe_normal[0], position[r] - probe_position[0])) <= kMostLift * probe_position[0].z;
+        const bool level = abs(dot(probe_normal[0], position[r] - probe_position[0])) <= -kMostLift * probe_position[0].z;
         same = same && (!drawn[r] || (level && distance(normal[r], probe_normal[0]) <= kMostTilt));
     }
     plane = subgroupAll(same);

@@ -103,19 +103,10 @@ struct MapPart {
 // What stands where a square sees it.
 class Collector {
 public:
-    Collector(const GpuScene& scene, const gpu_scene::SceneFrame& poses) : scene_(scene), poses_(poses) {
-        for (const GpuScene::Placement& placement : scene.placements()) {
-            first_sphere_.push_back(uint32_t(spheres_.size()));
-            const glm::dmat4& m = poses.world[placement.node];
-            for (uint32_t i = placement.first_part; i < placement.first_part + placement.part_count; ++i) {
-                const GpuScene::Part& part = scene.parts()[i];
-                const float radius = gpu_scene::sphere_of(part, glm::mat4(glm::dmat4(glm::dmat3(m)))).radius;
-                spheres_.push_back({glm::dvec3(m * glm::dvec4(part.centre, 1)), double(radius)});
-            }
-        }
-    }
+    Collector(const GpuScene& scene, const gpu_scene::SceneFrame& poses)
+        : scene_(scene), poses_(poses), spheres_(scene.placements().size()) {}
 
-    void collect(const Square& square, uint32_t image_side, std::vector<MapPart>& drawn) const {
+    void collect(const Square& square, uint32_t image_side, std::vector<MapPart>& drawn) {
         const gpu_scene::MapLayout& layout = square.map->layout;
         const gpu_scene::MapFrame& frame = square.map->frame;
         const glm::dvec3 mirror(1, 1, square.second ? -1 : 1);
@@ -125,8 +116,9 @@ public:
             const GpuScene::Placement& placement = scene_.placements()[p];
             glm::dmat4 to_map(0);
             bool known = false;
+            const std::vector<gpu_scene::WorldSphere>& spheres = spheres_of(p);
             for (uint32_t i = 0; i < placement.part_count; ++i) {
-                const auto& [centre, radius] = spheres_[first_sphere_[p] + i];
+                const auto& [centre, radius] = spheres[i];
                 const GpuScene::Part& part = scene_.parts()[placement.first_part + i];
                 const double away = glm::distance(centre, frame.position);
                 if (part.index_count == 0 || scene_.surfaces()[part.material].material.clear ||
@@ -146,13 +138,18 @@ public:
     }
 
 private:
-    struct WorldSphere {
-        glm::dvec3 centre;  // m
-        double radius;      // m
-    };
+    // Of the parts of a placement, computed when it is first looked at.
+    const std::vector<gpu_scene::WorldSphere>& spheres_of(uint32_t placement) {
+        const GpuScene::Placement& of = scene_.placements()[placement];
+        std::vector<gpu_scene::WorldSphere>& spheres = spheres_[placement];
+        for (uint32_t i = uint32_t(spheres.size()); i < of.part_count; ++i)
+            spheres.push_back(gpu_scene::world_sphere_of(scene_.parts()[of.first_part + i], poses_.world[of.node]));
+        return spheres;
+    }
 
-    static void add_quadrants(const Square& square, uint32_t image_side, uint32_t part, const WorldSphere& sphere,
-                              const glm::mat4& to_map, std::vector<MapPart>& drawn) {
+    static void add_quadrants(const Square& square, uint32_t image_side, uint32_t part,
+                              const gpu_scene::WorldSphere& sphere, const glm::mat4& to_map,
+                              std::vector<MapPart>& drawn) {
         const gpu_scene::MapLayout& layout = square.map->layout;
         const double zoom = double(layout.zoom), per_texel = 2.0 / double(layout.side);
         const glm::dvec2 low = per_texel * glm::dvec2(square.corner) - 1.0;
@@ -176,8 +173,7 @@ private:
 
     const GpuScene& scene_;
     const gpu_scene::SceneFrame& poses_;
-    std::vector<WorldSphere> spheres_;    // of parts, placement by placement
-    std::vector<uint32_t> first_sphere_;  // of placements
+    std::vector<std::vector<gpu_scene::WorldSphere>> spheres_;  // of placements
 };
 
 // Instances of one part, drawn at once.
@@ -236,7 +232,7 @@ std::vector<shared::MapRegion> regions_of(const std::vector<Square>& squares) {
         for (uint32_t y = 0; y < square.side; y += shared::kRegion)
             for (uint32_t x = 0; x < square.side; x += shared::kRegion)
                 regions.push_back({square.place.x + x, square.place.y + y, square.corner.x + x, square.corner.y + y,
-                                   layout.side, first, layout.zoom, saved_word(square.map->tile)});
+                                   layout.side, first, saved_word(square.map->tile), 0});
     }
     return regions;
 }
@@ -245,10 +241,9 @@ std::vector<shared::MapRegion> regions_of(const std::vector<Square>& squares) {
 struct DrawnParts {
     std::vector<shared::MapInstance> instances;
     std::vector<MapBatch> batches;
-    uint64_t triangles = 0;
 };
 
-DrawnParts parts_of(const Collector& collector, const GpuScene& scene, const DrawnImage& image) {
+DrawnParts parts_of(Collector& collector, const GpuScene& scene, const DrawnImage& image) {
     std::vector<MapPart> drawn;
     for (const Square& square : image.squares) collector.collect(square, image.side, drawn);
     std::ranges::stable_sort(drawn, {}, [&](const MapPart& d) {
@@ -261,23 +256,20 @@ DrawnParts parts_of(const Collector& collector, const GpuScene& scene, const Dra
             parts.batches.push_back({d.part, uint32_t(parts.instances.size()), 0});
         ++parts.batches.back().instance_count;
         parts.instances.push_back(d.instance);
-        parts.triangles += scene.parts()[d.part].index_count / 3;
     }
     return parts;
 }
 
 }  // namespace
 
-uint64_t add_distance_maps(const FrameContext& frame, const GpuScene& scene, const gpu_scene::SceneFrame& poses,
-                           std::span<const MapToDraw> maps, graph::Resource distances) {
+void add_distance_maps(const FrameContext& frame, const GpuScene& scene, const gpu_scene::SceneFrame& poses,
+                       std::span<const MapToDraw> maps, graph::Resource distances) {
     graph::FrameGraph& graph = frame.graph;
-    const Collector collector(scene, poses);
-    uint64_t triangles = 0;
+    Collector collector(scene, poses);
     uint32_t number = 0;
     for (const DrawnImage& image : fill_images(maps)) {
         const std::string which = " " + std::to_string(number++);
         DrawnParts parts = parts_of(collector, scene, image);
-        triangles += parts.triangles;
         if (parts.instances.empty()) parts.instances.emplace_back();  // an upload is never empty
 
         const graph::Resource placed = graph.upload("map instances" + which, parts.instances);
@@ -294,7 +286,6 @@ uint64_t add_distance_maps(const FrameContext& frame, const GpuScene& scene, con
         graph.dispatch("store distances" + which, frame.kernels.get(kStore),
                        {sample(depth), sample(list), update(distances)}, graph::Groups{uint32_t(regions.size()), 1, 1});
     }
-    return triangles;
 }
 
 }  // namespace vesper::render

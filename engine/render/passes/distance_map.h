@@ -26,13 +26,11 @@ struct MapToDraw {
     std::optional<MapTile> tile{};         ///< into this tile, over what it saved; without: into an empty map
 };
 
-/// Draws placements around lamps, at the poses of `poses`, into their maps: texels of `distances`,
-/// r32ui, two halves a word (shared/distance_map.h). Surfaces
-/// hide a lamp from both sides; masked ones where they are drawn, clear ones not at all. Parts smaller than half a
-/// texel, and what is farther than the range of a map, are left out. Distances are rounded to halves, 0.1 %. Returns
-/// the number of triangles drawn.
-uint64_t add_distance_maps(const FrameContext& frame, const gpu_scene::GpuScene& scene,
-                           const gpu_scene::SceneFrame& poses, std::span<const MapToDraw> maps,
-                           graph::Resource distances);
+/// Draws placements around lamps, at the poses of `poses`, into their maps: texels of `distances`, r32ui, two halves a
+/// word (shared/distance_map.h). Surfaces hide a lamp from both sides; masked ones where they are drawn, clear ones not
+/// at all. Parts smaller than half a texel, and what is farther than the range of a map, are left out. Distances are
+/// rounded to halves, 0.1 %.
+void add_distance_maps(const FrameContext& frame, const gpu_scene::GpuScene& scene, const gpu_scene::SceneFrame& poses,
+                       std::span<const MapToDraw> maps, graph::Resource distances);
 
 }  // namespace vesper::render

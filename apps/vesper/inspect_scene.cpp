@@ -29,7 +29,7 @@ std::string height_text(const scene::LampReport& lamp) {
 }
 
 std::string fixture_text(const scene::LampReport& lamp) {
-    const std::string rule = scene::name_of(lamp.fixture);
+    std::string rule = scene::name_of(lamp.fixture);
     if (lamp.fixture == scene::FixtureRule::None) return rule;
     return rule + (lamp.least_meshes == lamp.most_meshes ? format(", %zu", lamp.most_meshes)
                                                          : format(", %zu to %zu", lamp.least_meshes, lamp.most_meshes));

@@ -198,7 +198,8 @@ LuminaireList luminaire_list(const LuminaireSet& set, const SceneFrame& frame, c
                                               aim->candela / (aim->distance * aim->distance) * dvec3(lamp.colour),
                                               inside});
         };
-        if (!(lamp.opening.area() > 0)) {  // what is modelled of it is seen where the picture has its place
+        if (!(lamp.opening.area() > 0) ||
+            !lamp.opening.drawn) {  // what is modelled of it is seen where the picture has its place
             dazzles(middle_inside(*aim, view));
             continue;
         }

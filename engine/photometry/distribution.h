@@ -25,6 +25,8 @@ struct LuminousOpening {
     double width = 0;   ///< along C90-C270; top to bottom of a headlamp
     double height = 0;
     bool round = false;  ///< an ellipse of these diameters
+    bool drawn =
+        true;  ///< false: the scene has a surface that shows the lamp; the opening has a size for shadows alone
     /// Area of the opening seen against the main direction, m^2; 0 where unknown.
     double area() const;
 };

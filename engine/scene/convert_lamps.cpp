@@ -92,13 +92,14 @@ void add_opening(Conversion& conversion, const char* of, size_t index, const pho
     if (!(opening.area() > 0)) return;
     conversion.openings.push_back({{of, index}, {"width_m", opening.length}, {"height_m", opening.width}});
     if (opening.round) conversion.openings.back()["round"] = true;
+    if (!opening.drawn) conversion.openings.back()["drawn"] = false;
 }
 
 /// Puts the file of a measured lamp into the document, once for all rules that name it.
 size_t profile_of(Conversion& conversion, const LampRule& rule) {
     const photometry::LuminousOpening& opening = rule.lamp.opening;
-    const auto [known, is_new] =
-        conversion.profiles.try_emplace({rule.lamp.distribution, opening.length, opening.width, opening.round});
+    const auto [known, is_new] = conversion.profiles.try_emplace(
+        {rule.lamp.distribution, opening.length, opening.width, opening.round, opening.drawn});
     if (!is_new) return known->second;
     json& root = conversion.document.edit();
     json& extension =
@@ -196,7 +197,7 @@ std::string fixture_text(const LampRule& rule) {
 
 /// What the opening of a lamp shows on its axis.
 std::string seen(Lamp lamp, const photometry::Distribution& distribution) {
-    if (!(lamp.opening.area() > 0)) return "";
+    if (!(lamp.opening.area() > 0) || !lamp.opening.drawn) return "";
     lamp.distribution = 0;
     return ", " + decimal(axis_luminance(lamp, {&distribution, 1})) + " cd/m^2 over " + decimal(lamp.opening.area()) +
            " m^2";

@@ -26,8 +26,8 @@ struct Conversion {
     nlohmann::json openings = nlohmann::json::array(), fixtures = nlohmann::json::array();                ///< the same
     nlohmann::json luminance_pictures = nlohmann::json::array(), luminous = nlohmann::json::array();      ///< the same
     std::map<uint32_t, size_t> picture_of{};  ///< in luminance_pictures, for those of the photometry file
-    /// Light profile of EXT_lights_ies for a measured lamp and the length, width and roundness of its opening.
-    std::map<std::tuple<uint32_t, double, double, bool>, size_t> profiles{};
+    /// Light profile of EXT_lights_ies for a measured lamp and its opening: length, width, whether round and drawn.
+    std::map<std::tuple<uint32_t, double, double, bool, bool>, size_t> profiles{};
     std::vector<uint8_t> profile_bytes{};             ///< a new buffer
     std::vector<std::vector<uint32_t>> lamp_nodes{};  ///< nodes of the file that each lamp rule matches
 };

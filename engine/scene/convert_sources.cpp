@@ -209,7 +209,7 @@ void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::v
         if (disagree(intensity, candela)) ++wrong;
         if (off > worst) worst = off, its_area = area, its_luminance = candela / area;
     }
-    if (glazed > 0 && rule.lamp.opening.area() > 0)
+    if (glazed > 0 && rule.lamp.opening.area() > 0 && rule.lamp.opening.drawn)
         conversion.report.warnings.push_back(
             "emitter " + in_quotes(emitter.name) + ": lies where lamp " + in_quotes(rule.name) +
             " shows its opening and would be seen twice: give it \"lamp\": \"" + one_line(rule.name) + "\"");

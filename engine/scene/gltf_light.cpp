@@ -73,11 +73,12 @@ void read_lobe(GltfReader& reader, const JsonValue& lobe) {
 
 /// Where the light of a punctual light, or of all uses of a light profile, comes out.
 void read_opening(GltfReader& reader, const JsonValue& source) {
-    source.allow_only({"light", "profile", "width_m", "height_m", "round"});
+    source.allow_only({"light", "profile", "width_m", "height_m", "round", "drawn"});
     photometry::LuminousOpening opening;
     opening.length = source.at("width_m").number(1e-4, 100);
     opening.width = source.at("height_m").number(1e-4, 100);
     opening.round = source.boolean_or("round", false);
+    opening.drawn = source.boolean_or("drawn", true);
     if (const auto profile = source.find("profile")) {
         if (source.find("light")) profile->fail("is given beside light: one of them is wanted");
         reader.profile_openings.resize(reader.scene.distributions.size());

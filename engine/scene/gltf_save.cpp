@@ -172,6 +172,7 @@ void add_opening(json& openings, const char* of, size_t index, const photometry:
     if (!(opening.area() > 0)) return;
     openings.push_back({{of, index}, {"width_m", opening.length}, {"height_m", opening.width}});
     if (opening.round) openings.back()["round"] = true;
+    if (!opening.drawn) openings.back()["drawn"] = false;
 }
 
 /// The extension by which a node uses a lamp.

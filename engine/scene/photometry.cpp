@@ -98,7 +98,7 @@ void read_shape(LampRule& rule, const JsonValue& source) {
     }
 }
 
-/// Where the light comes out: {"width_m", "height_m", "round"}, or "file".
+/// Where the light comes out: {"width_m", "height_m", "round", "drawn"}, or "file".
 photometry::LuminousOpening read_opening(const JsonValue& source, const LampRule& rule, const Photometry& made) {
     constexpr double kSmallest = 1e-4, kLargest = 100;
     if (source.json().is_string()) {
@@ -109,8 +109,9 @@ photometry::LuminousOpening read_opening(const JsonValue& source, const LampRule
             source.fail("the file states no luminous area that can be seen");
         return {.length = stated.length, .width = stated.width, .height = 0, .round = stated.round};
     }
-    source.allow_only({"width_m", "height_m", "round"});
+    source.allow_only({"width_m", "height_m", "round", "drawn"});
     photometry::LuminousOpening opening;
+    opening.drawn = source.boolean_or("drawn", true);
     opening.round = source.boolean_or("round", false);
     opening.length = source.at("width_m").number(kSmallest, kLargest);
     opening.width = opening.round ? source.number_or("height_m", opening.length, kSmallest, kLargest)

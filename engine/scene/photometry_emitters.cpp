@@ -71,7 +71,8 @@ std::vector<std::string> read_lamp_names(const JsonValue& source, const Photomet
         const auto found =
             std::find_if(made.lamps.begin(), made.lamps.end(), [&](const LampRule& r) { return r.name == name; });
         if (found == made.lamps.end()) source.at("lamp").fail("there is no lamp rule of the name '" + name + "'");
-        if (!(found->lamp.opening.area() > 0)) source.at("lamp").fail("the lamp rule '" + name + "' has no opening");
+        if (!(found->lamp.opening.area() > 0) || !found->lamp.opening.drawn)
+            source.at("lamp").fail("the lamp rule '" + name + "' has no opening that is drawn");
     }
     return names;
 }

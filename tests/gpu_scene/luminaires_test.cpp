@@ -156,6 +156,10 @@ TEST(Luminaires, WhatCannotBeSeenIsLeftOut) {
     EXPECT_EQ(sources(lamp, glm::mat4(0)), 0u) << "it has no place";
     EXPECT_EQ(sources(lamp, glm::scale(aimed({0, 0, -10}, {0, 0, 1}), {1, 0, 1})), 0u) << "its node is flat";
 
+    Lamp hidden = lamp;
+    hidden.opening.drawn = false;
+    EXPECT_EQ(sources(hidden, aimed({0, 0, -10}, {0, 0, 1})), 0u) << "a surface shows it";
+
     scene::Scene scene;
     scene.lamps = {lamp, lamp_with_opening(80, 0, 0), lamp_with_opening(80, 1, 1, false, Lamp::Kind::Directional)};
     for (uint32_t i = 0; i < 3; ++i) scene.nodes.emplace_back().lamp = i;

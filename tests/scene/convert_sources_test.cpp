@@ -64,6 +64,14 @@ TEST_F(ConvertSourcesTest, OpeningsAreStored) {
     rule["opening"] = {{"width_m", 0.2}, {"round", true}};
     convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}});
     EXPECT_NEAR(converted().lamps.at(0).opening.area(), std::numbers::pi * 0.01, 1e-12);
+    EXPECT_TRUE(converted().lamps.at(0).opening.drawn);
+    // One that only gives shadows their penumbrae may lie in a surface that emits.
+    rule["opening"]["drawn"] = false;
+    const scene::ConversionReport hidden =
+        convert_with(rule, {{"materials", "glass"}, {"luminance_cd_m2", 600 / (std::numbers::pi * 0.01)}});
+    EXPECT_NEAR(converted().lamps.at(0).opening.area(), std::numbers::pi * 0.01, 1e-12);
+    EXPECT_FALSE(converted().lamps.at(0).opening.drawn);
+    EXPECT_FALSE(mentions(hidden.warnings, "seen twice"));
     rule.erase("opening");
     convert_with(rule, {{"materials", "glass"}, {"luminance_cd_m2", 1}});
     EXPECT_EQ(converted().lamps.at(0).opening.area(), 0);
@@ -187,7 +195,7 @@ TEST_F(ConvertSourcesTest, NamesThePlaceOfWhatIsWrong) {
     };
     json rule = lamp(600);
     EXPECT_TRUE(contains(complaint(rule, {{"materials", "x"}, {"lamp", "beam"}}),
-                         "/emitters/0/lamp: the lamp rule 'beam' has no opening"));
+                         "/emitters/0/lamp: the lamp rule 'beam' has no opening that is drawn"));
     rule["opening"] = opening();
     EXPECT_TRUE(
         contains(complaint(rule, {{"materials", "x"}, {"lamp", "bream"}}), "/emitters/0/lamp: there is no lamp rule"));

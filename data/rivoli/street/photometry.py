@@ -4,6 +4,8 @@ import json
 
 SODIUM, HALOGEN = 2400, 3800  # K
 HEADLAMP, TAIL = {"width_m": 0.265, "height_m": 0.14}, {"width_m": 0.2, "height_m": 0.26}  # their glasses, cars.py
+# The glasses of lanterns are meshes that emit, furniture.py and groundfloor.py: here they only shape shadows.
+_LANTERN, _ARCADE = ({"width_m": width, "round": True, "drawn": False} for width in (0.4, 0.3))
 _SIGNAL = {"width_m": 0.193, "round": True}  # of the area of the ten-sided lens, furniture.py
 TAIL_RED, _SIGNAL_RED, _SIGNAL_GREEN = [1.0, 0.02, 0.01], [1.0, 0.05, 0.02], [0.05, 1.0, 0.55]
 
@@ -15,7 +17,7 @@ def measured_photometry():
     document["lamps"] = [
         # C0 along the road, C90 towards the carriageway.
         _measured("street lamp", "street_lamp_*/light", "street-lamp.ies", SODIUM)
-        | {"flux_lm": 9500, "aim": [0, 0, -1], "c0": [0, 1, 0]},
+        | {"flux_lm": 9500, "aim": [0, 0, -1], "c0": [0, 1, 0], "opening": _LANTERN},
         beam("low beam", ["car_ego/headlamp_*", "car_traffic_*/headlamp_*"], "low-beam.csv"),
         # One of the oncoming drivers has forgotten to dip.
         beam("high beam", "car_traffic_005/headlamp_*", "high-beam.csv"),
@@ -37,10 +39,10 @@ def photometry():
         "lights": {"keep": False},
         "lamps": [
             # The lanterns' reflectors: mostly down and, tilted 6 degrees, towards the carriageway.
-            spot("street lamp", "street_lamp_*/light", 3000, (48, 82), SODIUM, aim=[-0.1, 0, -1]),
+            spot("street lamp", "street_lamp_*/light", 3000, (48, 82), SODIUM, aim=[-0.1, 0, -1], opening=_LANTERN),
             # What their glass lets out above the reflector, on facades and trees.
-            spot("street lamp glass", "street_lamp_*/light", 700, (72, 89), SODIUM, aim=[0, 0, 1]),
-            spot("arcade lantern", "arcade_lamp_*/light", 250, (45, 80), 2700),
+            spot("street lamp glass", "street_lamp_*/light", 700, (72, 89), SODIUM, aim=[0, 0, 1], opening=_LANTERN),
+            spot("arcade lantern", "arcade_lamp_*/light", 250, (45, 80), 2700, opening=_ARCADE),
             spot("ego low beam", "car_ego/headlamp_*", 9000, (1.5, 17), HALOGEN, opening=HEADLAMP),
             spot("low beam", "car_traffic_*/headlamp_*", 9000, (1.5, 10), HALOGEN, opening=HEADLAMP),
             # Parked cars show their parking lamps: UN Regulation 77 asks for at least 2 cd.

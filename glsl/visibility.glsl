@@ -48,13 +48,20 @@ MapPoint map_point(FetchedMap map, vec3 from, vec3 normal) {
     return MapPoint(texel, norm, map.first + hemisphere, inside, vec3(per_texel, 1.0 / norm - dot(per_texel, texel)));
 }
 
-// Whether the lamp sees the plane of the surface along the middle of a texel; the plane is no farther from the point than
-// surfaces bend within a few texels.
-bool sees(FetchedMap map, MapPoint p, ivec2 corner) {
-    const ivec2 at = clamp(corner, ivec2(0), ivec2(map.side - 1));
+// How far light of the lamp gets along the middle of a texel, in lengths of the way to the plane of the surface; the plane is
+// no farther from the point than surfaces bend within a few texels.
+float way_along(FetchedMap map, MapPoint p, ivec2 texel, out bool sees) {
+    const ivec2 at = clamp(texel, ivec2(0), ivec2(map.side - 1));
     const float seen = texelFetch(distances, p.first + at.y * map.side + at.x).r;
     const float inverse = clamp(dot(p.plane.xy, vec2(at) + 0.5) + p.plane.z, 0.5 / p.norm, 2.0 / p.norm);
-    return (seen + kMapBias + map.bias * p.norm) * inverse >= 1.0;
+    sees = (seen + kMapBias + map.bias * p.norm) * inverse >= 1.0;
+    return seen * inverse;
+}
+
+bool sees(FetchedMap map, MapPoint p, ivec2 texel) {
+    bool result;
+    way_along(map, p, texel, result);
+    return result;
 }
 
 // Share of the lamp that the point sees, 0 to 1.
@@ -68,8 +75,31 @@ float visibility(FetchedMap map, vec3 from, vec3 normal) {
     return !p.inside || mix(column.x, column.y, share.x) >= 0.5 ? 1.0 : 0.0;
 }
 
-// The same by one texel.
-bool glances(FetchedMap map, vec3 from, vec3 normal) {
+// The same by one texel. `way`: 1, or less where something stops the light: how much of the way it gets.
+bool glances(FetchedMap map, vec3 from, vec3 normal, out float way) {
     const MapPoint p = map_point(map, from, normal);
-    return !p.inside || sees(map, p, ivec2(floor(p.texel)));
+    bool seen;
+    way = way_along(map, p, ivec2(floor(p.texel)), seen);
+    seen = seen || !p.inside;
+    way = seen ? 1.0 : min(way, 1.0);
+    return seen;
+}
+
+// How texels of the map change with a step of 1 m across the way to a point, in two directions.
+mat2 texels_across(FetchedMap map, vec3 from) {
+    vec3 q = map.turn * from;
+    q.z = abs(q.z);
+    const vec3 signs = vec3(q.x < 0.0 ? -1.0 : 1.0, q.y < 0.0 ? -1.0 : 1.0, 1.0);
+    const float inverse = 1.0 / max(dot(signs, q), 1e-6);
+    const vec3 a = normalize(abs(q.x) < abs(q.z) ? vec3(0.0, q.z, -q.y) : vec3(q.y, -q.x, 0.0)), b = cross(q, a) * inversesqrt(max(dot(q, q), 1e-12));
+    const vec2 square = inverse * vec2(q.x + q.y, q.x - q.y);
+    const float texels = 0.5 * float(map.side) * map.zoom * inverse;
+    return mat2(texels * (vec2(a.x + a.y, a.x - a.y) - square * dot(signs, a)), texels * (vec2(b.x + b.y, b.x - b.y) - square * dot(signs, b)));
+}
+
+// A disc of radius 1 as kDisc points, evenly: one of them.
+const uint kDisc = 32u;
+vec2 disc_point(uint k) {
+    const float turn = 2.399963 * float(k);  // the golden angle
+    return sqrt((float(k) + 0.5) / float(kDisc)) * vec2(cos(turn), sin(turn));
 }

@@ -8,6 +8,7 @@ struct FetchedMap {
     int first, side;
     float zoom;
     bool both;     // hemispheres
+    float fold;    // weight of |x| and |y| in the norm: 0 of a flat map, otherwise 1
     float radius;  // m
     float bias;    // times the distance, see kMapBias
 };
@@ -16,7 +17,7 @@ FetchedMap fetch_map(uint lamp) {
     const vec4 q = texelFetch(maps, int(lamp * kMapTexels)), b = texelFetch(maps, int(lamp * kMapTexels) + 1);
     const vec3 x = 2.0 * q.x * q.xyz, y = 2.0 * q.y * q.xyz, z = 2.0 * q.z * q.xyz, w = 2.0 * q.w * q.xyz;
     const mat3 turn = mat3(1.0 - y.y - z.z, x.y + w.z, x.z - w.y, x.y - w.z, 1.0 - x.x - z.z, y.z + w.x, x.z + w.y, y.z - w.x, 1.0 - x.x - y.y);
-    return FetchedMap(turn, int(b.x) * int(kMapUnit), int(b.y), abs(b.z), b.z < 0.0, b.w, 1.0 / max(b.y * abs(b.z), 1.0) + kMapRounding);
+    return FetchedMap(turn, int(b.x) * int(kMapUnit), int(abs(b.y)), abs(b.z), b.z < 0.0, b.y < 0.0 ? 0.0 : 1.0, b.w, 1.0 / max(abs(b.y * b.z), 1.0) + kMapRounding);
 }
 
 // A surface as a map sees it.
@@ -34,12 +35,13 @@ MapPoint map_point(FetchedMap map, vec3 from, vec3 normal) {
     const bool behind = q.z < 0.0;
     q.z = abs(q.z);
     n.z = behind ? -n.z : n.z;
-    const float norm = max(abs(q.x) + abs(q.y) + q.z, 1e-6);
+    const float norm = max(map.fold * (abs(q.x) + abs(q.y)) + q.z, 1e-6);
     const vec2 square = map.zoom / norm * vec2(q.x + q.y, q.x - q.y);
     const int hemisphere = behind ? map.side * map.side : 0;
     const bool inside = map.side > 0 && (map.both || !behind) && max(abs(square.x), abs(square.y)) <= 1.0;
-    // n . o / (n . q), o = (x, y, 1 - |x| - |y|) with x, y = (u + v, u - v) / 2 zoom, u = 2 texel / side - 1.
-    const vec2 along = vec2(n.x - (q.x < 0.0 ? -n.z : n.z), n.y - (q.y < 0.0 ? -n.z : n.z));
+    // n . o / (n . q), o = (x, y, 1 - fold (|x| + |y|)) with x, y = (u + v, u - v) / 2 zoom, u = 2 texel / side - 1.
+    const float folded = map.fold * n.z;
+    const vec2 along = vec2(n.x - (q.x < 0.0 ? -folded : folded), n.y - (q.y < 0.0 ? -folded : folded));
     const float away = dot(n, q);
     const float inverse = abs(away) > 1e-4 * norm ? 1.0 / away : 0.0;  // of a surface seen from its edge nothing is known
     const vec2 slope = inverse * 0.5 / map.zoom * vec2(along.x + along.y, along.x - along.y);
@@ -89,7 +91,7 @@ bool glances(FetchedMap map, vec3 from, vec3 normal, out float way) {
 mat2 texels_across(FetchedMap map, vec3 from) {
     vec3 q = map.turn * from;
     q.z = abs(q.z);
-    const vec3 signs = vec3(q.x < 0.0 ? -1.0 : 1.0, q.y < 0.0 ? -1.0 : 1.0, 1.0);
+    const vec3 signs = vec3(q.x < 0.0 ? -map.fold : map.fold, q.y < 0.0 ? -map.fold : map.fold, 1.0);
     const float inverse = 1.0 / max(dot(signs, q), 1e-6);
     const vec3 a = normalize(abs(q.x) < abs(q.z) ? vec3(0.0, q.z, -q.y) : vec3(q.y, -q.x, 0.0)), b = cross(q, a) * inversesqrt(max(dot(q, q), 1e-12));
     const vec2 square = inverse * vec2(q.x + q.y, q.x - q.y);

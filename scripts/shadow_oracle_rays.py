@@ -4,7 +4,7 @@ import numpy as np
 from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
-LEAST_SIDE, MOST_SIDE, MOST_TEXELS, MOST_ZOOM, FAINTEST = 64, 2048, 48 << 20, 8, 0.001  # docs/design/shadows.md
+LEAST_SIDE, MOST_SIDE, MOST_TEXELS, MOST_ZOOM, FAINTEST, WIDEST_FLAT = 64, 2048, 48 << 20, 8, 0.01, np.pi / 6  # docs/design/shadows.md
 OFF_SURFACE = 1e-3   # m, from a surface to where its rays begin
 PAST_HIT = 1e-4      # m, from a hit that does not count to where its ray goes on
 MOST_HITS = 200      # of one ray that do not count
@@ -158,6 +158,9 @@ class Maps:
         sine = np.sqrt(2) * np.sin(outer)
         with np.errstate(divide="ignore"):
             self.zoom = np.where(outer >= np.pi / 2, 1, np.clip(0.98 * (sine + np.maximum(np.cos(outer), 0)) / sine, 1, MOST_ZOOM))
+        self.fold = np.where(outer <= WIDEST_FLAT, 0.0, 1.0)
+        flat_zoom = np.minimum(0.98 / (np.sqrt(2) * np.tan(np.minimum(outer, 1.0))), MOST_ZOOM)
+        self.zoom = np.where(self.fold == 0, flat_zoom, self.zoom)
         hemispheres = np.where(outer > np.pi / 2 + 1e-3, 2, 1)
         wanted = np.sqrt(np.sqrt(lamps["intensity"] / FAINTEST)) / np.maximum(np.linalg.norm(lamps["place"] - eye, axis=1), 1)
         scale = 12 * 30 * 16.0
@@ -173,14 +176,15 @@ class Maps:
     def place(self, lit, position):
         """Texels from the corner of the square, and whether the direction is in the second hemisphere."""
         q = np.einsum("nij,nj->ni", self.frame[lit], position - self.lamps["place"][lit])
-        o = q / np.abs(q).sum(1, keepdims=True)
+        fold = self.fold[lit, None]
+        o = q / np.maximum(fold * np.abs(q[:, :2]).sum(1, keepdims=True) + np.abs(q[:, 2:]), 1e-9)
         square = self.zoom[lit, None] * np.stack([o[:, 0] + o[:, 1], o[:, 0] - o[:, 1]], axis=1)
         return (0.5 * square + 0.5) * self.side[lit, None], q[:, 2] < 0
 
     def direction(self, lit, texel, second):
         square = (2 * texel / self.side[lit, None] - 1) / self.zoom[lit, None]
         x, y = (square[:, 0] + square[:, 1]) / 2, (square[:, 0] - square[:, 1]) / 2
-        z = np.maximum(1 - np.abs(x) - np.abs(y), 0) * np.where(second, -1, 1)
+        z = np.maximum(1 - self.fold[lit] * (np.abs(x) + np.abs(y)), 0) * np.where(second, -1, 1)
         return np.einsum("nij,ni->nj", self.frame[lit], np.stack([x, y, z], axis=1))
 
 

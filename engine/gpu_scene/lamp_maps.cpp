@@ -19,7 +19,8 @@ namespace vesper::gpu_scene {
 namespace {
 
 constexpr double kMostZoom = 8;
-constexpr double kNearestEye = 4;  // m: a lamp's light is not seen from nearer
+constexpr double kWidestFlat = kPi / 6;  // rad: of a wider beam most texels of a flat map would be far from the axis
+constexpr double kNearestEye = 4;        // m: a lamp's light is not seen from nearer
 constexpr double kLeastScale = -16;
 constexpr double kMostScale = 8;  // log2 of the side for 0.001 cd, 1 m from the eye
 
@@ -51,7 +52,8 @@ double widest_angle(const scene::Scene& scene, const scene::Lamp& lamp) {
 }
 
 // How much of the square of a hemisphere a cone takes: its edge is farthest out along the diagonals of x and y.
-double zoom_of(double angle) {
+double zoom_of(double angle, bool flat) {
+    if (flat) return std::min(0.98 / (std::numbers::sqrt2 * std::tan(angle)), kMostZoom);
     const double sine = std::numbers::sqrt2 * std::sin(angle),
                  farthest = sine / (sine + std::max(std::cos(angle), 0.0));
     return angle >= kPi / 2 ? 1 : std::clamp(0.98 / farthest, 1.0, kMostZoom);
@@ -67,9 +69,11 @@ MapLayout layout_of(const scene::Scene& scene, const scene::Lamp& lamp, double a
     const double candela = largest_candela(scene, lamp);
     if (lamp.kind == scene::Lamp::Kind::Directional || !(candela > 0)) return {};
     const double range = std::sqrt(candela / kFaintestLight);
+    const bool flat = angle <= kWidestFlat;
     return {.side = 0,
             .hemispheres = angle > kPi / 2 + 1e-3 ? 2u : 1u,
-            .zoom = float(zoom_of(angle)),
+            .zoom = float(zoom_of(angle, flat)),
+            .flat = flat,
             .range = float(range),
             .radius = float(std::sqrt(lamp.opening.area() / kPi))};
 }
@@ -167,6 +171,12 @@ MapFrame map_frame(const glm::dmat4& world) {
     return {glm::dvec3(world[3]), glm::transpose(glm::dmat3(x, glm::cross(z, x), z))};
 }
 
+std::span<const glm::dvec2> quadrants_of(const MapLayout& layout) {
+    static constexpr glm::dvec2 kFour[]{{1, 1}, {1, -1}, {-1, 1}, {-1, -1}}, kFlat[]{{0, 0}};
+    if (layout.flat) return kFlat;
+    return kFour;
+}
+
 bool may_see(const MapWindow& window, glm::dvec2 signs, glm::dvec3 centre, double radius) {
     const auto outside = [&](glm::dvec3 inward) { return glm::dot(inward, centre) < -radius * glm::length(inward); };
     const glm::dvec3 norm(signs, 1), u(window.zoom, window.zoom, 0), v(window.zoom, -window.zoom, 0);
@@ -180,7 +190,7 @@ std::vector<glm::uvec2> tiles_of(const MapLayout& layout, glm::dvec3 centre, dou
     constexpr double kSteepest = 2.24;
     const double away = glm::length(centre), zoom = double(layout.zoom);
     glm::dvec2 low(-1), high(1);
-    if (away > radius) {
+    if (away > radius && !layout.flat) {
         const glm::dvec3 o(centre.x, centre.y, std::abs(centre.z));  // what is behind is no nearer to what is before
         const glm::dvec2 middle = zoom / (std::abs(o.x) + std::abs(o.y) + o.z) * glm::dvec2(o.x + o.y, o.x - o.y);
         const double reach = kSteepest * zoom * std::asin(radius / away);
@@ -194,8 +204,8 @@ std::vector<glm::uvec2> tiles_of(const MapLayout& layout, glm::dvec3 centre, dou
         for (uint32_t x = first.x; x < end.x; ++x) {
             const glm::dvec2 corner = width * glm::dvec2(x, y) - 1.0;
             const MapWindow window{zoom, corner, corner + width};
-            if (may_see(window, {1, 1}, centre, radius) || may_see(window, {1, -1}, centre, radius) ||
-                may_see(window, {-1, 1}, centre, radius) || may_see(window, {-1, -1}, centre, radius))
+            if (std::ranges::any_of(quadrants_of(layout),
+                                    [&](glm::dvec2 signs) { return may_see(window, signs, centre, radius); }))
                 tiles.push_back(glm::uvec2(x, y) * shared::kRegion);
         }
     return tiles;
@@ -206,7 +216,7 @@ shared::LampMap lamp_map(const MapLayout& layout, const MapFrame& frame, const V
     const glm::dquat turn = glm::normalize(glm::quat_cast(view_to_map));
     return {.turn = glm::vec4(float(turn.x), float(turn.y), float(turn.z), float(turn.w)),
             .first = float(layout.first / shared::kMapUnit),
-            .side = float(layout.side),
+            .side = layout.flat ? -float(layout.side) : float(layout.side),
             .zoom = layout.hemispheres == 2 ? -layout.zoom : layout.zoom,
             .radius = layout.radius};
 }

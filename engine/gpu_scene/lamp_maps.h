@@ -12,13 +12,14 @@
 
 namespace vesper::gpu_scene {
 
-constexpr double kFaintestLight = 0.001;  ///< lx: what is lit less may be lit through a wall
+constexpr double kFaintestLight = 0.01;  ///< lx: what is lit less may be lit through a wall
 
 /// The distance map of a lamp (shared/distance_map.h).
 struct MapLayout {
     uint32_t side = 0;         ///< texels; 0: the lamp has no map, nothing hides it
     uint32_t hemispheres = 1;  ///< 1: about its axis; 2: all directions
-    float zoom = 1;            ///< at least 1: the share of the hemisphere's square that the map has is its inverse
+    float zoom = 1;            ///< the share of the hemisphere's square that the map has is its inverse
+    bool flat = false;         ///< a map for a narrow beam: one perspective projection
     float range = 0;           ///< m: no farther surface matters
     float radius = 0;          ///< of a disc of the area of its opening, m; 0 without
     uint32_t first = 0;        ///< texel, a multiple of shared::kMapUnit
@@ -62,8 +63,11 @@ struct MapWindow {
     double zoom = 1;
     glm::dvec2 low{-1}, high{1};  ///< (u, v) of shared/distance_map.h
 };
-/// Whether something of a sphere may be seen through a window, within the quadrant of x and y of these signs. The
-/// sphere is in the frame of the map, z mirrored for the second hemisphere, m. Never false where it is seen.
+/// Signs of x and y of the quadrants that a hemisphere is drawn in one by one; zeros of a flat map.
+std::span<const glm::dvec2> quadrants_of(const MapLayout& layout);
+/// Whether something of a sphere may be seen through a window, within the quadrant of x and y of these signs; 0 for a
+/// flat map. The sphere is in the frame of the map, z mirrored for the second hemisphere, m. Never false where it is
+/// seen.
 bool may_see(const MapWindow& window, glm::dvec2 signs, glm::dvec3 centre, double radius);
 /// Corners (texels) of the tiles of a hemisphere, shared::kRegion texels square, that may see something of a sphere.
 std::vector<glm::uvec2> tiles_of(const MapLayout& layout, glm::dvec3 centre, double radius);

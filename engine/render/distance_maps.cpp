@@ -23,6 +23,8 @@ gpu::OwnedBuffer make_words(const gpu::Device& device, gpu::Arena& arena, uint64
 
 uint64_t tiles_in(const gpu_scene::MapLayout& layout) { return layout.texels() / MapPlaces::kTileTexels; }
 
+// Of the range of a lamp that moves: beyond it gives less than 0.1 lx, and is not hidden.
+constexpr float kMovingReach = 0.316f;
 constexpr double kLeastShare = 1.0 / 100;  // of the light at a placement: a lamp that gives less is not hidden by it
 
 // The largest intensity of a lamp towards a sphere, cd; of a measured one, of all directions. `number`: in its list.
@@ -252,9 +254,11 @@ void DistanceMaps::draw(const gpu_scene::SceneFrame& poses) {
     std::vector<MapToDraw> maps, tiles;
     std::vector<uint32_t> everything(resident_.placements().size());
     std::iota(everything.begin(), everything.end(), 0u);
-    for (const uint32_t lamp : maps_to_draw_)
+    for (const uint32_t lamp : maps_to_draw_) {
         maps.push_back({places_[lamp], gpu_scene::map_frame(poses.world[lamps_[lamp].node]), fixtures_[lamp],
                         is_whole(lamp) ? everything : moving_.still()});
+        if (moving_.moves(lamps_[lamp].node)) maps.back().layout.range *= kMovingReach;
+    }
     run(maps);
     for (const uint32_t lamp : maps_to_draw_) drawn_[lamp] = true, drawn_version_[lamp] = moving_.version();
 

@@ -45,7 +45,7 @@ std::vector<float> drawn_norms(gpu::Device& device, const gpu_scene::GpuScene& r
 
 glm::dvec3 LampDistances::direction(glm::dvec2 uv, bool second_hemisphere) const {
     const glm::dvec2 o = glm::dvec2(uv.x + uv.y, uv.x - uv.y) / (2 * double(layout.zoom));
-    const double z = 1 - std::abs(o.x) - std::abs(o.y);
+    const double z = layout.flat ? 1 : 1 - std::abs(o.x) - std::abs(o.y);
     return glm::transpose(frame.rotation) * glm::dvec3(o, second_hemisphere ? -z : z);
 }
 

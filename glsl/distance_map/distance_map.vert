@@ -27,7 +27,7 @@ const float kHair = 1e-5;
 void main() {
     const vec4 p = vec4(position, 1.0);
     const vec3 q = vec3(dot(row_x, p), dot(row_y, p), dot(row_z, p));
-    const float x = place.w < 0.0 ? -q.x : q.x, y = y_sign * q.y;
+    const float x = y_sign == 0.0 ? 0.0 : place.w < 0.0 ? -q.x : q.x, y = y_sign * q.y;
     const float norm = x + y + q.z;
     const vec2 square = abs(place.w) * vec2(q.x + q.y, q.x - q.y);
     gl_Position = vec4(place.x * square + norm * place.yz, kMapNear, norm);

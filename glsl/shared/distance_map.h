@@ -2,7 +2,8 @@
 // A hemisphere around an axis (z) is a square of texels. A direction p lies at o = p / (|x| + |y| + |z|), and o at
 // (u, v) = zoom (o.x + o.y, o.x - o.y), from -1 to 1 over the square. Within a quadrant of x and y this is a
 // perspective projection, so that triangles are drawn as they are. With a zoom above 1 the square holds the middle of the
-// hemisphere alone, for beams. The other hemisphere of a lamp that has it follows, with z mirrored.
+// hemisphere alone. The other hemisphere of a lamp that has it follows, with z mirrored. The map of a narrow beam is flat:
+// |x| + |y| + |z| is replaced by z in all that follows from it, so that the whole square is one perspective projection.
 // A texel holds the distance to the first surface along its middle as the norm |x| + |y| + |z|, m; kMapFar without one.
 #ifndef VESPER_SHARED_DISTANCE_MAP_H
 #define VESPER_SHARED_DISTANCE_MAP_H
@@ -26,7 +27,7 @@ const float kMapNear = 0.03125;       // m in the norm above: nothing nearer to 
 struct LampMap {
     vec4 turn;         // quaternion from the view frame to that of the map
     float first;       // texel, in units of kMapUnit
-    float side;        // texels; 0: nothing hides the lamp
+    float side;        // texels; 0: nothing hides the lamp; negative: the map is flat
     float zoom;        // negative: there are two hemispheres
     float radius;      // of the luminous opening, m; 0: a point
 };
@@ -51,7 +52,7 @@ struct MapInstance {
     vec4 row_z;
     vec4 place;        // clip space: scale of (u, v); middle of the square (2); zoom, negative in quadrants of x < 0
     vec4 window;       // least and greatest (u, v) of what is drawn of the square
-    float y_sign;      // of the quadrant
+    float y_sign;      // of the quadrant; 0: the map is flat and has no quadrants
 };
 SHARED_SIZE(MapInstance, 84)
 

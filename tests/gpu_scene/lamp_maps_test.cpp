@@ -59,6 +59,7 @@ TEST(LampMaps, TilesHoldAllOfASphere) {
         const MapLayout layout{.side = 64u << trial % 4,
                                .hemispheres = 1,
                                .zoom = trial % 3 == 0 ? 1.0f : 2.5f,
+                               .flat = trial % 5 == 0,
                                .range = 100,
                                .radius = 0,
                                .first = 0};
@@ -71,7 +72,7 @@ TEST(LampMaps, TilesHoldAllOfASphere) {
         tiles += found.size(), all += layout.side / 64 * (layout.side / 64);
         for (int k = 0; k < 200; ++k) {
             const glm::dvec3 p = centre + radius * direction();
-            const glm::dvec2 texel = reference::map_texel(p, layout.side, double(layout.zoom));
+            const glm::dvec2 texel = reference::map_texel(p, layout.side, double(layout.zoom), layout.flat);
             if (p.z < 0 || glm::any(glm::lessThan(texel, glm::dvec2(0))) ||
                 glm::any(glm::greaterThanEqual(texel, glm::dvec2(layout.side))))
                 continue;

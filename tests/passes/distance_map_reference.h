@@ -14,16 +14,17 @@
 
 namespace vesper::reference {
 
-/// The point of norm |x| + |y| + |z| = 1 at a place of the square of a hemisphere; texels from its corner.
-inline glm::dvec3 map_direction(glm::dvec2 texel, double side, double zoom) {
+/// The point of norm |x| + |y| + |z| = 1 at a place of the square of a hemisphere; texels from its corner. Of a flat
+/// map the norm is z.
+inline glm::dvec3 map_direction(glm::dvec2 texel, double side, double zoom, bool flat = false) {
     const glm::dvec2 square = (texel * 2.0 / side - 1.0) / zoom;
     const double x = (square.x + square.y) / 2, y = (square.x - square.y) / 2;
-    return {x, y, 1 - std::abs(x) - std::abs(y)};
+    return {x, y, flat ? 1 : 1 - std::abs(x) - std::abs(y)};
 }
 
 /// Where a point with z >= 0 lies in the square, texels from its corner.
-inline glm::dvec2 map_texel(glm::dvec3 p, double side, double zoom) {
-    const double norm = std::abs(p.x) + std::abs(p.y) + p.z;
+inline glm::dvec2 map_texel(glm::dvec3 p, double side, double zoom, bool flat = false) {
+    const double norm = flat ? p.z : std::abs(p.x) + std::abs(p.y) + p.z;
     return (glm::dvec2(p.x + p.y, p.x - p.y) * zoom / norm + 1.0) * side / 2.0;
 }
 

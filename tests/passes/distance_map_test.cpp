@@ -61,7 +61,7 @@ void expect_rays(const RayCaster& rays, const render::MapToDraw& map, bool secon
     const gpu_scene::MapFrame& frame = map.frame;
     const std::span<const uint32_t> fixture = map.fixture;
     const auto norm_at = [&](glm::dvec2 texel) {
-        glm::dvec3 o = reference::map_direction(texel, layout.side, double(layout.zoom));
+        glm::dvec3 o = reference::map_direction(texel, layout.side, double(layout.zoom), layout.flat);
         o.z = second ? -o.z : o.z;
         const glm::dvec3 way = glm::transpose(frame.rotation) * o;
         return rays.hit(frame.position, frame.position + way, double(shared::kMapNear), 1e9, [&](uint32_t node) {
@@ -98,7 +98,8 @@ TEST(DistanceMap, HoldsTheFirstSurfaceAlongEachRay) {
     const glm::dmat4 tilted = glm::translate(glm::dmat4(1), glm::dvec3(0.2, 1, -0.3)) *
                               glm::mat4_cast(glm::angleAxis(-1.4, glm::normalize(glm::dvec3(1, 0.1, 0.2))));
     const uint32_t own[] = {3};  // the box above is its fixture
-    // Two hemispheres, a beam, and a lamp with a fixture: of different sides, so that they share the image.
+    // Two hemispheres, two beams, the second on a flat map, and a lamp with a fixture: of different sides, so that they
+    // share the image.
     const render::MapToDraw maps[] = {
         {{.side = 64, .hemispheres = 2, .zoom = 1, .range = 100, .radius = 0, .first = 0},
          gpu_scene::map_frame(tilted),
@@ -108,11 +109,15 @@ TEST(DistanceMap, HoldsTheFirstSurfaceAlongEachRay) {
          gpu_scene::map_frame(tilted),
          {},
          {}},
+        {{.side = 128, .hemispheres = 1, .zoom = 1.2f, .flat = true, .range = 100, .radius = 0, .first = 32768},
+         gpu_scene::map_frame(tilted),
+         {},
+         {}},
         {{.side = 64, .hemispheres = 2, .zoom = 1, .range = 100, .radius = 0, .first = 8192 + 16384},
          gpu_scene::map_frame(glm::translate(glm::dmat4(1), glm::dvec3(0.5, 1.9, 0.3))),
          own,
          {}}};
-    const std::vector<float> drawn = draw(rig, s.scene(), maps, 8192 + 16384 + 8192);
+    const std::vector<float> drawn = draw(rig, s.scene(), maps, 32768 + 16384);
     for (const render::MapToDraw& map : maps)
         for (uint32_t h = 0; h < map.layout.hemispheres; ++h) {
             const uint32_t side = map.layout.side, first = map.layout.first + h * side * side;

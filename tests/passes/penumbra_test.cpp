@@ -35,13 +35,14 @@ struct Ground {
         s.lamp(lamp, {0, kHeight, 0}, glm::angleAxis(float(-kPi / 2), glm::vec3(1, 0, 0)));
     }
     /// Calls `visit(x, z, share)` for pixels of the ground within 1.5 m of the middle along z.
-    template <class Visit> void shares(Visit visit) {
+    template <class Visit>
+    void shares(Visit visit) {
         PassRig rig;
         Lit lit(rig, s.scene());
         const Lit::Picture p = lit.render(view_of_the_ground(kPixels, kMetres));
         for (size_t i = 0; i < p.pixels.size(); ++i) {
-            const glm::dvec3 at = reference::view_position(p.grid, glm::dvec2(i % kPixels, i / kPixels) + 0.5,
-                                                           double(p.surfaces[i].z));
+            const glm::dvec3 at =
+                reference::view_position(p.grid, glm::dvec2(i % kPixels, i / kPixels) + 0.5, double(p.surfaces[i].z));
             if (at.z > -19.99 || at.x < 0 || std::abs(at.y) > 1.5) continue;
             const double away = std::hypot(at.x, kHeight, at.y);
             visit(at.x, -at.y, double(p.pixels[i].y) * kPi * away * away * away / (1000 * kHeight));
@@ -53,10 +54,12 @@ struct Ground {
 // How far shares are from those of a function of x.
 struct Error {
     double mean = 0, root_mean_square = 0, largest = 0;
-    double spread = 0;  // mean, counted the other way where less than half is seen: below 0 where the penumbra is too wide
+    double spread =
+        0;  // mean, counted the other way where less than half is seen: below 0 where the penumbra is too wide
     size_t pixels = 0;  // in the penumbra
 };
-template <class Truth> Error error_of(Ground& ground, Truth truth) {
+template <class Truth>
+Error error_of(Ground& ground, Truth truth) {
     Error e;
     ground.shares([&](double x, double, double share) {
         const double expected = truth(x), off = share - expected;
@@ -66,7 +69,8 @@ template <class Truth> Error error_of(Ground& ground, Truth truth) {
         }
         e.largest = std::max(e.largest, std::abs(off));
     });
-    e.mean /= double(e.pixels), e.spread /= double(e.pixels), e.root_mean_square = std::sqrt(e.root_mean_square / double(e.pixels));
+    e.mean /= double(e.pixels), e.spread /= double(e.pixels),
+        e.root_mean_square = std::sqrt(e.root_mean_square / double(e.pixels));
     return e;
 }
 

@@ -14,9 +14,9 @@ struct MapLook {
 };
 
 /// `point` and `normal` in the frame of the map, m, z >= 0 for the first hemisphere. Points outside of it are seen.
-inline MapLook look(const HemisphereMap& map, double zoom, glm::dvec3 point, glm::dvec3 normal) {
-    const double norm = std::abs(point.x) + std::abs(point.y) + std::abs(point.z);
-    const glm::dvec2 at = map_texel(point, map.side, zoom);
+inline MapLook look(const HemisphereMap& map, double zoom, glm::dvec3 point, glm::dvec3 normal, bool flat = false) {
+    const double norm = flat ? std::abs(point.z) : std::abs(point.x) + std::abs(point.y) + std::abs(point.z);
+    const glm::dvec2 at = map_texel(point, map.side, zoom, flat);
     if (point.z < 0 || at.x < 0 || at.y < 0 || at.x > map.side || at.y > map.side) return {};
     const double bias = double(shared::kMapBias) + norm * (1 / (map.side * zoom) + double(shared::kMapRounding));
     const glm::dvec2 corner = glm::floor(at - 0.5), share = at - 0.5 - corner;
@@ -27,7 +27,7 @@ inline MapLook look(const HemisphereMap& map, double zoom, glm::dvec3 point, glm
         // The plane continues as in the point's own quadrant.
         const glm::dvec2 square = ((texel + 0.5) * 2.0 / double(map.side) - 1.0) / zoom;
         const double x = (square.x + square.y) / 2, y = (square.x - square.y) / 2;
-        const glm::dvec3 way(x, y, 1 - (point.x < 0 ? -x : x) - (point.y < 0 ? -y : y));
+        const glm::dvec3 way(x, y, flat ? 1 : 1 - (point.x < 0 ? -x : x) - (point.y < 0 ? -y : y));
         const double away = glm::dot(normal, point);
         const double inverse = std::abs(away) > 1e-4 * norm ? glm::dot(normal, way) / away : 1 / norm;
         const double plane = 1 / std::clamp(inverse, 0.5 / norm, 2 / norm);

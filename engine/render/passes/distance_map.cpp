@@ -158,17 +158,16 @@ private:
         const glm::vec2 corner = glm::vec2(square.place) - glm::vec2(square.corner);
         const glm::vec2 middle = (corner + 0.5f * float(layout.side)) * (2.0f / image) - 1.0f;
         const glm::mat4 rows = glm::transpose(to_map);
-        for (const double sx : {1.0, -1.0})
-            for (const double sy : {1.0, -1.0}) {
-                if (!gpu_scene::may_see(window, {sx, sy}, sphere.centre, sphere.radius)) continue;
-                drawn.push_back({part,
-                                 {.row_x = rows[0],
-                                  .row_y = rows[1],
-                                  .row_z = square.second ? -rows[2] : rows[2],
-                                  .place = glm::vec4(scale, middle, float(sx * zoom)),
-                                  .window = glm::vec4(window.low, window.high),
-                                  .y_sign = float(sy)}});
-            }
+        for (const glm::dvec2 signs : gpu_scene::quadrants_of(layout)) {
+            if (!gpu_scene::may_see(window, signs, sphere.centre, sphere.radius)) continue;
+            drawn.push_back({part,
+                             {.row_x = rows[0],
+                              .row_y = rows[1],
+                              .row_z = square.second ? -rows[2] : rows[2],
+                              .place = glm::vec4(scale, middle, float(signs.x < 0 ? -zoom : zoom)),
+                              .window = glm::vec4(window.low, window.high),
+                              .y_sign = float(signs.y)}});
+        }
     }
 
     const GpuScene& scene_;

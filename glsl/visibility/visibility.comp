@@ -43,6 +43,7 @@ const float kWidest = 3.0;
 vec3 position[kBlockSize], normal[kBlockSize];  // of the column
 bool drawn[kBlockSize];
 bool plane;          // all of the block's surfaces are one
+bool filled;         // something is drawn at each of its pixels
 bool shiny;          // of the block: whether some surface with a specular lobe or road with a table is drawn
 float pixel_size;    // m across the way from the eye, where the block is nearest
 vec3 probe_position[kProbes], probe_normal[kProbes];  // two in each column and row, and in the corners
@@ -57,7 +58,7 @@ shared uint counted[kBlockSize];         // by columns: see look()
 
 void look_at_block(uvec2 corner) {
     const uint column = gl_LocalInvocationID.x;
-    bool shines = false;
+    bool shines = false, all_drawn = true;
     float nearest = 1e30;
     [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
         const uvec2 pixel = corner + uvec2(column, r);
@@ -66,9 +67,11 @@ void look_at_block(uvec2 corner) {
         position[r] = pixel_ray(push.grid, vec2(pixel)) * surface.z;
         normal[r] = decode_normal(surface.xy);
         shines = shines || (drawn[r] && surface.w < 1.0);
+        all_drawn = all_drawn && drawn[r];
         nearest = drawn[r] ? min(nearest, surface.z) : nearest;
     }
     shiny = subgroupAny(shines);
+    filled = subgroupAll(all_drawn);
     pixel_size = abs(push.grid.ray_scale.y) * subgroupMin(nearest);
     // The first four are one in each quarter; the last eight are in the corners and near the middle.
     const uint columns[2] = uint[](0x66215152u, 0x44337700u), rows[2] = uint[](0x14636521u, 0x35427070u);
@@ -155,7 +158,8 @@ void probe_more(uint number, uint index) {
     const vec3 along_a = reach * a - slant * dot(n, a) * l, along_b = reach * b - slant * dot(n, b) * l;
     Sight s = unpack(found[number], way[number]);
     [[unroll]] for (uint k = kFirstProbes; k < kProbes; ++k) {
-        const vec2 aside[8] = vec2[](vec2(0.12, 0.00), vec2(-0.18, 0.17), vec2(0.03, -0.37), vec2(0.30, 0.40), vec2(-0.62, -0.11), vec2(0.63, -0.40), vec2(-0.23, 0.85), vec2(-0.46, -0.89));
+        const vec2 aside[8] = vec2[](vec2(0.12, 0.00), vec2(-0.18, 0.17), vec2(0.03, -0.37), vec2(0.30, 0.40),
+                                     vec2(-0.62, -0.11), vec2(0.63, -0.40), vec2(-0.23, 0.85), vec2(-0.46, -0.89));
         const vec3 beside = k < 8u ? vec3(0.0) : aside[k & 7u].x * along_a + aside[k & 7u].y * along_b;
         vec3 to;
         float inverse;
@@ -173,12 +177,15 @@ uint look(uint index, float stops, out uint word) {
     const vec3 lamp = texelFetch(lamps, int(index * kTexelsPerLamp)).xyz;
     const uint lane = gl_LocalInvocationID.x;
     // The radius of the penumbra, m across the way of the light.
-    const float away = distance(lamp, probe_position[0]), width = min(map.radius * min(1.0 / max(stops, 1e-3) - 1.0, kWidest), 0.5 * away);
-    const bool soft = width > max(pixel_size, 2.0 * map.bias * away), by_fours = soft && plane && width > 2.0 * pixel_size;
+    const float away = distance(lamp, probe_position[0]);
+    const float width = min(map.radius * min(1.0 / max(stops, 1e-3) - 1.0, kWidest), 0.5 * away);
+    const bool soft = width > max(pixel_size, 2.0 * map.bias * away);
+    const bool by_fours = soft && plane && filled && width > 2.0 * pixel_size;
     uint kinds = 0u;  // 1: some pixel does not see all of it; 2: some sees something
     word = 0u;
     if (!soft) {
-        [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) word |= uint(visibility(map, position[r] - lamp, normal[r]) * 15.0) << 4u * r;
+        [[unroll]] for (uint r = 0u; r < kBlockSize; ++r)
+            word |= uint(visibility(map, position[r] - lamp, normal[r]) * 15.0) << 4u * r;
     } else {
         // Each pixel looks at every second point of the disc; in wide penumbrae each of 2 x 2 at another quarter of them.
         const uint step = by_fours ? 4u : 2u, looks = kDisc / step;
@@ -190,17 +197,19 @@ uint look(uint index, float stops, out uint word) {
             const MapPoint p = map_point(map, from, normal[r]);
             const mat2 across = width * texels_across(map, from);
             uint seen = 0u;
-            for (uint k = begin; k < kDisc; k += step) seen += sees(map, p, ivec2(floor(p.texel + across * disc_point(k)))) ? 1u : 0u;
+            for (uint k = begin; k < kDisc; k += step)
+                seen += sees(map, p, ivec2(floor(p.texel + across * disc_point(k)))) ? 1u : 0u;
             counts[r] = p.inside ? seen : looks;
             packed |= counts[r] << 4u * r;  // 8 at most, by fours
         }
         counted[lane] = packed;
-        subgroupMemoryBarrierShared();
+        subgroupBarrier();
         const uint beside = counted[lane ^ 1u];
+        subgroupBarrier();
         [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
             const uint four = counts[r] + counts[r ^ 1u] + (beside >> 4u * r & 15u) + (beside >> 4u * (r ^ 1u) & 15u);
             // Rounded in four ways, so that the mean of the four is finer than what four bits hold.
-            const uint rounding = ((r & 1u) * 2u + ((lane + r) & 1u) * 1u) * (kDisc / 4u) + kDisc / 8u;
+            const uint rounding = ((r & 1u) * 2u + ((lane + r) & 1u)) * (kDisc / 4u) + kDisc / 8u;
             word |= (by_fours ? (four * 15u + rounding) / kDisc : (counts[r] * 15u + looks / 2u) / looks) << 4u * r;
         }
     }
@@ -237,12 +246,12 @@ uvec4 see(uint x, uint y) {
         if (more) chosen[at] = i;
         number += subgroupAdd(more ? 1u : 0u);
     }
-    subgroupMemoryBarrierShared();
+    subgroupBarrier();
     for (uint c = lane; c < number; c += kBlockSize) {
         const uint i = chosen[c];
         probe_more(i, lamp_of(listed[i]));
     }
-    subgroupMemoryBarrierShared();
+    subgroupBarrier();
     for (uint i = lane; i < all_; i += kBlockSize) {
         const Sight s = unpack(found[i], way[i]);
         found[i] = found_of(s);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "passes/penumbra_reference.h"
 #include "support/lit.h"
 #include "support/occluders.h"
 
@@ -12,17 +13,6 @@ namespace {
 constexpr double kHeight = 6;      // of the lamp above the ground, m
 constexpr uint32_t kPixels = 500;  // over 10 m of ground
 constexpr double kMetres = 10;
-
-// The share of a disc of radius 1 at x > from.
-double beyond(double from) {
-    const double x = std::clamp(from, -1.0, 1.0);
-    return (std::acos(x) - x * std::sqrt(1 - x * x)) / kPi;
-}
-
-// The share that a place x of the ground sees of the lamp past an edge along z, with what lies at smaller x hidden.
-double past_edge(double x, double edge, double height, double radius) {
-    return beyond((x + (edge - x) * kHeight / height) / radius);
-}
 
 /// One lamp of 1000 cd over the ground, and the shares of it along the picture's rows.
 struct Ground {
@@ -85,7 +75,7 @@ TEST(Penumbra, IsThatOfADiscPastAnEdge) {
         SCOPED_TRACE("edge at " + std::to_string(height) + " m, radius " + std::to_string(radius) + " m");
         Ground ground(radius);
         ground.s.plate({-1, float(height), 0}, {2, 0, 0}, {0, 0, -8});
-        const Error e = error_of(ground, [&](double x) { return past_edge(x, 1, height, radius); });
+        const Error e = error_of(ground, [&](double x) { return reference::past_edge(x, 1, height, kHeight, radius); });
         EXPECT_GT(e.pixels, 1000u);
         // Of the 32 points of the disc up to three are at the same place across an edge; and shares have 4 bits.
         EXPECT_LT(std::abs(e.mean), 0.025);
@@ -99,8 +89,9 @@ TEST(Penumbra, IsThatOfADiscPastAnEdge) {
 TEST(Penumbra, OfANarrowBarHasNoUmbra) {
     Ground ground(0.5);
     ground.s.plate({1, 2, 0}, {0.1f, 0, 0}, {0, 0, -8});
-    const Error e =
-        error_of(ground, [](double x) { return 1 - past_edge(x, 0.9, 2, 0.5) + past_edge(x, 1.1, 2, 0.5); });
+    const Error e = error_of(ground, [](double x) {
+        return 1 - reference::past_edge(x, 0.9, 2, kHeight, 0.5) + reference::past_edge(x, 1.1, 2, kHeight, 0.5);
+    });
     EXPECT_LT(std::abs(e.mean), 0.02);
     EXPECT_LT(e.root_mean_square, 0.08);
     EXPECT_LT(e.largest, 0.25);

@@ -29,7 +29,7 @@ struct BenchArguments {
     uint32_t triangles = 10000;
     RunPlan run{.settings = {.frames = 48, .laps = 3, .warm_up = 4}, .render = {}, .camera = {}, .device = {}};
     apps::ToneArguments tone;
-    std::string json, picture, growth, tables;
+    std::string json, picture, growth, tables, shadows = "on";
     std::vector<std::string> compared;
     bool no_start = false;
     apps::Command command;
@@ -77,6 +77,7 @@ std::vector<Planned> planned_runs(const BenchArguments& a) {
         s.tone_operator = apps::name_of(run.plan.render.tone_operator), s.glare = glare, s.channels = channels;
         s.width = apps::parse_size(size).width, s.height = apps::parse_size(size).height;
         s.threshold = double(run.plan.render.clusters.threshold);
+        s.shadows = run.plan.render.shadows = a.shadows == "on";
         runs.push_back(std::move(run));
     };
     for (const std::string& scene : a.scenes)
@@ -229,7 +230,10 @@ void add_bench(apps::Command program) {
                     "Illuminance below which a lamp counts as dark, lx")
         .check(apps::between(1e-9, 1e3))
         .shows_default();
-    program.add_flag("--shadows", a->run.render.shadows, "Lamps light only what they see");
+    program
+        .add_option("--shadows", a->shadows, "on: lamps light only what they see; off: they shine through everything")
+        .check(apps::one_of({"on", "off"}))
+        .shows_default();
     program.add_option("--device", a->run.device,
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     apps::Option json = program.add_option("--json", a->json, "Write everything that was measured to a file");

@@ -30,6 +30,7 @@ Json of(const RunSettings& s) {
             {"lamps", s.lamps},
             {"triangles", s.triangles},
             {"threshold_lx", s.threshold},
+            {"shadows", s.shadows},
             {"frames", s.frames},
             {"laps", s.laps},
             {"warm_up", s.warm_up}};
@@ -77,6 +78,7 @@ RunSettings read_settings(const JsonValue& value) {
             .lamps = count(value.at("lamps")),
             .triangles = value.at("triangles").integer(),
             .threshold = amount(value.at("threshold_lx")),
+            .shadows = value.boolean_or("shadows", false),
             .frames = count(value.at("frames")),
             .laps = count(value.at("laps")),
             .warm_up = count(value.at("warm_up"))};

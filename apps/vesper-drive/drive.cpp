@@ -37,9 +37,9 @@ void refuse_idle(const apps::Command& program, const DriveArguments& a) {
         {a.headless && !replays && (camera == a.settings.end() || camera->second != "free"),
          {"--free"},
          "only that camera stands there: give --camera free"},
-        {a.headless && !replays && (shadows == a.settings.end() || shadows->second != "on"),
+        {a.headless && !replays && shadows != a.settings.end() && shadows->second != "on",
          {"--shadow-budget"},
-         "of which shadows? give --shadows on"},
+         "of which shadows? --shadows is off"},
     };
     for (const Rule& rule : rules)
         for (const char* option : rule.options)

@@ -26,7 +26,7 @@ struct SettingsArguments {
     std::vector<double> free{0, 2, 0, 0, 0};
     double sun = 0, fov = 0;
     float threshold = render::ClusterSettings{}.threshold;
-    std::string shadows = "off";
+    std::string shadows = "on";
     uint64_t shadow_budget = render::kNoShadowBudget;
 };
 

@@ -29,7 +29,7 @@ namespace {
 using apps::format, apps::print;
 
 struct RenderArguments {
-    std::string scene, camera, size = "1680x1050", device, lambert = "physical", shadows = "off";
+    std::string scene, camera, size = "1680x1050", device, lambert = "physical", shadows = "on";
     apps::ToneArguments tone;
     apps::GlareArguments glare;
     std::vector<std::string> outputs;

@@ -41,11 +41,13 @@ gpu_scene::View view_of(const VesperView& v, const scene::Scene& scene, const gp
 struct Seen {
     gpu_scene::SceneFrame frame;
     gpu_scene::View view;
+    bool shadows;
 };
 Seen see(const VesperRenderer& renderer, const VesperView* view) {
     const VesperView v = known(view, "a view without its size");
     require(v.scene_seconds >= 0 && v.scene_seconds <= 1e9, "the scene's time is 0 to 1e9 s");
-    Seen seen{frame_of(renderer, v.scene_seconds), {}};
+    require(v.no_shadows == 0 || v.no_shadows == 1, "VesperView::no_shadows is 0 or 1");
+    Seen seen{frame_of(renderer, v.scene_seconds), {}, v.no_shadows == 0};
     seen.view = view_of(v, renderer.scene.scene, seen.frame);
     return seen;
 }
@@ -104,9 +106,10 @@ VesperResult vesper_render(VesperRenderer* renderer, const VesperToneSettings* s
     return guarded(error, [&] {
         require(renderer, VesperRenderer::kNone);
         const VesperOutputs to = outputs_of(outputs);
-        const render::RenderSettings how = settings_of(settings, renderer->displays);
+        render::RenderSettings how = settings_of(settings, renderer->displays);
         const float passed = seconds_of(seconds);
         const Seen seen = see(*renderer, view);
+        how.shadows = seen.shadows;
         finish(*renderer);  // what it left stays should this frame fail
         take_over_scene(*renderer);
         const render::Frame frame = renderer->engine.render(how, seen.view, seen.frame, passed, wanted(to));
@@ -119,10 +122,11 @@ VesperResult vesper_render_image(VesperRenderer* renderer, const VesperToneSetti
                                  VesperError* error) {
     return guarded(error, [&] {
         require(renderer, VesperRenderer::kNone);
-        const render::RenderSettings how = settings_of(settings, renderer->displays);
+        render::RenderSettings how = settings_of(settings, renderer->displays);
         const float passed = seconds_of(seconds);
         const graph::SubmitSemaphores semaphores = semaphores_of(handover);
         const Seen seen = see(*renderer, view);
+        how.shadows = seen.shadows;
         require(renderer->device.borrowed(), kBorrowed);
         const render::Outputs to{.display = false, .shown = shown_image(shown, seen.view.extent)};
         take_over_scene(*renderer);

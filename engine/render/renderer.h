@@ -21,7 +21,7 @@ namespace vesper::render {
 struct RenderSettings : ToneChainSettings {
     bool paper_lambert = false;                ///< L = E R instead of E R / pi
     bool all_lamps = false;                    ///< shade without clusters, for comparison
-    bool shadows = false;                      ///< lamps light only what they see
+    bool shadows = true;                       ///< lamps light only what they see
     uint64_t shadow_budget = kNoShadowBudget;  ///< of tiles of distance maps drawn for a frame, see DistanceMaps
     ClusterSettings clusters;
     std::vector<gpu_scene::OffscreenLamp>

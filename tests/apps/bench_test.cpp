@@ -36,6 +36,7 @@ bench::RunResult made_up_run(uint32_t lamps, double scale) {
                     .lamps = lamps,
                     .triangles = 1ull << 40,
                     .threshold = 0.001,
+                    .shadows = true,
                     .frames = 3,
                     .laps = 2,
                     .warm_up = 1};

@@ -89,7 +89,7 @@ TEST(Drive, AReplayHasTheSameBytes) {
     gpu::Device device({.select = ""});
     std::vector<Frame> driven;
     {
-        Session session(device, {.scene = kWorld, .seed = 3, .settings = {{"age", "60"}}});
+        Session session(device, {.scene = kWorld, .seed = 3, .settings = {{"age", "60"}, {"shadow-budget", "32"}}});
         const std::vector<DriveEvent> events = adventure();
         // Recording begins in the middle, and the file has the drive from its start.
         driven = play(session, std::vector(events.begin(), events.begin() + 40));
@@ -262,6 +262,7 @@ TEST(Drive, ShadowsAreSwitchedAndRecorded) {
     gpu::Device device({.select = ""});
     Session session(device, {.scene = scene, .settings = {}});
     const auto frame = [&](Session& of) { return of.render(kSize, {.display = true, .scene = true}); };
+    session.set("shadows", "off");
     session.record(scratch / "drive.json");
     const Frame without = frame(session);
     EXPECT_EQ(without.maps.lamps, 0u);
@@ -353,7 +354,8 @@ TEST(Drive, EveryCameraSeesTheStreet) {
 // Another device, as after one was lost: the eye goes on where it was.
 TEST(Drive, GoesOnWithAnotherDevice) {
     gpu::Device device({.select = ""}), spare({.select = ""});
-    Session session(device, {.scene = kWorld, .settings = {}}), same(device, {.scene = kWorld, .settings = {}});
+    const drive::DriveStart start{.scene = kWorld, .settings = {{"shadows", "off"}}};
+    Session session(device, start), same(device, start);
     const auto drive = [&](Session& s) {
         for (int i = 0; i < 10; ++i) s.step({.autopilot = true});
         return s.render(kSize, {.display = true});

@@ -375,6 +375,7 @@ typedef struct VesperView {
     float edges[4];       /**< tangents of the angles from `forward` to the left, right, bottom and top edge, for an
                            * off-axis screen; all 0: vertical_fov, symmetric */
     double scene_seconds; /**< time of the scene's animations, s */
+    int32_t no_shadows;   /**< 1: lamps shine through everything */
 } VesperView;
 
 /** Renders into arrays. `seconds`: time since the last frame, for the adaptation of the eye. */

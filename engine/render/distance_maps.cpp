@@ -21,7 +21,11 @@ gpu::OwnedBuffer make_words(const gpu::Device& device, gpu::Arena& arena, uint64
     return buffer;
 }
 
-uint64_t tiles_in(const gpu_scene::MapLayout& layout) { return layout.texels() / MapPlaces::kTileTexels; }
+// Of drawing a whole map, in tiles: all that stands around its lamp takes more time than its texels.
+uint64_t cost_of(const gpu_scene::MapLayout& layout) {
+    constexpr uint64_t kLeast = 128;
+    return std::max<uint64_t>(layout.texels() / MapPlaces::kTileTexels, kLeast);
+}
 
 // Of the range of a lamp that moves: beyond it gives less than 0.1 lx, and is not hidden.
 constexpr float kMovingReach = 0.316f;
@@ -71,8 +75,14 @@ bool DistanceMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneF
         drop_tiles(lamp);
         drawn_[lamp] = whole_[lamp] = false;
     }
-    plan_maps(list, budget);
-    plan_tiles(covers(list, poses, view), list, budget);
+    plan_new_maps(list, budget);
+    // A quarter is for maps alone, so that they are reached.
+    uint64_t for_tiles = budget - budget / 4;
+    budget -= for_tiles;
+    plan_tiles(covers(list, poses, view), list, for_tiles);
+    plan_moved_maps(list, budget + for_tiles);
+    report_.maps = uint32_t(maps_to_draw_.size());
+    report_.tiles = uint32_t(tiles_to_draw_.size());
     report_.bytes = arena_.bytes() + executor_.heap_bytes();
     return !moves_.empty() || !maps_to_draw_.empty() || !tiles_to_draw_.empty();
 }
@@ -88,17 +98,27 @@ void DistanceMaps::drop_tiles(uint32_t lamp) {
     covered_.erase(first, end);
 }
 
-// Of maps of lamps that move, those first whose light is nearest to the eye.
-void DistanceMaps::plan_maps(const gpu_scene::LampList& list, uint64_t& budget) {
-    std::vector<std::pair<double, uint32_t>> moved;
+// Maps that hold nothing yet.
+void DistanceMaps::plan_new_maps(const gpu_scene::LampList& list, uint64_t& budget) {
     for (uint32_t i = 0; i < list.placed(); ++i) {
         const uint32_t lamp = list.indices[i];
         if (places_[lamp].side == 0) continue;
         ++report_.lamps;
-        if (!drawn_[lamp]) {
-            maps_to_draw_.push_back(lamp);
-            budget -= std::min(budget, tiles_in(places_[lamp]));
-        } else if (is_whole(lamp) && drawn_version_[lamp] != moving_.version()) {
+        if (is_whole(lamp)) drop_tiles(lamp);
+        if (drawn_[lamp]) continue;
+        maps_to_draw_.push_back(lamp);
+        budget -= std::min(budget, cost_of(places_[lamp]));
+        drop_tiles(lamp);
+    }
+}
+
+// Of maps of lamps that move, those first whose light is nearest to the eye.
+void DistanceMaps::plan_moved_maps(const gpu_scene::LampList& list, uint64_t budget) {
+    std::vector<std::pair<double, uint32_t>> moved;
+    for (uint32_t i = 0; i < list.placed(); ++i) {
+        const uint32_t lamp = list.indices[i];
+        if (places_[lamp].side > 0 && drawn_[lamp] && is_whole(lamp) && drawn_version_[lamp] != moving_.version() &&
+            std::ranges::find(maps_to_draw_, lamp) == maps_to_draw_.end()) {
             const double away = double(glm::length(list.lamps[i].position));
             const double worth = double(list.lamps[i].intensity) / std::max(away * away, 1.0);
             const auto waits = waiting_maps_.find(lamp);
@@ -108,18 +128,17 @@ void DistanceMaps::plan_maps(const gpu_scene::LampList& list, uint64_t& budget) 
     std::ranges::sort(moved);
     bool any = false;  // one is drawn in any case, so that none waits for ever
     for (const auto& [worth, lamp] : moved) {
-        const uint64_t tiles = tiles_in(places_[lamp]);
-        if (tiles > budget && (any || budget == 0)) {
+        const uint64_t cost = cost_of(places_[lamp]);
+        if (cost > budget && (any || budget == 0)) {
             ++report_.carried;
             ++waiting_maps_[lamp];
             continue;
         }
         any = true;
-        budget -= std::min(budget, tiles);
+        budget -= std::min(budget, cost);
         waiting_maps_.erase(lamp);
         maps_to_draw_.push_back(lamp);
     }
-    for (const uint32_t lamp : maps_to_draw_) drop_tiles(lamp);
 }
 
 // What moves where lamps shine on it, tile by tile.
@@ -206,8 +225,6 @@ void DistanceMaps::plan_tiles(std::map<TileKey, Cover> wanted, const gpu_scene::
         whole_[lamp] = true;
         if (std::ranges::find(maps_to_draw_, lamp) == maps_to_draw_.end()) maps_to_draw_.push_back(lamp);
     }
-    report_.maps = uint32_t(maps_to_draw_.size());
-    report_.tiles = uint32_t(tiles_to_draw_.size());
 }
 
 // By way of another buffer, so that no map is overwritten before it has moved.

@@ -36,8 +36,9 @@ public:
                  const std::vector<gpu_scene::PlacedLamp>& lamps, const gpu_scene::MapPlan& plan);
 
     /// Finds what is out of date for a frame. `budget`: of tiles of shared::kRegion texels square that are drawn, maps
-    /// that hold nothing yet apart; what gives the picture most comes first, the rest is counted as carried. Returns
-    /// whether draw() has anything to do. Throws Error where the maps of all lamps do not fit.
+    /// that hold nothing yet apart; a whole map counts as its tiles, but at least as 128, and a quarter of the budget
+    /// is for these alone. What gives the picture most comes first, the rest is counted as carried. Returns whether
+    /// draw() has anything to do. Throws Error where the maps of all lamps do not fit.
     bool plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses, const gpu_scene::View& view,
               uint64_t budget);
     /// Draws what plan() found, while no frame uses any map, and waits. Throws Error.
@@ -71,7 +72,8 @@ private:
     void forget_still(const std::vector<uint32_t>& placements);
     bool is_whole(uint32_t lamp) const { return whole_[lamp] || moving_.moves(lamps_[lamp].node); }
     void drop_tiles(uint32_t lamp);
-    void plan_maps(const gpu_scene::LampList& list, uint64_t& budget);
+    void plan_new_maps(const gpu_scene::LampList& list, uint64_t& budget);
+    void plan_moved_maps(const gpu_scene::LampList& list, uint64_t budget);
     std::map<TileKey, Cover> covers(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses,
                                     const gpu_scene::View& view) const;
     void plan_tiles(std::map<TileKey, Cover> wanted, const gpu_scene::LampList& list, uint64_t& budget);

@@ -70,8 +70,8 @@ TEST(Penumbra, IsThatOfADiscPastAnEdge) {
         double height, radius;  // of the edge and of the lamp, m
         double spread;          // bound of Error::spread: a tenth of the width is 0.02; what pixels and texels add
     };
-    for (const auto& [height, radius, spread] :
-         {Case{2, 0.5, 0.015}, {3, 0.3, 0.015}, {1, 0.5, 0.015}, {0.5, 1, 0.04}, {4, 0.2, 0.03}}) {
+    for (const Case& c : {Case{2, 0.5, 0.015}, {3, 0.3, 0.015}, {1, 0.5, 0.015}, {0.5, 1, 0.04}, {4, 0.2, 0.03}}) {
+        const double height = c.height, radius = c.radius;
         SCOPED_TRACE("edge at " + std::to_string(height) + " m, radius " + std::to_string(radius) + " m");
         Ground ground(radius);
         ground.s.plate({-1, float(height), 0}, {2, 0, 0}, {0, 0, -8});
@@ -79,7 +79,7 @@ TEST(Penumbra, IsThatOfADiscPastAnEdge) {
         EXPECT_GT(e.pixels, 1000u);
         // Of the 32 points of the disc up to three are at the same place across an edge; and shares have 4 bits.
         EXPECT_LT(std::abs(e.mean), 0.025);
-        EXPECT_LT(std::abs(e.spread), spread);
+        EXPECT_LT(std::abs(e.spread), c.spread);
         EXPECT_LT(e.root_mean_square, 0.08);
         EXPECT_LT(e.largest, 0.27);
     }

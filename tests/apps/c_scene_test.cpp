@@ -61,6 +61,22 @@ protected:
     VesperError error;
 };
 
+// A plate between lamp and ground; a caller of before, who knows of no shadows, has them.
+TEST_F(CScene, LampsLightWhatTheySee) {
+    add(candle());
+    uint32_t plate = VESPER_NONE;
+    expect(vesper_scene_add_node(scene, "plate", ground_mesh, at(0, 0.75f, 0).data(), &plate, &error));
+    VesperView view = down();
+    const auto light = [&] { return render(view)[4 * kMiddle] * kPi; };
+    EXPECT_EQ(light(), 0);
+    view.no_shadows = 1;
+    EXPECT_NEAR(light(), 1, 2e-3);
+    view.size = offsetof(VesperView, no_shadows);
+    EXPECT_EQ(light(), 0);
+    view.size = sizeof view, view.no_shadows = 2;
+    EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, nullptr, &error), VESPER_BAD_ARGUMENT);
+}
+
 // I / d^2, and sums of it; 0.2 % is what half floats of reflectance and the size of a pixel cost.
 TEST_F(CScene, LampsComeAndGo) {
     EXPECT_EQ(lux(), 0);

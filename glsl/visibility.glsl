@@ -87,13 +87,16 @@ bool glances(FetchedMap map, vec3 from, vec3 normal, out float way) {
     return seen;
 }
 
+// A direction at right angles to another.
+vec3 across(vec3 way) { return normalize(abs(way.x) < abs(way.z) ? vec3(0.0, way.z, -way.y) : vec3(way.y, -way.x, 0.0)); }
+
 // How texels of the map change with a step of 1 m across the way to a point, in two directions.
 mat2 texels_across(FetchedMap map, vec3 from) {
     vec3 q = map.turn * from;
     q.z = abs(q.z);
     const vec3 signs = vec3(q.x < 0.0 ? -map.fold : map.fold, q.y < 0.0 ? -map.fold : map.fold, 1.0);
     const float inverse = 1.0 / max(dot(signs, q), 1e-6);
-    const vec3 a = normalize(abs(q.x) < abs(q.z) ? vec3(0.0, q.z, -q.y) : vec3(q.y, -q.x, 0.0)), b = cross(q, a) * inversesqrt(max(dot(q, q), 1e-12));
+    const vec3 a = across(q), b = cross(q, a) * inversesqrt(max(dot(q, q), 1e-12));
     const vec2 square = inverse * vec2(q.x + q.y, q.x - q.y);
     const float texels = 0.5 * float(map.side) * map.zoom * inverse;
     return mat2(texels * (vec2(a.x + a.y, a.x - a.y) - square * dot(signs, a)), texels * (vec2(b.x + b.y, b.x - b.y) - square * dot(signs, b)));

@@ -108,9 +108,8 @@ std::string missing_support(VkPhysicalDevice device) {
     vkGetPhysicalDeviceProperties2(device, &more);
     if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) ||
         !(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_VOTE_BIT) ||
-        !(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) ||
-        !(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT) || subgroup.subgroupSize < 8)
-        list(names, "subgroups of at least 8 with votes, arithmetic and ballots in compute shaders");
+        !(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) || subgroup.subgroupSize < 8)
+        list(names, "subgroups of at least 8 with votes and arithmetic in compute shaders");
     for (const char* extension : kDeviceExtensions)
         if (!has_extension(device, extension)) list(names, extension);
     uint32_t families = 0;

@@ -4,7 +4,6 @@
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
-#extension GL_KHR_shader_subgroup_ballot : require
 
 // Visibility of lamps from blocks of pixels: one block per workgroup, which is one subgroup. Pixels of the block, the probes,
 // tell what it sees of each lamp on its list, one lamp per invocation: four of them, and sixteen of a lamp that gives a good
@@ -153,7 +152,7 @@ void probe_more(uint number, uint index) {
     const float away = length(to_lamp);
     const vec3 l = to_lamp / max(away, 1e-6), n = probe_normal[0];
     const float reach = plane ? min(kWidest * map.radius, 0.5 * away) : 0.0;
-    const vec3 a = normalize(abs(l.x) < abs(l.z) ? vec3(0.0, l.z, -l.y) : vec3(l.y, -l.x, 0.0)), b = cross(l, a);
+    const vec3 a = across(l), b = cross(l, a);
     const float slant = reach / max(dot(n, l), 0.1);  // along the plane, by the way of the light
     const vec3 along_a = reach * a - slant * dot(n, a) * l, along_b = reach * b - slant * dot(n, b) * l;
     Sight s = unpack(found[number], way[number]);
@@ -195,10 +194,10 @@ uint look(uint index, float stops, out uint word) {
             const uint begin = by_fours ? 2u * (r & 1u) + (lane & 1u) : 0u;
             const vec3 from = position[r] - lamp;
             const MapPoint p = map_point(map, from, normal[r]);
-            const mat2 across = width * texels_across(map, from);
+            const mat2 steps = width * texels_across(map, from);
             uint seen = 0u;
             for (uint k = begin; k < kDisc; k += step)
-                seen += sees(map, p, ivec2(floor(p.texel + across * disc_point(k)))) ? 1u : 0u;
+                seen += sees(map, p, ivec2(floor(p.texel + steps * disc_point(k)))) ? 1u : 0u;
             counts[r] = p.inside ? seen : looks;
             packed |= counts[r] << 4u * r;  // 8 at most, by fours
         }

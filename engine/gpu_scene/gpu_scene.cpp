@@ -55,10 +55,15 @@ scene::Material as_sheet(scene::Material m) {
     return m;
 }
 
-// The largest stretch of a linear map is at most its Frobenius norm.
+// A bound of the largest stretch of a linear map, exact where its axes stay at right angles: the square is the largest
+// eigenvalue of m^T m, which is within its rows' sums of absolute values (Gershgorin 1931).
 float largest_stretch(const glm::mat4& m) {
     const glm::mat3 linear(m);
-    return std::sqrt(glm::dot(linear[0], linear[0]) + glm::dot(linear[1], linear[1]) + glm::dot(linear[2], linear[2]));
+    const glm::mat3 square = glm::transpose(linear) * linear;
+    float largest = 0;
+    for (int i = 0; i < 3; ++i)
+        largest = std::max(largest, std::abs(square[i].x) + std::abs(square[i].y) + std::abs(square[i].z));
+    return std::sqrt(largest) * 1.00001f;  // rounding
 }
 
 }  // namespace

@@ -97,7 +97,7 @@ GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsShaders& 
 
 const GraphicsPipeline& GraphicsPipelineCache::get(const GraphicsShaders& shaders,
                                                    const GraphicsVariant& variant) const {
-    Key key{shaders.fragment.data(), variant};
+    Key key{shaders.vertex.data(), shaders.fragment.data(), variant};
     const auto found = pipelines_.find(key);
     if (found != pipelines_.end()) return found->second;
     return pipelines_.emplace(std::move(key), GraphicsPipeline(device_, shaders, variant)).first->second;

@@ -4,6 +4,7 @@
 #include <compare>
 #include <map>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -61,7 +62,7 @@ public:
     const GraphicsPipeline& get(const GraphicsShaders& shaders, const GraphicsVariant& variant) const;
 
 private:
-    using Key = std::pair<const uint32_t*, GraphicsVariant>;  // code of the fragment shader
+    using Key = std::tuple<const uint32_t*, const uint32_t*, GraphicsVariant>;  // code of both shaders
 
     const Device& device_;
     mutable std::map<Key, GraphicsPipeline> pipelines_;

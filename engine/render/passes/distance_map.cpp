@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
-#include <tuple>
 
+#include "render/map_parts.h"
 #include "shaders/distance_map/distance_map.frag.inc"
 #include "shaders/distance_map/distance_map.vert.inc"
 #include "shaders/distance_map/store_distances.comp.inc"
@@ -18,11 +18,6 @@ using graph::sample, graph::update;
 
 constexpr gpu::Shader kStore{"store_distances.comp", store_distances_comp};
 
-struct MaskPush {
-    float base_opacity, cutoff;
-};
-
-constexpr VkDescriptorType kMapTextures[]{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 constexpr VkVertexInputBindingDescription kMapBuffers[]{
     {0, sizeof(scene::Vertex), VK_VERTEX_INPUT_RATE_VERTEX},
     {1, sizeof(shared::MapInstance), VK_VERTEX_INPUT_RATE_INSTANCE}};
@@ -175,49 +170,6 @@ private:
     std::vector<std::vector<gpu_scene::WorldSphere>> spheres_;  // of placements
 };
 
-// Instances of one part, drawn at once.
-struct MapBatch {
-    uint32_t part;
-    uint32_t first_instance, instance_count;
-};
-
-void record_maps(const graph::Recording& recording, const gpu::Device& device,
-                 const gpu::GraphicsPipelineCache& pipelines, const GpuScene& scene, graph::Resource instances,
-                 const std::vector<MapBatch>& batches) {
-    const VkCommandBuffer commands = recording.commands();
-    const VkBuffer buffers[] = {scene.vertices(), recording.buffer(instances)};
-    const VkDeviceSize offsets[] = {0, recording.offset(instances)};
-    vkCmdBindVertexBuffers(commands, 0, 2, buffers, offsets);
-    vkCmdBindIndexBuffer(commands, scene.indices(), 0, VK_INDEX_TYPE_UINT32);
-    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
-    vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
-    uint32_t last_material = scene::kNone;
-    const gpu::GraphicsPipeline* last_pipeline = nullptr;
-    for (const MapBatch& batch : batches) {
-        const GpuScene::Part& part = scene.parts()[batch.part];
-        const GpuScene::Surface& surface = scene.surfaces()[part.material];
-        const scene::Material& m = surface.material;
-        const bool mask = m.alpha == scene::Material::Alpha::Mask;
-        const gpu::GraphicsPipeline* pipeline =
-            &pipelines.get(kMapShaders, {.targets = {}, .depth = kDepthFormat, .constants = {mask ? 1u : 0u}});
-        if (pipeline != last_pipeline)
-            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline());
-        if (part.material != last_material) {
-            const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                             .dstBinding = 0,
-                                             .descriptorCount = 1,
-                                             .descriptorType = kMapTextures[0],
-                                             .pImageInfo = &surface.textures[0]};
-            device.push_descriptors(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->layout(), 0, 1, &write);
-            const MaskPush push{m.base_colour.a, m.alpha_cutoff};
-            vkCmdPushConstants(commands, pipeline->layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push, &push);
-        }
-        vkCmdDrawIndexed(commands, part.index_count, batch.instance_count, part.first_index, part.first_vertex,
-                         batch.first_instance);
-        last_material = part.material, last_pipeline = pipeline;
-    }
-}
-
 uint32_t saved_word(const std::optional<MapTile>& tile) {
     if (!tile) return shared::kNotSaved;
     return tile->saved / shared::kMapUnit | (tile->save ? shared::kSaveNow : 0u);
@@ -245,15 +197,10 @@ struct DrawnParts {
 DrawnParts parts_of(Collector& collector, const GpuScene& scene, const DrawnImage& image) {
     std::vector<MapPart> drawn;
     for (const Square& square : image.squares) collector.collect(square, image.side, drawn);
-    std::ranges::stable_sort(drawn, {}, [&](const MapPart& d) {
-        const uint32_t material = scene.parts()[d.part].material;
-        return std::tuple(scene.surfaces()[material].material.alpha, material, d.part);
-    });
+    sort_by_part(drawn, scene, [](const MapPart& d) { return d.part; });
     DrawnParts parts;
     for (const MapPart& d : drawn) {
-        if (parts.batches.empty() || parts.batches.back().part != d.part)
-            parts.batches.push_back({d.part, uint32_t(parts.instances.size()), 0});
-        ++parts.batches.back().instance_count;
+        add_to_batches(parts.batches, d.part, uint32_t(parts.instances.size()));
         parts.instances.push_back(d.instance);
     }
     return parts;
@@ -277,7 +224,7 @@ void add_distance_maps(const FrameContext& frame, const GpuScene& scene, const g
         graph.raster("distance maps" + which, {{placed, graph::Access::Vertices}, {depth, graph::Access::DepthTarget}},
                      [&device = frame.kernels.device(), &pipelines = frame.pipelines, &scene, placed,
                       batches = std::move(parts.batches)](const graph::Recording& recording) {
-                         if (!batches.empty()) record_maps(recording, device, pipelines, scene, placed, batches);
+                         record_map_parts(recording, device, pipelines, kMapShaders, scene, placed, batches);
                      });
 
         const std::vector<shared::MapRegion> regions = regions_of(image.squares);

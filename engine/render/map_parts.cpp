@@ -1,0 +1,44 @@
+#include "render/map_parts.h"
+
+namespace vesper::render {
+
+void record_map_parts(const graph::Recording& recording, const gpu::Device& device,
+                      const gpu::GraphicsPipelineCache& pipelines, const gpu::GraphicsShaders& shaders,
+                      const gpu_scene::GpuScene& scene, graph::Resource instances,
+                      const std::vector<MapBatch>& batches) {
+    if (batches.empty()) return;
+    const VkCommandBuffer commands = recording.commands();
+    const VkBuffer buffers[] = {scene.vertices(), recording.buffer(instances)};
+    const VkDeviceSize offsets[] = {0, recording.offset(instances)};
+    vkCmdBindVertexBuffers(commands, 0, 2, buffers, offsets);
+    vkCmdBindIndexBuffer(commands, scene.indices(), 0, VK_INDEX_TYPE_UINT32);
+    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
+    vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+    uint32_t last_material = scene::kNone;
+    const gpu::GraphicsPipeline* last_pipeline = nullptr;
+    for (const MapBatch& batch : batches) {
+        const gpu_scene::GpuScene::Part& part = scene.parts()[batch.part];
+        const gpu_scene::GpuScene::Surface& surface = scene.surfaces()[part.material];
+        const scene::Material& m = surface.material;
+        const bool mask = m.alpha == scene::Material::Alpha::Mask;
+        const gpu::GraphicsPipeline* pipeline =
+            &pipelines.get(shaders, {.targets = {}, .depth = kDepthFormat, .constants = {mask ? 1u : 0u}});
+        if (pipeline != last_pipeline)
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline());
+        if (part.material != last_material) {
+            const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                             .dstBinding = 0,
+                                             .descriptorCount = 1,
+                                             .descriptorType = kMapTextures[0],
+                                             .pImageInfo = &surface.textures[0]};
+            device.push_descriptors(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->layout(), 0, 1, &write);
+            const MaskPush push{m.base_colour.a, m.alpha_cutoff};
+            vkCmdPushConstants(commands, pipeline->layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push, &push);
+        }
+        vkCmdDrawIndexed(commands, part.index_count, batch.instance_count, part.first_index, part.first_vertex,
+                         batch.first_instance);
+        last_material = part.material, last_pipeline = pipeline;
+    }
+}
+
+}  // namespace vesper::render

@@ -13,11 +13,15 @@ struct FetchedMap {
     float bias;    // times the distance, see kMapBias
 };
 
+// Of a unit quaternion.
+mat3 rotation_of(vec4 q) {
+    const vec3 x = 2.0 * q.x * q.xyz, y = 2.0 * q.y * q.xyz, z = 2.0 * q.z * q.xyz, w = 2.0 * q.w * q.xyz;
+    return mat3(1.0 - y.y - z.z, x.y + w.z, x.z - w.y, x.y - w.z, 1.0 - x.x - z.z, y.z + w.x, x.z + w.y, y.z - w.x, 1.0 - x.x - y.y);
+}
+
 FetchedMap fetch_map(uint lamp) {
     const vec4 q = texelFetch(maps, int(lamp * kMapTexels)), b = texelFetch(maps, int(lamp * kMapTexels) + 1);
-    const vec3 x = 2.0 * q.x * q.xyz, y = 2.0 * q.y * q.xyz, z = 2.0 * q.z * q.xyz, w = 2.0 * q.w * q.xyz;
-    const mat3 turn = mat3(1.0 - y.y - z.z, x.y + w.z, x.z - w.y, x.y - w.z, 1.0 - x.x - z.z, y.z + w.x, x.z + w.y, y.z - w.x, 1.0 - x.x - y.y);
-    return FetchedMap(turn, int(b.x) * int(kMapUnit), int(abs(b.y)), abs(b.z), b.z < 0.0, b.y < 0.0 ? 0.0 : 1.0, b.w, 1.0 / max(abs(b.y * b.z), 1.0) + kMapRounding);
+    return FetchedMap(rotation_of(q), int(b.x) * int(kMapUnit), int(abs(b.y)), abs(b.z), b.z < 0.0, b.y < 0.0 ? 0.0 : 1.0, b.w, 1.0 / max(abs(b.y * b.z), 1.0) + kMapRounding);
 }
 
 // A surface as a map sees it.

@@ -94,6 +94,8 @@ void print_statistics(const RenderArguments& arguments, const gpu::Device& devic
             "date\n",
             frame.maps.lamps, double(frame.maps.bytes) / (1 << 20), frame.maps.maps, frame.maps.tiles,
             frame.maps.carried);
+    if (frame.directional_levels > 0)
+        print("maps of directional lights: %u levels were drawn for this frame\n", frame.directional_levels);
     print("adaptation luminance %.4g cd/m^2, foveal level %u, %u of %u pixels not finite\n",
           double(frame.curve.adaptation), frame.foveal_level, frame.histogram.non_finite,
           frame.histogram.finite + frame.histogram.non_finite);

@@ -1,5 +1,6 @@
 #include "render/renderer.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "gpu_scene/retro.h"
@@ -11,10 +12,24 @@ namespace vesper::render {
 Renderer::Renderer(gpu::Device& device, const scene::Scene& scene)
     : device_(device), scene_(std::make_unique<SceneData>(device, scene)), frames_(device) {}
 
+namespace {
+
+gpu_scene::DirectionalPlan directional_plan_of(const scene::Scene& scene, const gpu_scene::GpuScene& resident,
+                                               const std::vector<gpu_scene::PlacedLamp>& lamps) {
+    const auto count = std::ranges::count_if(
+        lamps, [](const auto& placed) { return placed.lamp.kind == scene::Lamp::Kind::Directional; });
+    if (count == 0) return {};
+    return gpu_scene::directional_plan(uint32_t(count),
+                                       gpu_scene::extent_of(resident, scene::world_transforms(scene, 0)));
+}
+
+}  // namespace
+
 Renderer::SceneData::SceneData(const gpu::Device& device, const scene::Scene& scene)
     : resident(device, scene),
       lamps(gpu_scene::placed_lamps(scene)),
       maps(gpu_scene::map_plan(scene, resident, lamps)),
+      directional(directional_plan_of(scene, resident, lamps)),
       luminaires(gpu_scene::placed_luminaires(scene)),
       tables(gpu_scene::intensity_tables(scene)),
       table_arena(device),
@@ -39,6 +54,7 @@ void Renderer::set_scene(const scene::Scene& scene) {
     auto data = std::make_unique<const SceneData>(device_, scene);
     frames_.wait();  // frames under way use the old scene
     maps_.reset();
+    directional_maps_.reset();
     scene_ = std::move(data);
 }
 
@@ -66,7 +82,7 @@ Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const Render
     in.tables = {texels("intensity tables", scene_->table_texels), scene_->tables.roads, scene_->tables.roads != 0};
     in.clusters = settings.clusters;
     in.clusters.far = scene_->resident.farthest_depth(poses, view);
-    if (settings.shadows) in.shading.maps = maps_of(graph, in.lamps, poses, view, settings.shadow_budget);
+    if (settings.shadows) add_maps(graph, in, poses, view, settings.shadow_budget);
     in.shading.all_lamps = settings.all_lamps;
     if (settings.all_lamps) in.shading.merge_tolerance = -1;
     if (settings.paper_lambert) in.shading.lambert = 1;
@@ -91,14 +107,24 @@ Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const Render
 }
 
 // Maps are drawn while no frame uses them.
-VisibilityMaps Renderer::maps_of(graph::FrameGraph& graph, const gpu_scene::LampList& lamps,
-                                 const gpu_scene::SceneFrame& poses, const gpu_scene::View& view, uint64_t budget) {
+void Renderer::add_maps(graph::FrameGraph& graph, FrameInputs& in, const gpu_scene::SceneFrame& poses,
+                        const gpu_scene::View& view, uint64_t budget) {
     if (!maps_) maps_ = std::make_unique<DistanceMaps>(device_, scene_->resident, scene_->lamps, scene_->maps);
-    if (maps_->plan(lamps, poses, view, budget)) {
+    if (maps_->plan(in.lamps, poses, view, budget)) {
         frames_.wait();
         maps_->draw(poses);
     }
-    return maps_->maps(graph, lamps, poses, view);
+    in.shading.maps = maps_->maps(graph, in.lamps, poses, view);
+    if (in.lamps.counts.directional == 0) return;
+    if (!directional_maps_)
+        directional_maps_ =
+            std::make_unique<DirectionalMaps>(device_, scene_->resident, scene_->lamps, scene_->directional);
+    in.directional_levels = directional_maps_->plan(in.lamps, poses, view);
+    if (in.directional_levels > 0) {
+        frames_.wait();
+        directional_maps_->draw(poses);
+    }
+    in.directional = directional_maps_->maps(graph, in.lamps, poses, view);
 }
 
 ToneChain Renderer::declare(const FrameContext& frame, const gpu_scene::SceneFrame& poses, const FrameInputs& inputs,
@@ -107,6 +133,7 @@ ToneChain Renderer::declare(const FrameContext& frame, const gpu_scene::SceneFra
     const Clusters clusters = add_clusters(frame, surfaces.surface, inputs.lamps, inputs.tables, inputs.clusters);
     Blocks blocks = add_blocks(frame, surfaces, clusters);
     blocks = add_visibility(frame, surfaces, clusters, blocks, inputs.shading.maps, inputs.shading.faint);
+    blocks = add_directional_visibility(frame, surfaces, clusters, blocks, inputs.directional);
     blocks = add_merging(frame, surfaces, clusters, blocks, inputs.shading.merge_tolerance);
     graph::Resource scene = add_shading(frame, surfaces, clusters, blocks, inputs.shading);
     scene = add_daylight(frame, surfaces, scene, inputs.daylight);
@@ -137,6 +164,7 @@ void Renderer::submit(const RenderSettings& given, const gpu_scene::View& view, 
     frames_.submit(std::move(frame), inputs.chain, semaphores);
     // Nothing fails from here on.
     if (settings.shadows) pending.frame.maps = maps_->report();
+    pending.frame.directional_levels = inputs.directional_levels;
     pending.frame.lamps = uint32_t(inputs.lamps.lamps.size());
     pending.frame.luminaires = uint32_t(inputs.luminaires.luminaires.size());
     pending.frame.glare_sources = std::move(inputs.luminaires.glare_sources);

@@ -10,6 +10,7 @@
 #include "gpu_scene/gpu_scene.h"
 #include "gpu_scene/lamps.h"
 #include "gpu_scene/luminaires.h"
+#include "render/directional_maps.h"
 #include "render/distance_maps.h"
 #include "render/frame_queue.h"
 #include "render/passes/daylight.h"
@@ -40,6 +41,7 @@ struct Frame : ToneMapped {
     shared::ClusterReport clusters{};
     shared::VisibilityReport visibility{};  ///< with shadows
     MapReport maps;                         ///< with shadows
+    uint32_t directional_levels = 0;        ///< of maps of directional lamps, drawn for this frame
     uint32_t lamps = 0;                     ///< lamps that shine
     uint32_t luminaires = 0;                ///< of their openings, those in view
     float far = 0;                          ///< m: the far limit of the clusters
@@ -78,7 +80,7 @@ public:
     const gpu_scene::GpuScene& scene() const { return scene_->resident; }
     uint64_t device_bytes() const {
         return scene_->resident.bytes() + scene_->table_arena.bytes() + frames_.executor().heap_bytes() +
-               (maps_ ? maps_->report().bytes : 0);
+               (maps_ ? maps_->report().bytes : 0) + (directional_maps_ ? directional_maps_->bytes() : 0);
     }
 
 private:
@@ -92,6 +94,7 @@ private:
         gpu_scene::GpuScene resident;
         std::vector<gpu_scene::PlacedLamp> lamps;
         gpu_scene::MapPlan maps;
+        gpu_scene::DirectionalPlan directional;
         gpu_scene::LuminaireSet luminaires;
         gpu_scene::IntensityTables tables;  // without its texels, which are uploaded
         gpu::Arena table_arena;
@@ -112,6 +115,8 @@ private:
         ShadeSettings shading;
         DaylightSettings daylight;
         SkyTexels sky;
+        DirectionalMapsOfFrame directional;
+        uint32_t directional_levels = 0;  // drawn for it
         ChainInputs chain;
     };
     /// The results of a submitted frame, as far as they are known.
@@ -120,8 +125,8 @@ private:
         graph::Resource clusters, visibility;  // to be read
     };
 
-    VisibilityMaps maps_of(graph::FrameGraph& graph, const gpu_scene::LampList& lamps,
-                           const gpu_scene::SceneFrame& poses, const gpu_scene::View& view, uint64_t budget);
+    void add_maps(graph::FrameGraph& graph, FrameInputs& in, const gpu_scene::SceneFrame& poses,
+                  const gpu_scene::View& view, uint64_t budget);
     FrameInputs inputs_of(graph::FrameGraph& graph, const RenderSettings& settings, const gpu_scene::View& view,
                           const gpu_scene::SceneFrame& poses, float seconds);
     ToneChain declare(const FrameContext& frame, const gpu_scene::SceneFrame& poses, const FrameInputs& inputs,
@@ -130,7 +135,8 @@ private:
     gpu::Device& device_;
     std::unique_ptr<const SceneData> scene_;
     std::unique_ptr<DistanceMaps> maps_;  // of scene_; none before a frame has shadows
-    FrameQueue frames_;                   // waits for its frames, which use the rest
+    std::unique_ptr<DirectionalMaps> directional_maps_;
+    FrameQueue frames_;  // waits for its frames, which use the rest
     std::optional<Pending> pending_;
 };
 

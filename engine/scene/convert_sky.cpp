@@ -33,6 +33,8 @@ void add_directional(Conversion& conversion, const DirectionalRule& rule) {
          {"type", "directional"},
          {"intensity", rule.illuminance * brightest},
          {"color", {rule.colour.r / brightest, rule.colour.g / brightest, rule.colour.b / brightest}}});
+    if (rule.angular_diameter)
+        conversion.openings.push_back({{"light", lamp}, {"angular_diameter_deg", *rule.angular_diameter}});
     use_extension(root, "KHR_lights_punctual");
     const glm::dquat turn = turn_to(rule.direction);
     add_root_node(root, {{"name", rule.name},

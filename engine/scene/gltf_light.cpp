@@ -73,6 +73,13 @@ void read_lobe(GltfReader& reader, const JsonValue& lobe) {
 
 /// Where the light of a punctual light, or of all uses of a light profile, comes out.
 void read_opening(GltfReader& reader, const JsonValue& source) {
+    if (const auto diameter = source.find("angular_diameter_deg")) {
+        source.allow_only({"light", "angular_diameter_deg"});
+        Lamp& lamp = reader.scene.lamps[source.at("light").index(reader.scene.lamps.size(), "lights")];
+        if (lamp.kind != Lamp::Kind::Directional) diameter->fail("is of directional lights alone");
+        lamp.angular_diameter = float(diameter->number(0, kMostAngularDiameter) * kRadiansPerDegree);
+        return;
+    }
     source.allow_only({"light", "profile", "width_m", "height_m", "round", "drawn"});
     photometry::LuminousOpening opening;
     opening.length = source.at("width_m").number(1e-4, 100);

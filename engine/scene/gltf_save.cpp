@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/angle.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "io/new_file.h"
@@ -215,6 +216,9 @@ std::vector<LampUse> write_lamps(Writer& writer, json& block) {
         if (lamp.kind == Lamp::Kind::CosinePower)
             lobes.push_back({{"light", index}, {"type", "cosine_power"}, {"exponent", lamp.exponent}});
         add_opening(openings, "light", index, lamp.opening);
+        if (lamp.kind == Lamp::Kind::Directional && lamp.angular_diameter != Lamp{}.angular_diameter)
+            openings.push_back(
+                {{"light", index}, {"angular_diameter_deg", double(lamp.angular_diameter) * kDegreesPerRadian}});
         uses.push_back({"KHR_lights_punctual", value_of({{"light", index}})});
     }
     if (!profiles.empty()) {

@@ -80,9 +80,10 @@ struct SkyPicture {
 /// Light from one direction: the moon, dusk.
 struct DirectionalRule {
     std::string name;
-    double illuminance = 0;          ///< on a surface facing it, lx
-    glm::dvec3 colour{1};            ///< linear, luminance 1
-    glm::dvec3 direction{0, -1, 0};  ///< in which the light goes, world frame, unit length
+    double illuminance = 0;                  ///< on a surface facing it, lx
+    glm::dvec3 colour{1};                    ///< linear, luminance 1
+    std::optional<double> angular_diameter;  ///< of its disc in the sky, degrees; none: that of sun and moon
+    glm::dvec3 direction{0, -1, 0};          ///< in which the light goes, world frame, unit length
 };
 
 struct Photometry {

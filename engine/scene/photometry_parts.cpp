@@ -66,11 +66,13 @@ SkyPicture read_sky_picture(const JsonValue& source, const std::filesystem::path
 }
 
 DirectionalRule read_directional(const JsonValue& source) {
-    source.allow_only(
-        {"name", "illuminance_lx", "direction", "azimuth_deg", "elevation_deg", "colour_temperature_K", "colour_rgb"});
+    source.allow_only({"name", "illuminance_lx", "angular_diameter_deg", "direction", "azimuth_deg", "elevation_deg",
+                       "colour_temperature_K", "colour_rgb"});
     DirectionalRule rule;
     rule.name = source.text_or("name", "directional light");
     rule.illuminance = source.at("illuminance_lx").number(0, 2e5);
+    if (const auto diameter = source.find("angular_diameter_deg"))
+        rule.angular_diameter = diameter->number(0, kMostAngularDiameter);
     rule.colour = read_colour(source);
     if (const auto direction = source.find("direction")) {
         for (const char* key : {"azimuth_deg", "elevation_deg"})

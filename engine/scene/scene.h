@@ -96,6 +96,9 @@ struct Mesh {
 /// lamp takes three in a retroreflective pixel.
 inline constexpr uint32_t kMaxLamps = 21'000;
 
+/// Of the disc of a directional light in the sky, degrees.
+inline constexpr double kMostAngularDiameter = 10;
+
 /// A lamp's distribution of luminous intensity about its axis (local -Z).
 struct Lamp {
     enum class Kind : uint8_t { Point, Spot, CosinePower, Directional, Measured };
@@ -107,6 +110,8 @@ struct Lamp {
     float inner_cone = 0;       ///< Spot: half angle of full intensity, rad
     float outer_cone = 0.785f;  ///< Spot: half angle of no intensity, rad; squared ramp between, as KHR_lights_punctual
     float exponent = 1;         ///< CosinePower: I(a) = intensity * cos(a)^exponent, 0 behind
+    float angular_diameter = 0.00925f;    ///< Directional: of its disc in the sky, rad, for penumbrae; the default is
+                                          ///< that of the sun and the moon, 0.53 degrees
     uint32_t distribution = kNone;        ///< Measured: index into Scene::distributions
     photometry::LuminousOpening opening;  ///< seen directly: at the lamp, facing its axis (Point: facing the eye); m,
                                           ///< independent of the node's scale. Length along its X, width along its Y.

@@ -13,6 +13,7 @@
 #include "normal.glsl"
 #include "shared/photometry.h"
 #include "shared/blocks.h"
+#include "shared/directional_map.h"
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(constant_id = 2) const uint kRows = 1u;
@@ -26,7 +27,8 @@ layout(constant_id = 9) const uint kGlossy = 1u;      // surfaces with a specula
 layout(constant_id = 10) const uint kRoads = 1u;      // roads with a table,
 layout(constant_id = 11) const uint kRetro = 1u;      // retroreflective surfaces,
 layout(constant_id = 12) const uint kMaps = 1u;       // distance maps of lamps,
-layout(constant_id = 13) const uint kLookups = 1u;    // which pixels look up where every lamp counts
+layout(constant_id = 13) const uint kLookups = 1u;    // which pixels look up where every lamp counts,
+layout(constant_id = 14) const uint kDirectionalMaps = 1u;  // and of directional lamps
 
 layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
@@ -42,6 +44,7 @@ layout(binding = 10) uniform usamplerBuffer class_blocks;
 layout(binding = 11) uniform samplerBuffer maps;
 layout(binding = 12) uniform samplerBuffer distances;
 layout(binding = 13) uniform usamplerBuffer shares;
+layout(binding = 14) uniform usamplerBuffer directional_shares;
 layout(push_constant, scalar) uniform Push { ShadePush push; };
 
 #include "lamp.glsl"
@@ -174,11 +177,19 @@ void add_lamps(List list) {
         for (uint i = 0u; i < list.others; ++i) add_entry(list, list.last - i, list.cones + i, false);
 }
 
-void add_directional() {
+void add_directional(uint block) {
     const uint first = push.lamps.cones + push.lamps.powers + push.lamps.tables;
+    const uint words = (push.lamps.directional + kSharesPerWord - 1u) / kSharesPerWord;
+    const uint pixel = gl_LocalInvocationID.y * kRows % kBlockSize * kBlockSize + gl_LocalInvocationID.x % kBlockSize;
     for (uint i = 0u; i < push.lamps.directional; ++i) {
-        const FetchedLamp lamp = fetch(first + i, true, 0u);
+        FetchedLamp lamp = fetch(first + i, true, 0u);
+        const float facing = lamp.intensity;
         [[unroll]] for (uint r = 0u; r < kRows; ++r) {
+            if (kDirectionalMaps != 0u) {
+                const uint word = (block * words + i / kSharesPerWord) * kBlockSize * kBlockSize + pixel + r * kBlockSize;
+                const uint share = texelFetch(directional_shares, int(word)).r >> 8u * (i % kSharesPerWord) & 255u;
+                lamp.intensity = facing * (float(share) / 255.0);
+            }
             const float normal_lamp = max(dot(normal[r], -lamp.axis), 0.0);
             const bool road = kRoads != 0u && roads[r].tan_cells > 0.0;
             float weight = normal_lamp;
@@ -251,7 +262,7 @@ void main() {
 
     if (kMerged != 0u) add_merged(block, first);
     if (kListed != 0u) add_lamps(list_of(block));
-    add_directional();
+    add_directional(block);
 
     [[unroll]] for (uint r = 0u; r < kRows; ++r) {
         const uvec2 pixel = first + uvec2(0u, r);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angle.h"
 #include "io/hdr_image.h"
 #include "scene/colour.h"
 #include "scene/photometry.h"
@@ -98,13 +99,15 @@ TEST_F(ConvertSky, TheMoon) {
                        {"azimuth_deg", 90},
                        {"elevation_deg", 30},
                        {"colour_temperature_K", 4100}};
-    const json dusk = {{"illuminance_lx", 3}, {"direction", {0, -2, 0}}};
+    const json dusk = {{"illuminance_lx", 3}, {"direction", {0, -2, 0}}, {"angular_diameter_deg", 4}};
     convert_with({{"directional", {moon, dusk}}});
     const scene::Scene scene = converted();
     ASSERT_EQ(scene.lamps.size(), 2u);
     EXPECT_EQ(scene.lamps[0].kind, scene::Lamp::Kind::Directional);
     EXPECT_NEAR(scene.lamps[0].intensity, 0.25, 1e-6);
     EXPECT_NEAR(scene.lamps[0].colour.b, scene::colour_of_temperature(4100).b, 1e-5);
+    EXPECT_NEAR(scene.lamps[0].angular_diameter, 0.00925, 1e-5) << "that of sun and moon";
+    EXPECT_NEAR(scene.lamps[1].angular_diameter, 4 * kRadiansPerDegree, 1e-6);
     const std::vector<glm::dmat4> world = scene::world_transforms(scene, 0);
     std::vector<glm::vec3> ways;
     for (size_t i = 0; i < scene.nodes.size(); ++i)
@@ -152,6 +155,8 @@ TEST_F(ConvertSky, RefusesWithPlaceAndReason) {
     EXPECT_TRUE(contains(moon({{"illuminance_lx", 1}, {"direction", {0, 0, 0}}}), "/directional/0/direction"));
     EXPECT_TRUE(contains(moon({{"illuminance_lx", 1}, {"direction", {0, 1, 0}}, {"azimuth_deg", 1}}), "azimuth_deg"));
     EXPECT_TRUE(contains(moon({{"illuminance_lx", -1}, {"direction", {0, 1, 0}}}), "illuminance_lx"));
+    EXPECT_TRUE(contains(moon({{"illuminance_lx", 1}, {"direction", {0, 1, 0}}, {"angular_diameter_deg", 11}}),
+                         "/directional/0/angular_diameter_deg"));
     const auto sheet = [&](json r) {
         const json rule = {{"materials", "sign"}, {"retroreflection", std::move(r)}};
         return complaint_with({{"surfaces", json::array({rule})}});

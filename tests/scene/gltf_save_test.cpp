@@ -55,7 +55,10 @@ Scene example() {
         .name = "spot", .kind = scene::Lamp::Kind::Spot, .intensity = 200, .inner_cone = 0.1f, .outer_cone = 0.6f};
     spot.colour = glm::vec3(glm::dvec3(2, 0.7, 0.5) / luminance(glm::dvec3(2, 0.7, 0.5)));
     spot.opening.length = spot.opening.width = 0.2, spot.opening.round = true;
-    scene.lamps = {measured, lobe, spot};
+    scene.lamps = {measured,
+                   lobe,
+                   spot,
+                   {.name = "dusk", .kind = scene::Lamp::Kind::Directional, .intensity = 3, .angular_diameter = 0.07f}};
     scene.distributions.push_back(photometry::standard_lamp("street-lamp"));
     scene.cameras.push_back({.name = "eye", .vertical_fov = 0.7f, .near = 0.2f});
     scene::Node root{.name = "root"}, car{.name = "car", .parent = 0}, lamp{.name = "lamp", .parent = 1},
@@ -67,7 +70,9 @@ Scene example() {
     second.lamp = 2, second.scale = {2, 2, 2};
     scene::Node third{.name = "third"};
     third.lamp = 1;
-    scene.nodes = {root, car, lamp, second, third};
+    scene::Node fourth{.name = "fourth"};
+    fourth.lamp = 3;
+    scene.nodes = {root, car, lamp, second, third, fourth};
     scene.channels.push_back({.node = 1,
                               .path = scene::Channel::Path::Translation,
                               .times = {0, 2},
@@ -113,7 +118,7 @@ TEST_P(GltfSave, GivesTheSameSceneBack) {
             EXPECT_EQ(a.colour, b.colour);
         }
     const auto light_on = [&](const Scene& of, const char* node) { return of.lamps[find(of, node).lamp]; };
-    for (const char* node : {"lamp", "second", "third"}) {
+    for (const char* node : {"lamp", "second", "third", "fourth"}) {
         const scene::Lamp a = light_on(got, node), b = light_on(scene, node);
         EXPECT_EQ(a.kind, b.kind);
         EXPECT_NEAR(a.intensity, b.intensity, 1e-4 * b.intensity);
@@ -121,6 +126,7 @@ TEST_P(GltfSave, GivesTheSameSceneBack) {
         EXPECT_EQ(a.opening.length, b.opening.length);
         EXPECT_EQ(a.opening.width, b.opening.width);
         EXPECT_EQ(a.opening.round, b.opening.round);
+        EXPECT_NEAR(a.angular_diameter, b.angular_diameter, 1e-7);
         for (const glm::dvec3 direction : {glm::dvec3(0.1, 0.2, -1), glm::dvec3(0.7, 0.1, -0.5)})
             EXPECT_NEAR(scene::luminous_intensity(a, got.distributions, direction),
                         scene::luminous_intensity(b, scene.distributions, direction), 1e-3 * b.intensity + 0.01);

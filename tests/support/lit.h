@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/angle.h"
+#include "render/directional_maps.h"
 #include "render/distance_maps.h"
 #include "render/passes/gbuffer.h"
 #include "render/passes/shade.h"
@@ -22,6 +23,7 @@ struct Lit {
     gpu_scene::MapPlan plan;
     gpu_scene::IntensityTables tables;
     render::DistanceMaps maps;
+    render::DirectionalMaps directional;
     uint64_t budget = render::kNoShadowBudget;
 
     Lit(PassRig& r, const scene::Scene& s)
@@ -32,18 +34,22 @@ struct Lit {
           lamps(gpu_scene::placed_lamps(s)),
           plan(gpu_scene::map_plan(s, resident, lamps)),
           tables(gpu_scene::intensity_tables(s)),
-          maps(r.device(), resident, lamps, plan) {}
+          maps(r.device(), resident, lamps, plan),
+          directional(r.device(), resident, lamps, directional_plan()) {}
 
     struct Picture {
         gpu_scene::LampList list;
         shared::ClusterGrid grid;
         std::vector<glm::vec4> colours, surfaces, pixels;
         shared::VisibilityReport pairs{};
+        uint32_t levels = 0;  // drawn for it
     };
     /// The light of lamps alone.
     Picture render(const gpu_scene::View& view, bool all_lamps = false) {
         Picture p{.list = gpu_scene::lamp_list(lamps, tables, poses, view)};
         if (maps.plan(p.list, poses, view, budget)) maps.draw(poses);
+        p.levels = directional.plan(p.list, poses, view);
+        if (p.levels > 0) directional.draw(poses);
         graph::FrameGraph graph;
         const render::FrameContext frame = rig.frame(graph, view);
         const render::GBuffer g = render::add_gbuffer(frame, resident, poses);
@@ -51,7 +57,8 @@ struct Lit {
                               surface = keep<glm::vec4>(graph, g.surface);
         const LitBlocks lit =
             light(frame, g, p.list, upload(graph, tables), {},
-                  {.emission_limit = 0, .all_lamps = all_lamps, .maps = maps.maps(graph, p.list, poses, view)});
+                  {.emission_limit = 0, .all_lamps = all_lamps, .maps = maps.maps(graph, p.list, poses, view)},
+                  directional.maps(graph, p.list, poses, view));
         const graph::Resource picture = keep<glm::vec4>(graph, lit.scene),
                               report = keep<shared::VisibilityReport>(graph, lit.blocks.visibility);
         rig.run(graph);
@@ -60,6 +67,14 @@ struct Lit {
         p.surfaces = rig.got<glm::vec4>(surface), p.pixels = rig.got<glm::vec4>(picture);
         p.pairs = rig.got<shared::VisibilityReport>(report).at(0);
         return p;
+    }
+
+private:
+    gpu_scene::DirectionalPlan directional_plan() const {
+        uint32_t count = 0;
+        for (const gpu_scene::PlacedLamp& placed : lamps)
+            count += placed.lamp.kind == scene::Lamp::Kind::Directional ? 1 : 0;
+        return gpu_scene::directional_plan(count, gpu_scene::extent_of(resident, poses.world));
     }
 };
 

@@ -7,6 +7,7 @@
 #include "gpu_scene/intensity_tables.h"
 #include "gpu_scene/retro.h"
 #include "passes/shade_reference.h"
+#include "render/passes/directional_visibility.h"
 #include "render/passes/shade.h"
 #include "support/compare.h"
 #include "support/texels.h"
@@ -52,11 +53,12 @@ struct LitBlocks {
 };
 inline LitBlocks light(const render::FrameContext& frame, const render::GBuffer& g, const gpu_scene::LampList& list,
                        const render::TableTexels& tables, const render::ClusterSettings& clusters,
-                       const render::ShadeSettings& settings) {
+                       const render::ShadeSettings& settings, const render::DirectionalMapsOfFrame& directional = {}) {
     LitBlocks lit{
         .clusters = render::add_clusters(frame, g.surface, list, tables, clusters), .blocks = {}, .scene = {}};
     lit.blocks = render::add_blocks(frame, g, lit.clusters);
     lit.blocks = render::add_visibility(frame, g, lit.clusters, lit.blocks, settings.maps, settings.faint);
+    lit.blocks = render::add_directional_visibility(frame, g, lit.clusters, lit.blocks, directional);
     lit.blocks =
         render::add_merging(frame, g, lit.clusters, lit.blocks, settings.all_lamps ? -1 : settings.merge_tolerance);
     lit.scene = render::add_shading(frame, g, lit.clusters, lit.blocks, settings);

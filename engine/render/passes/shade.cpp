@@ -24,7 +24,8 @@ enum ShadeVariant : uint32_t {
     kRoads = 128,
     kRetro = 256,
     kMaps = 512,
-    kLookups = 1024
+    kLookups = 1024,
+    kDirectionalMaps = 2048
 };
 
 // The kinds of lamps and surfaces in the frame.
@@ -36,9 +37,9 @@ uint32_t frame_variant(const Clusters& clusters, bool retro) {
 
 const gpu::Kernel& shade_kernel(const gpu::KernelCache& kernels, const PixelGroups& groups, uint32_t variant) {
     const auto has = [variant](ShadeVariant bit) -> uint32_t { return variant & bit ? 1 : 0; };
-    return kernels.get(
-        kShade, {groups.width, groups.height, groups.rows, has(kEveryLamp), has(kCones), has(kPowers), has(kTables),
-                 has(kListed), has(kMerged), has(kGlossy), has(kRoads), has(kRetro), has(kMaps), has(kLookups)});
+    return kernels.get(kShade, {groups.width, groups.height, groups.rows, has(kEveryLamp), has(kCones), has(kPowers),
+                                has(kTables), has(kListed), has(kMerged), has(kGlossy), has(kRoads), has(kRetro),
+                                has(kMaps), has(kLookups), has(kDirectionalMaps)});
 }
 
 // What is in the blocks of a class, as bits of a shading kernel, beside the lamps that the frame has.
@@ -88,6 +89,7 @@ graph::Resource add_shading(const FrameContext& frame, const GBuffer& g, const C
         if (variant & kListed && settings.all_lamps) variant |= kEveryLamp;
         if (variant & kListed && settings.maps.lamps)
             variant |= kMaps | (settings.all_lamps || c.variant & kRetro ? uint32_t{kLookups} : 0u);
+        if (blocks.directional_shares) variant |= kDirectionalMaps;
         frame.graph.dispatch(
             c.name, shade_kernel(frame.kernels, groups, variant),
             {load(g.reflectance), load(g.surface), update(g.emission), sample(clusters.lamps), sample(blocks.counts),
@@ -95,7 +97,8 @@ graph::Resource add_shading(const FrameContext& frame, const GBuffer& g, const C
              sample(blocks.class_counts), sample(blocks.class_blocks),
              sample(settings.maps.lamps ? settings.maps.lamps : clusters.lamps),
              sample(settings.maps.lamps ? settings.maps.distances : clusters.lamps),
-             sample(settings.maps.lamps ? blocks.shares : blocks.entries)},
+             sample(settings.maps.lamps ? blocks.shares : blocks.entries),
+             sample(blocks.directional_shares ? blocks.directional_shares : blocks.entries)},
             push,
             graph::Arguments{blocks.class_counts, uint64_t(push.block_class) * shared::kClassWords * sizeof(uint32_t)});
     }

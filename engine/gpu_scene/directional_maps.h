@@ -1,0 +1,43 @@
+// Where the maps of directional lamps lie (shared/directional_map.h). SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "gpu_scene/gpu_scene.h"
+#include "gpu_scene/lamp_maps.h"
+#include "shared/directional_map.h"
+
+namespace vesper::gpu_scene {
+
+constexpr uint64_t kMostDirectionalTexels = 32u << 20u;                       ///< of all lamps: 64 MiB
+constexpr uint32_t kMostDirectionalSide = 2048, kLeastDirectionalSide = 256;  ///< texels
+
+/// Maps of all directional lamps of a scene.
+struct DirectionalPlan {
+    uint32_t lamps = 0;
+    uint32_t levels = 1;  ///< so many that they hold the scene wherever in it the eye is, if kDirectionalLevels suffice
+    uint32_t side = 0;    ///< of a level, texels, a power of two; 0: there are no lamps, or too many
+
+    uint64_t texels_of_level() const { return uint64_t(side) * side; }
+    uint64_t texels() const { return lamps * levels * texels_of_level(); }
+};
+/// `extent`: of the scene, m.
+DirectionalPlan directional_plan(uint32_t lamps, double extent);
+/// The diagonal of a box around everything in a scene, m.
+double extent_of(const GpuScene& scene, std::span<const glm::dmat4> world);
+
+/// Half the side of the square of a level, m.
+double half_width_of(uint32_t level);
+/// The middle of a level about an eye (world, m), in the axes of the map: it moves in steps of kLevelStep half widths.
+glm::dvec3 middle_of(const glm::dmat3& rotation, glm::dvec3 eye, uint32_t level);
+
+/// The maps of a lamp of this angle (rad) as shaders see them in a frame of `view`. `number`: of the lamp among
+/// directional ones.
+shared::DirectionalMap directional_map(const DirectionalPlan& plan, uint32_t number, const glm::dmat3& rotation,
+                                       double angle, const View& view);
+/// Of the eye of a view, m.
+glm::dvec3 eye_of(const View& view);
+
+}  // namespace vesper::gpu_scene

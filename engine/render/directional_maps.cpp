@@ -1,0 +1,81 @@
+#include "render/directional_maps.h"
+
+#include <algorithm>
+#include <string>
+
+#include "base/error.h"
+
+namespace vesper::render {
+
+DirectionalMaps::DirectionalMaps(gpu::Device& device, const gpu_scene::GpuScene& resident,
+                                 const std::vector<gpu_scene::PlacedLamp>& lamps,
+                                 const gpu_scene::DirectionalPlan& plan)
+    : resident_(resident),
+      lamps_(lamps),
+      plan_(plan),
+      first_(uint32_t(lamps.size()) - plan.lamps),
+      arena_(device),
+      levels_(plan.lamps * plan.levels),
+      kernels_(device),
+      pipelines_(device),
+      executor_(device) {
+    if (plan.lamps == 0) return;
+    if (plan.side == 0)
+        throw Error("shadows of " + std::to_string(plan.lamps) + " directional lights take maps of more than " +
+                    std::to_string(gpu_scene::kMostDirectionalTexels) +
+                    " texels; without shadows the scene can be rendered");
+    distances_ = gpu::make_buffer(device, plan.texels() * sizeof(uint16_t),
+                                  VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
+                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    arena_.bind(distances_.get());
+}
+
+uint32_t DirectionalMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses,
+                               const gpu_scene::View& view) {
+    to_draw_.clear();
+    if (list.counts.directional == 0) return 0;
+    if (world_ != poses.world) {
+        std::ranges::fill(levels_, Level{});
+        world_ = poses.world;
+    }
+    const glm::dvec3 eye = gpu_scene::eye_of(view);
+    for (uint32_t i = list.placed(); i < list.lamps.size(); ++i) {
+        const uint32_t number = list.indices[i] - first_;
+        const glm::dmat3 rotation = gpu_scene::map_frame(poses.world[lamps_[list.indices[i]].node]).rotation;
+        for (uint32_t k = 0; k < plan_.levels; ++k) {
+            const Level wanted{rotation, gpu_scene::middle_of(rotation, eye, k)};
+            const uint32_t at = number * plan_.levels + k;
+            if (levels_[at] == wanted) continue;
+            levels_[at] = wanted;
+            to_draw_.push_back({rotation, wanted.middle, gpu_scene::half_width_of(k), at * plan_.texels_of_level()});
+        }
+    }
+    return uint32_t(to_draw_.size());
+}
+
+void DirectionalMaps::draw(const gpu_scene::SceneFrame& poses) {
+    graph::FrameGraph graph;
+    const graph::Resource distances =
+        graph.lasting("directional distances", distances_.get(), plan_.texels() * sizeof(uint16_t), VK_FORMAT_R32_UINT);
+    add_directional_maps({graph, kernels_, pipelines_, {}}, resident_, poses, to_draw_, plan_.side, distances);
+    executor_.run(graph);
+    to_draw_.clear();
+}
+
+DirectionalMapsOfFrame DirectionalMaps::maps(graph::FrameGraph& graph, const gpu_scene::LampList& list,
+                                             const gpu_scene::SceneFrame& poses, const gpu_scene::View& view) const {
+    std::vector<shared::DirectionalMap> lamps;
+    for (uint32_t i = list.placed(); i < list.lamps.size(); ++i) {
+        const gpu_scene::PlacedLamp& placed = lamps_[list.indices[i]];
+        const glm::dmat3 rotation = gpu_scene::map_frame(poses.world[placed.node]).rotation;
+        lamps.push_back(gpu_scene::directional_map(plan_, list.indices[i] - first_, rotation,
+                                                   double(placed.lamp.angular_diameter), view));
+    }
+    if (lamps.empty()) return {};
+    return {graph.upload("directional maps", lamps, VK_FORMAT_R32G32B32A32_SFLOAT),
+            graph.external("directional distances", distances_.get(), plan_.texels() * sizeof(uint16_t),
+                           VK_FORMAT_R16_SFLOAT),
+            plan_.levels, plan_.side};
+}
+
+}  // namespace vesper::render

@@ -1,0 +1,54 @@
+// Maps of a scene's directional lamps, kept from frame to frame. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "gpu/graphics_pipeline.h"
+#include "gpu/kernel_cache.h"
+#include "gpu_scene/directional_maps.h"
+#include "graph/executor.h"
+#include "render/passes/directional_map.h"
+#include "render/passes/directional_visibility.h"
+
+namespace vesper::render {
+
+/// Owns the maps on the device. A level is drawn when the eye has moved on by a step of it, when its lamp turns, and
+/// all are when anything in the scene moves: what a map holds depends on the frame alone. Not thread-safe.
+class DirectionalMaps {
+public:
+    /// Throws Error where there are too many directional lamps.
+    DirectionalMaps(gpu::Device& device, const gpu_scene::GpuScene& resident,
+                    const std::vector<gpu_scene::PlacedLamp>& lamps, const gpu_scene::DirectionalPlan& plan);
+
+    /// Finds which levels are out of date for a frame; returns how many.
+    uint32_t plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses, const gpu_scene::View& view);
+    /// Draws them, while no frame uses any map, and waits. Throws Error.
+    void draw(const gpu_scene::SceneFrame& poses);
+    /// The maps of the directional lamps of a list, for a frame of `view`.
+    DirectionalMapsOfFrame maps(graph::FrameGraph& graph, const gpu_scene::LampList& list,
+                                const gpu_scene::SceneFrame& poses, const gpu_scene::View& view) const;
+    uint64_t bytes() const { return arena_.bytes() + executor_.heap_bytes(); }  ///< of device memory
+
+private:
+    /// What a level was drawn for.
+    struct Level {
+        glm::dmat3 rotation{0};
+        glm::dvec3 middle{0};
+        bool operator==(const Level&) const = default;
+    };
+
+    const gpu_scene::GpuScene& resident_;
+    const std::vector<gpu_scene::PlacedLamp>& lamps_;
+    gpu_scene::DirectionalPlan plan_;
+    uint32_t first_;  // of the directional ones among lamps_
+    gpu::Arena arena_;
+    gpu::OwnedBuffer distances_;
+    std::vector<Level> levels_;  // lamp by lamp
+    std::vector<glm::dmat4> world_;
+    std::vector<LevelToDraw> to_draw_;
+    gpu::KernelCache kernels_;
+    gpu::GraphicsPipelineCache pipelines_;
+    graph::Executor executor_;
+};
+
+}  // namespace vesper::render

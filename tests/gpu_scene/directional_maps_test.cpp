@@ -1,0 +1,66 @@
+// Levels of maps of directional lamps about the eye. SPDX-License-Identifier: MIT
+#include "gpu_scene/directional_maps.h"
+
+#include <gtest/gtest.h>
+
+#include "support/noise.h"
+
+namespace vesper::test::directional_maps_test {
+namespace {
+
+TEST(DirectionalMaps, LevelsReachThroughTheScene) {
+    EXPECT_EQ(gpu_scene::directional_plan(1, 0).levels, 1u);
+    EXPECT_EQ(gpu_scene::directional_plan(1, 14).levels, 1u);
+    EXPECT_EQ(gpu_scene::directional_plan(1, 29).levels, 2u);
+    EXPECT_EQ(gpu_scene::directional_plan(1, 500).levels, 7u);
+    EXPECT_EQ(gpu_scene::directional_plan(1, 1e9).levels, shared::kDirectionalLevels);
+}
+
+TEST(DirectionalMaps, ManyLampsHaveSmallerMapsInTheSameMemory) {
+    EXPECT_EQ(gpu_scene::directional_plan(0, 1e4).side, 0u);
+    EXPECT_EQ(gpu_scene::directional_plan(1, 1e4).side, 2048u);
+    EXPECT_EQ(gpu_scene::directional_plan(4, 1e4).side, 1024u);
+    for (uint32_t lamps = 1; lamps <= 64; ++lamps) {
+        const gpu_scene::DirectionalPlan plan = gpu_scene::directional_plan(lamps, 1e4);
+        EXPECT_GE(plan.side, gpu_scene::kLeastDirectionalSide) << lamps;
+        EXPECT_LE(plan.texels(), gpu_scene::kMostDirectionalTexels) << lamps;
+    }
+    EXPECT_EQ(gpu_scene::directional_plan(65, 1e4).side, 0u) << "which is refused";
+}
+
+// A level moves in steps and holds what is near the eye, far from the origin too.
+TEST(DirectionalMaps, LevelsMoveInSteps) {
+    Noise noise(4);
+    for (int trial = 0; trial < 200; ++trial) {
+        const glm::dmat3 rotation =
+            gpu_scene::map_frame(glm::dmat4(glm::dmat3(noise.facing(0.1), noise.facing(0.2), noise.facing(0.3))))
+                .rotation;
+        const glm::dvec3 eye = 1e5 * noise.facing(0.1);
+        for (uint32_t level = 0; level < 8; ++level) {
+            const double step = double(shared::kLevelStep) * gpu_scene::half_width_of(level);
+            const glm::dvec3 middle = gpu_scene::middle_of(rotation, eye, level), off = middle - rotation * eye;
+            for (int axis = 0; axis < 3; ++axis) EXPECT_LE(std::abs(off[axis]), step / 2 * (1 + 1e-9));
+            const glm::dvec3 again = gpu_scene::middle_of(rotation, eye + 1e-6 * noise.facing(0.1), level);
+            EXPECT_TRUE(again == middle || glm::distance(again, middle) > 0.9 * step);
+        }
+    }
+}
+
+TEST(DirectionalMaps, AShaderTurnsAndMovesPointsAsTheHost) {
+    const gpu_scene::DirectionalPlan plan{.lamps = 2, .levels = 3, .side = 256};
+    gpu_scene::View view;
+    view.world_to_view =
+        glm::translate(glm::mat4_cast(glm::angleAxis(0.5, glm::dvec3(0, 1, 0))), glm::dvec3(-1e4, 3, 7));
+    const glm::dmat3 rotation =
+        gpu_scene::map_frame(glm::mat4_cast(glm::angleAxis(-1.1, glm::normalize(glm::dvec3(1, 0.1, 0.3))))).rotation;
+    const shared::DirectionalMap map = gpu_scene::directional_map(plan, 1, rotation, 0.2, view);
+    EXPECT_EQ(map.first, 3.0f * 256 * 256 / shared::kMapUnit);
+    EXPECT_NEAR(double(map.radius), std::tan(0.1), 1e-7);
+    const glm::dvec3 in_view(2, -1, -30), world(glm::inverse(view.world_to_view) * glm::dvec4(in_view, 1));
+    const glm::dquat turn(double(map.turn.w), double(map.turn.x), double(map.turn.y), double(map.turn.z));
+    const glm::dvec3 want = rotation * world - gpu_scene::middle_of(rotation, gpu_scene::eye_of(view), 2);
+    EXPECT_LT(glm::distance(turn * in_view - glm::dvec3(map.middle[2]), want), 1e-5);
+}
+
+}  // namespace
+}  // namespace vesper::test::directional_maps_test

@@ -1,0 +1,109 @@
+// Maps of directional lamps on the device: against rays along the light. SPDX-License-Identifier: MIT
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/packing.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "passes/directional_map_reference.h"
+#include "render/passes/directional_map.h"
+#include "support/occluders.h"
+#include "support/ray_caster.h"
+#include "support/texels.h"
+
+namespace vesper::test::directional_map_test {
+namespace {
+
+std::vector<float> draw(PassRig& rig, const scene::Scene& scene, std::span<const render::LevelToDraw> levels,
+                        uint32_t side, uint32_t texels) {
+    const gpu_scene::GpuScene resident(rig.device(), scene);
+    gpu::Arena arena(rig.device());
+    const std::vector<uint32_t> nothing(texels / 2, 0x12341234);
+    const auto buffer =
+        gpu_scene::upload_buffer(rig.device(), arena, std::as_bytes(std::span(nothing)),
+                                 VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
+                                     VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    graph::FrameGraph graph;
+    const graph::Resource words = graph.lasting("distances", buffer.get(), texels * 2, VK_FORMAT_R32_UINT);
+    render::add_directional_maps(rig.frame(graph, VkExtent2D{1, 1}), resident,
+                                 {scene::world_transforms(scene, 0), {}, {}, {}, {}}, levels, side, words);
+    const graph::Resource distances = PassRig::want<uint32_t>(graph, words, texels / 2);
+    rig.run(graph);
+    std::vector<float> drawn;
+    for (const uint32_t word : rig.got<uint32_t>(distances)) {
+        const glm::vec2 two = glm::unpackHalf2x16(word);
+        drawn.push_back(two.x), drawn.push_back(two.y);
+    }
+    return drawn;
+}
+
+OccluderScene yard() {
+    OccluderScene s;
+    s.plate({0, -4, 0}, {30, 0, 0}, {0, 0, 30});
+    s.box({3, -3, -2}, {0.9f, 1, 2});
+    s.box({-4, -2, 1}, {0.2f, 2, 0.2f});
+    s.box({0.5f, 20, 0.3f}, {0.6f, 0.1f, 0.6f});
+    s.plate({-8, 0, 0}, {0, 6, 0}, {0, 0.5f, 9});
+    return s;
+}
+
+TEST(DirectionalMap, HoldsTheFirstSurfaceAlongTheLight) {
+    PassRig rig;
+    OccluderScene s = yard();
+    const RayCaster rays(s.scene(), scene::world_transforms(s.scene(), 0));
+    constexpr uint32_t kSide = 256;
+    for (const double tilt : {0.0, 0.9}) {
+        SCOPED_TRACE("tilt " + std::to_string(tilt));
+        const glm::dmat4 pose = glm::mat4_cast(glm::angleAxis(tilt - 1.57, glm::normalize(glm::dvec3(1, 0.1, 0.2))));
+        const glm::dmat3 rotation = gpu_scene::map_frame(pose).rotation;
+        const render::LevelToDraw levels[] = {{rotation, {1, 2, -3}, 16, kSide * kSide}, {rotation, {4, 0, 8}, 64, 0}};
+        const std::vector<float> drawn = draw(rig, s.scene(), levels, kSide, 2 * kSide * kSide);
+        for (const render::LevelToDraw& l : levels) {
+            const reference::Level level{rotation, l.middle, l.half_width, kSide};
+            const glm::dvec3 way = glm::transpose(rotation)[2];
+            const auto distance_at = [&](glm::dvec2 texel) {
+                const glm::dvec3 at = reference::on_level(level, texel);
+                return 2000 * rays.hit(at - 1000.0 * way, at + 1000.0 * way, 0, 1, [](uint32_t) { return true; }) -
+                       1000;
+            };
+            size_t compared = 0, surfaces = 0;
+            for (uint32_t y = 0; y < kSide; y += 3)
+                for (uint32_t x = 0; x < kSide; x += 3) {
+                    const glm::dvec2 middle(x + 0.5, y + 0.5);
+                    const double want = distance_at(middle);
+                    bool certain = true;
+                    for (const glm::dvec2 aside : {glm::dvec2(0.02, 0), {-0.02, 0}, {0, 0.02}, {0, -0.02}}) {
+                        const double other = distance_at(middle + aside);
+                        certain = certain && (std::isinf(want) ? std::isinf(other) : std::abs(other - want) < 0.05);
+                    }
+                    if (!certain) continue;
+                    ++compared, surfaces += std::isinf(want) ? 0 : 1;
+                    const double got = double(drawn[l.first + size_t(y) * kSide + x]);
+                    // A half has 11 bits; vertices are snapped to 1/256 of a texel, which moves steep surfaces.
+                    if (std::isinf(want)) {
+                        EXPECT_GE(got, 5e4) << x << " " << y;
+                    } else {
+                        EXPECT_NEAR(got, want, 1e-3 * std::abs(want) + 0.02) << x << " " << y;
+                    }
+                }
+            EXPECT_GT(compared, 6000u);
+            EXPECT_GT(surfaces, 500u);
+        }
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// Nothing is drawn of an empty scene, nor of glass.
+TEST(DirectionalMap, IsEmptyWhereNothingHides) {
+    PassRig rig;
+    OccluderScene s;
+    s.plate({0, 0, 0}, {3, 0, 0}, {0, 0, 3});
+    s.scene().materials[0].clear = true;
+    const render::LevelToDraw levels[] = {{glm::dmat3(1), {0, 0, 0}, 16, 0}};
+    for (const float distance : draw(rig, s.scene(), levels, 64, 64 * 64)) ASSERT_GE(distance, 5e4f);
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+}  // namespace
+}  // namespace vesper::test::directional_map_test

@@ -5,8 +5,6 @@
 #include "shade.h"
 SHARED_BEGIN
 
-const uint kBlocksInTurn = 8u;  // side by side: that a workgroup does, one after another
-
 struct VisibilityPush {
     ClusterGrid grid;
     uvec2 size;       // px

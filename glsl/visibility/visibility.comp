@@ -303,9 +303,8 @@ uvec4 see(uint x, uint y) {
 
 void main() {
     const uint even_rows = (push.blocks_y + 1u) / 2u, turn = gl_WorkGroupID.y;  // as in merge_lamps
-    const uint y = turn < even_rows ? 2u * turn : 2u * (turn - even_rows) + 1u, x = gl_WorkGroupID.x * kBlocksInTurn;
-    uvec4 pairs = uvec4(0u);
-    for (uint k = 0u; k < kBlocksInTurn && x + k < push.blocks_x; ++k) pairs += see(x + k, y);
+    const uint y = turn < even_rows ? 2u * turn : 2u * (turn - even_rows) + 1u;
+    const uvec4 pairs = see(gl_WorkGroupID.x, y);
     if (gl_LocalInvocationID.x != 0u) return;
     [[unroll]] for (int k = 0; k < 4; ++k) imageAtomicAdd(report, k, pairs[k]);
 }

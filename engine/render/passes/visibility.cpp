@@ -40,7 +40,7 @@ Blocks add_visibility(const FrameContext& frame, const GBuffer& surfaces, const 
                                           .capacity = blocks.capacity,
                                           .lamps = clusters.push.lamps,
                                           .faint = faint},
-                   graph::Groups{(blocks.columns + shared::kBlocksInTurn - 1) / shared::kBlocksInTurn, rows, 1});
+                   graph::Groups{blocks.columns, rows, 1});
     return blocks;
 }
 

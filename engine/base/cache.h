@@ -1,0 +1,27 @@
+// What is kept from run to run to spare work. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "base/digest.h"
+
+namespace vesper {
+
+/// Keeps bytes under digests of all that they depend on, as far as it can: it may forget any. Not thread-safe.
+/// Functions throw nothing but std::bad_alloc.
+class Cache {
+public:
+    virtual ~Cache() = default;
+
+    /// Fills `bytes` with what is kept. False, and `bytes` hold anything, where nothing is, or not just as many.
+    virtual bool read(const Digest::Value& key, std::span<std::byte> bytes) = 0;
+    /// False: write() does nothing any more.
+    virtual bool writes() const = 0;
+    virtual void write(const Digest::Value& key, std::span<const std::byte> bytes) = 0;
+    /// To be called after some writes: holds the cache to its size. Returns, once, why it writes no more; else nothing.
+    virtual std::string settle() = 0;
+};
+
+}  // namespace vesper

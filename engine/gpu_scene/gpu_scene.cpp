@@ -7,6 +7,7 @@
 #include "base/budget.h"
 #include "base/one_line.h"
 #include "gpu_scene/intensity_tables.h"
+#include "gpu_scene/occluders.h"
 #include "scene/reflectance.h"
 #include "shared/retro.h"
 #include "shared/shade.h"
@@ -93,7 +94,7 @@ gpu::OwnedBuffer upload_buffer(const gpu::Device& device, gpu::Arena& arena, std
 }
 
 GpuScene::GpuScene(const gpu::Device& device, const scene::Scene& scene, PictureFormat pictures)
-    : arena_(device), textures_(device, arena_, pictures) {
+    : arena_(device), textures_(device, arena_, pictures), occluders_(occluder_digest(scene)) {
     const Budget budget("preparing " + (scene.name.empty() ? "the scene" : one_line(scene.name)));
     upload_geometry(device, scene);
     place(scene);

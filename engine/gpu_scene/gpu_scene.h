@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/digest.h"
 #include "gpu/memory.h"
 #include "gpu_scene/textures.h"
 #include "gpu_scene/view.h"
@@ -59,8 +60,9 @@ public:
     VkBuffer indices() const { return indices_.get(); }
     /// Depth of the farthest point of any instance along the view axis, m; at least 0.
     float farthest_depth(const SceneFrame& frame, const View& view) const;
-    uint64_t triangles() const { return triangles_; }  ///< of all placements
-    uint64_t bytes() const { return arena_.bytes(); }  ///< of device memory
+    uint64_t triangles() const { return triangles_; }              ///< of all placements
+    uint64_t bytes() const { return arena_.bytes(); }              ///< of device memory
+    const Digest::Value& occluders() const { return occluders_; }  ///< see occluder_digest()
 
 private:
     void upload_geometry(const gpu::Device& device, const scene::Scene& scene);
@@ -75,6 +77,7 @@ private:
     std::vector<Placement> placements_;
     std::vector<Surface> surfaces_;
     uint64_t triangles_ = 0;
+    Digest::Value occluders_;
 };
 
 struct Sphere {

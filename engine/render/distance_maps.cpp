@@ -7,7 +7,7 @@
 #include <set>
 
 #include "gpu/commands.h"
-#include "render/passes/distance_map.h"
+#include "render/kept_maps.h"
 
 namespace vesper::render {
 namespace {
@@ -89,7 +89,9 @@ bool DistanceMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneF
 
 // Maps that may hold placements which have begun to move hold them no more.
 void DistanceMaps::forget_still(const std::vector<uint32_t>& placements) {
-    if (!placements.empty()) drawn_.assign(drawn_.size(), false);
+    if (placements.empty()) return;
+    drawn_.assign(drawn_.size(), false);
+    surroundings_.reset();
 }
 
 void DistanceMaps::drop_tiles(uint32_t lamp) {
@@ -258,27 +260,45 @@ void DistanceMaps::make_moves() {
     });
 }
 
-void DistanceMaps::draw(const gpu_scene::SceneFrame& poses) {
-    make_moves();
-    const auto run = [&](const std::vector<MapToDraw>& maps) {
-        if (maps.empty()) return;
-        graph::FrameGraph graph;
-        const graph::Resource distances = graph.lasting("map distances", distances_.get(),
-                                                        places_.texels() / 2 * sizeof(uint32_t), VK_FORMAT_R32_UINT);
-        add_distance_maps({graph, kernels_, pipelines_, {}}, resident_, poses, maps, distances);
-        executor_.run(graph);
-    };
-    std::vector<MapToDraw> maps, tiles;
+void DistanceMaps::draw(const std::vector<MapToDraw>& maps, const gpu_scene::SceneFrame& poses) {
+    if (std::ranges::all_of(maps, &MapToDraw::there)) return;
+    graph::FrameGraph graph;
+    const graph::Resource distances =
+        graph.lasting("map distances", distances_.get(), places_.texels() / 2 * sizeof(uint32_t), VK_FORMAT_R32_UINT);
+    add_distance_maps({graph, kernels_, pipelines_, {}}, resident_, poses, maps, distances);
+    executor_.run(graph);
+}
+
+void DistanceMaps::draw_maps(const gpu_scene::SceneFrame& poses) {
+    if (maps_to_draw_.empty()) return;
+    std::optional<KeptMaps> kept;
+    if (cache_) {
+        if (!surroundings_) surroundings_ = map_surroundings(kernels_.device(), resident_, moving_.still(), poses);
+        kept.emplace(kernels_.device(), *cache_, *surroundings_, distances_.get());
+    }
     std::vector<uint32_t> everything(resident_.placements().size());
     std::iota(everything.begin(), everything.end(), 0u);
+    std::vector<MapToDraw> maps;
     for (const uint32_t lamp : maps_to_draw_) {
         maps.push_back({places_[lamp], gpu_scene::map_frame(poses.world[lamps_[lamp].node]), fixtures_[lamp],
                         is_whole(lamp) ? everything : moving_.still()});
         if (moving_.moves(lamps_[lamp].node)) maps.back().layout.range *= kMovingReach;
     }
-    run(maps);
+    if (kept) {
+        const std::vector<std::vector<DrawnPlace>> places = drawn_places(maps);
+        for (size_t i = 0; i < maps.size(); ++i)
+            maps[i].there = !is_whole(maps_to_draw_[i]) && kept->find(maps[i], places[i]);
+        kept->upload();
+    }
+    draw(maps, poses);
+    if (kept) report_.note = kept->keep();
+    report_.kept = uint32_t(std::ranges::count(maps, true, &MapToDraw::there)), report_.maps -= report_.kept;
     for (const uint32_t lamp : maps_to_draw_) drawn_[lamp] = true, drawn_version_[lamp] = moving_.version();
+    maps_to_draw_.clear();
+}
 
+void DistanceMaps::draw_tiles(const gpu_scene::SceneFrame& poses) {
+    std::vector<MapToDraw> tiles;
     std::vector<std::vector<uint32_t>> placements;
     placements.reserve(tiles_to_draw_.size());
     for (const TileToDraw& tile : tiles_to_draw_) {
@@ -288,13 +308,19 @@ void DistanceMaps::draw(const gpu_scene::SceneFrame& poses) {
         tiles.push_back({places_[lamp], gpu_scene::map_frame(poses.world[lamps_[lamp].node]), fixtures_[lamp], of_tile,
                          MapTile{tile.key.second, {tile.key.x, tile.key.y}, tile.cover.saved, tile.save}});
     }
-    run(tiles);
+    draw(tiles, poses);
     for (const TileToDraw& tile : tiles_to_draw_)
         if (tile.cover.placements.empty()) {
             places_.give_tile(tile.cover.saved);
             covered_.erase(tile.key);
         }
-    maps_to_draw_.clear(), tiles_to_draw_.clear();
+    tiles_to_draw_.clear();
+}
+
+void DistanceMaps::draw(const gpu_scene::SceneFrame& poses) {
+    make_moves();
+    draw_maps(poses);
+    draw_tiles(poses);
 }
 
 VisibilityMaps DistanceMaps::maps(graph::FrameGraph& graph, const gpu_scene::LampList& list,

@@ -2,15 +2,19 @@
 #pragma once
 
 #include <map>
+#include <optional>
+#include <string>
 #include <tuple>
 #include <vector>
 
+#include "base/cache.h"
 #include "gpu/graphics_pipeline.h"
 #include "gpu/kernel_cache.h"
 #include "gpu_scene/lamp_maps.h"
 #include "graph/executor.h"
 #include "render/map_places.h"
 #include "render/moving_placements.h"
+#include "render/passes/distance_map.h"
 #include "render/passes/visibility.h"
 
 namespace vesper::render {
@@ -21,9 +25,11 @@ constexpr uint64_t kNoShadowBudget = ~uint64_t{0};
 struct MapReport {
     uint32_t lamps = 0;    ///< with a map
     uint32_t maps = 0;     ///< drawn anew
+    uint32_t kept = 0;     ///< taken from the cache, beside these
     uint32_t tiles = 0;    ///< drawn anew, beside those of these maps
     uint32_t carried = 0;  ///< maps and tiles that are out of date: the budget did not reach them
     uint64_t bytes = 0;    ///< of device memory
+    std::string note;      ///< why the cache keeps no more maps, in the frame after which it does not
 };
 
 /// Owns the maps on the device. A map holds what stands still around its lamp, drawn when its lamp moves or the view
@@ -34,6 +40,10 @@ class DistanceMaps {
 public:
     DistanceMaps(gpu::Device& device, const gpu_scene::GpuScene& resident,
                  const std::vector<gpu_scene::PlacedLamp>& lamps, const gpu_scene::MapPlan& plan);
+
+    /// Takes maps of lamps that stand still from a cache where it has them, and gives it those that are drawn; null:
+    /// draws all. The cache must outlive its use here.
+    void use(Cache* cache) { cache_ = cache; }
 
     /// Finds what is out of date for a frame. `budget`: of tiles of shared::kRegion texels square that are drawn, maps
     /// that hold nothing yet apart; a whole map counts as its tiles, but at least as 128, and a quarter of the budget
@@ -69,6 +79,9 @@ private:
     };
 
     void make_moves();
+    void draw_maps(const gpu_scene::SceneFrame& poses);
+    void draw_tiles(const gpu_scene::SceneFrame& poses);
+    void draw(const std::vector<MapToDraw>& maps, const gpu_scene::SceneFrame& poses);
     void forget_still(const std::vector<uint32_t>& placements);
     bool is_whole(uint32_t lamp) const { return whole_[lamp] || moving_.moves(lamps_[lamp].node); }
     void drop_tiles(uint32_t lamp);
@@ -95,6 +108,8 @@ private:
     std::map<TileKey, uint32_t> waiting_;  // frames for which tiles have been carried over
     std::map<uint32_t, uint32_t> waiting_maps_;
     MapReport report_;
+    Cache* cache_ = nullptr;
+    std::optional<Digest::Value> surroundings_;  // of maps that hold what stands still, see map_surroundings()
     gpu::KernelCache kernels_;
     gpu::GraphicsPipelineCache pipelines_;
     graph::Executor executor_;

@@ -58,6 +58,11 @@ void Renderer::set_scene(const scene::Scene& scene) {
     scene_ = std::move(data);
 }
 
+void Renderer::keep_maps(std::shared_ptr<Cache> cache) {
+    map_cache_ = std::move(cache);
+    if (maps_) maps_->use(map_cache_.get());
+}
+
 RenderSettings ldr_baseline(RenderSettings settings) {
     if (settings.tone_operator != Operator::Ldr) return settings;
     settings.paper_lambert = settings.unit_lamps = settings.lamps_alone = true;
@@ -109,7 +114,10 @@ Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const Render
 // Maps are drawn while no frame uses them.
 void Renderer::add_maps(graph::FrameGraph& graph, FrameInputs& in, const gpu_scene::SceneFrame& poses,
                         const gpu_scene::View& view, uint64_t budget) {
-    if (!maps_) maps_ = std::make_unique<DistanceMaps>(device_, scene_->resident, scene_->lamps, scene_->maps);
+    if (!maps_) {
+        maps_ = std::make_unique<DistanceMaps>(device_, scene_->resident, scene_->lamps, scene_->maps);
+        maps_->use(map_cache_.get());
+    }
     if (maps_->plan(in.lamps, poses, view, budget)) {
         frames_.wait();
         maps_->draw(poses);

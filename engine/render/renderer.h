@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/cache.h"
 #include "gpu_scene/cameras.h"
 #include "gpu_scene/gpu_scene.h"
 #include "gpu_scene/lamps.h"
@@ -66,6 +67,9 @@ public:
                 float seconds, const Outputs& outputs, const graph::SubmitSemaphores& semaphores);
     /// Waits for all submitted frames. Returns the results of the last one, once.
     std::optional<Frame> finish();
+    /// Where maps of what stands still are kept from run to run; null, as at first: nowhere. Pictures do not depend on
+    /// it. Throws nothing.
+    void keep_maps(std::shared_ptr<Cache> cache);
     /// Takes another scene, or the same after a change. The eye goes on.
     void set_scene(const scene::Scene& scene);
 
@@ -134,6 +138,7 @@ private:
 
     gpu::Device& device_;
     std::unique_ptr<const SceneData> scene_;
+    std::shared_ptr<Cache> map_cache_;
     std::unique_ptr<DistanceMaps> maps_;  // of scene_; none before a frame has shadows
     std::unique_ptr<DirectionalMaps> directional_maps_;
     FrameQueue frames_;  // waits for its frames, which use the rest

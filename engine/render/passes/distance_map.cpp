@@ -213,7 +213,9 @@ void add_distance_maps(const FrameContext& frame, const GpuScene& scene, const g
     graph::FrameGraph& graph = frame.graph;
     Collector collector(scene, poses);
     uint32_t number = 0;
-    for (const DrawnImage& image : fill_images(maps)) {
+    for (DrawnImage& image : fill_images(maps)) {
+        std::erase_if(image.squares, [](const Square& square) { return square.map->there; });
+        if (image.squares.empty()) continue;
         const std::string which = " " + std::to_string(number++);
         DrawnParts parts = parts_of(collector, scene, image);
         if (parts.instances.empty()) parts.instances.emplace_back();  // an upload is never empty
@@ -232,6 +234,19 @@ void add_distance_maps(const FrameContext& frame, const GpuScene& scene, const g
         graph.dispatch("store distances" + which, frame.kernels.get(kStore),
                        {sample(depth), sample(list), update(distances)}, graph::Groups{uint32_t(regions.size()), 1, 1});
     }
+}
+
+std::vector<std::vector<DrawnPlace>> drawn_places(std::span<const MapToDraw> maps) {
+    std::vector<std::vector<DrawnPlace>> places(maps.size());
+    for (const DrawnImage& image : fill_images(maps))
+        for (const Square& square : image.squares)
+            places[size_t(square.map - maps.data())].push_back({image.side, square.place});
+    return places;
+}
+
+void add_map_shaders(Digest& digest) {
+    for (const std::span<const uint32_t> spirv : {kMapShaders.vertex, kMapShaders.fragment, kStore.spirv})
+        digest.add_list(spirv);
 }
 
 }  // namespace vesper::render

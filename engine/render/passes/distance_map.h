@@ -3,7 +3,9 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
+#include "base/digest.h"
 #include "gpu_scene/lamp_maps.h"
 #include "render/frame_context.h"
 
@@ -24,6 +26,7 @@ struct MapToDraw {
     std::span<const uint32_t> fixture;     ///< placements that do not hide the lamp, ascending
     std::span<const uint32_t> placements;  ///< what else is drawn
     std::optional<MapTile> tile{};         ///< into this tile, over what it saved; without: into an empty map
+    bool there = false;  ///< its texels are there already: it has a place among those that are drawn, and no more
 };
 
 /// Draws placements around lamps, at the poses of `poses`, into their maps: texels of `distances`, r32ui, two halves a
@@ -32,5 +35,16 @@ struct MapToDraw {
 /// rounded to halves, 0.1 %.
 void add_distance_maps(const FrameContext& frame, const gpu_scene::GpuScene& scene, const gpu_scene::SceneFrame& poses,
                        std::span<const MapToDraw> maps, graph::Resource distances);
+
+/// Where a hemisphere or a tile is drawn. Coordinates are rounded there, so that texels depend on it by a bit.
+struct DrawnPlace {
+    uint32_t image_side;  ///< texels
+    glm::uvec2 corner;    ///< texels
+};
+/// Of maps that are drawn at the same time, in this order: the places of each.
+std::vector<std::vector<DrawnPlace>> drawn_places(std::span<const MapToDraw> maps);
+
+/// The shaders that draw them.
+void add_map_shaders(Digest& digest);
 
 }  // namespace vesper::render

@@ -14,6 +14,7 @@ themselves, no ambient light, so that a pixel holds lx. Lamps of less than the t
 """
 
 import argparse
+import os
 import re
 import subprocess
 import sys
@@ -256,6 +257,7 @@ def parse():
 
 def main():
     a = parse()
+    os.environ["VESPER_SHADOW_CACHE"] = "off"  # seconds are those of a first run
     try:
         with tempfile.TemporaryDirectory(prefix="vesper-oracle-") as folder:
             folder = Path(folder)

@@ -17,6 +17,7 @@
 #include "progress.h"
 #include "scene/scene.h"
 #include "scenes.h"
+#include "shadow_arguments.h"
 #include "start.h"
 #include "tone_arguments.h"
 
@@ -29,7 +30,8 @@ struct BenchArguments {
     uint32_t triangles = 10000;
     RunPlan run{.settings = {.frames = 48, .laps = 3, .warm_up = 4}, .render = {}, .camera = {}, .device = {}};
     apps::ToneArguments tone;
-    std::string json, picture, growth, tables, shadows = "on";
+    apps::ShadowArguments shadows;
+    std::string json, picture, growth, tables;
     std::vector<std::string> compared;
     bool no_start = false;
     apps::Command command;
@@ -77,7 +79,9 @@ std::vector<Planned> planned_runs(const BenchArguments& a) {
         s.tone_operator = apps::name_of(run.plan.render.tone_operator), s.glare = glare, s.channels = channels;
         s.width = apps::parse_size(size).width, s.height = apps::parse_size(size).height;
         s.threshold = double(run.plan.render.clusters.threshold);
-        s.shadows = run.plan.render.shadows = a.shadows == "on";
+        apps::set_shadows(a.shadows, run.plan.render);
+        s.shadows = run.plan.render.shadows;
+        if (!a.shadows.cache.empty()) run.plan.map_cache = apps::shadow_cache(a.shadows.cache);
         runs.push_back(std::move(run));
     };
     for (const std::string& scene : a.scenes)
@@ -148,8 +152,11 @@ void run(BenchArguments& a) {
     // Starts come before this process opens a device.
     std::vector<Start> starts;
     if (planned.size() == 1 && !a.no_start)
-        starts = time_starts(scenes.folder("shaders"),
-                             [&](const auto& shown) { first_frame(planned[0].plan, load(0), shown); });
+        starts = time_starts(scenes.folder("shaders"), [&](const auto& shown) {
+            RunPlan plan = planned[0].plan;
+            if (a.shadows.cache.empty()) plan.map_cache = apps::shadow_cache(scenes.folder("shadows"));
+            first_frame(plan, load(0), shown);
+        });
 
     BenchResult result = machine_of(a);
     const auto title = [&](const RunResult& measured) {
@@ -230,15 +237,13 @@ void add_bench(apps::Command program) {
                     "Illuminance below which a lamp counts as dark, lx")
         .check(apps::between(1e-9, 1e3))
         .shows_default();
-    program
-        .add_option("--shadows", a->shadows, "on: lamps light only what they see; off: they shine through everything")
-        .check(apps::one_of({"on", "off"}))
-        .shows_default();
+    apps::add_shadow_options(program, a->shadows, "all", "off; one that is empty at first for the timing of starts");
     program.add_option("--device", a->run.device,
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     apps::Option json = program.add_option("--json", a->json, "Write everything that was measured to a file");
     apps::Option picture = program.add_option("--picture", a->picture, "Write the last frame to a .png file");
-    program.add_flag("--no-start", a->no_start, "Do not time starts with a cold and a warm cache of shaders");
+    program.add_flag("--no-start", a->no_start,
+                     "Do not time starts with cold and warm caches of shaders and distance maps");
     apps::Option matrix = program.add_option("--matrix", a->growth,
                                              "Drive the street with 64 to 4096 lamps at several sizes with several "
                                              "operators, and draw how time grows into a folder");

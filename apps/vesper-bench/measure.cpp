@@ -7,6 +7,7 @@
 
 #include "base/stopwatch.h"
 #include "machine.h"
+#include "shadow_arguments.h"
 
 namespace vesper::bench {
 namespace {
@@ -51,7 +52,9 @@ public:
         : plan_(plan),
           scene_(scene),
           seconds_(scene::animation_length(scene) > 0 ? scene::animation_length(scene) : kStanding),
-          renderer_(device, scene) {}
+          renderer_(device, scene) {
+        renderer_.keep_maps(plan.map_cache);
+    }
 
     /// Renders every channel at a part [0, 1) of the path, `step` s after the frame before.
     void frame(double part, double step, RunSamples* samples) {
@@ -63,6 +66,7 @@ public:
         std::vector<graph::Timing> timings;
         for (const gpu_scene::View& view : views) {
             last_ = renderer_.render(plan_.render, view, moment, float(step / double(views.size())), {});
+            apps::print_note(last_.maps);
             const graph::HostTimes& times = last_.host_times;
             const double parts[]{times.declare, times.plan, times.record, times.submit, times.wait};
             for (size_t i = 0; i < std::size(parts); ++i) host[1 + i] += parts[i];

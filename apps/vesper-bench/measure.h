@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "render/renderer.h"
@@ -14,6 +15,7 @@ struct RunPlan {
     RunSettings settings;  ///< lamps and triangles are filled in by what is found
     render::RenderSettings render;
     std::string camera, device;
+    std::shared_ptr<Cache> map_cache;  ///< see Renderer::keep_maps
 
     VkExtent2D extent() const { return {settings.width, settings.height}; }
 };

@@ -38,7 +38,7 @@ void refuse_idle(const apps::Command& program, const DriveArguments& a) {
          {"--free"},
          "only that camera stands there: give --camera free"},
         {a.headless && !replays && shadows != a.settings.end() && shadows->second != "on",
-         {"--shadow-budget"},
+         {"--shadow-budget", "--shadow-cache"},
          "of which shadows? --shadows is off"},
     };
     for (const Rule& rule : rules)
@@ -144,6 +144,7 @@ void add_drive(apps::Command program) {
         "  vesper-drive --headless --replay mine.json --glare cie --age 60 --video mine.mp4\n");
     program.callback([a, program] {
         a->settings = DriveSettings::given(program);
+        if (program.count("--shadow-cache")) a->shadow_cache = program.option("--shadow-cache").results().back();
         check(program, *a);
         a->size_given = program.count("--size") > 0;
         if (a->headless)

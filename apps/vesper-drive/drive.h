@@ -22,6 +22,7 @@ struct DriveArguments {
     double fps = 0;       ///< of films, 1/s; 0: the recording's own frames, or 30
     uint64_t seed = 1;
     DriveSettings::Values settings;
+    std::string shadow_cache;  ///< as apps::shadow_cache() takes it
 
     // Of a window.
     std::string window = "1280x800", vsync = "wait", scaling = "fit", controllers;

@@ -19,6 +19,7 @@
 #include "print.h"
 #include "progress.h"
 #include "session.h"
+#include "shadow_arguments.h"
 #include "tone_arguments.h"
 #include "video.h"
 
@@ -224,6 +225,8 @@ void run_headless(const DriveArguments& a) {
     if (!outlet.wanted() && a.record.empty()) throw Error("nothing to do: give --video, --log or --record");
     gpu::Device device({.select = a.device});
     Session session(device, options, std::move(scenery));
+    session.keep_maps(apps::shadow_cache(a.shadow_cache));
+    session.on_maps = [](const render::MapReport& report) { apps::print_note(report); };
     Playback playback(std::move(drive.events), a.settings);
     outlet.open(playback.frames());
     session.on_contact = [&](const traffic::Contact& contact) { outlet.add(contact); };

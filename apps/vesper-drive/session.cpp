@@ -75,6 +75,11 @@ render::RenderSettings Session::frame_settings() const {
     return settings;
 }
 
+void Session::keep_maps(std::shared_ptr<Cache> cache) {
+    map_cache_ = std::move(cache);
+    renderer_->keep_maps(map_cache_);
+}
+
 void Session::begin_frame() { eye_step_ = rendered_ ? double(world_->steps() - *rendered_) * options_.time_step : 0; }
 
 void Session::end_frame(const shared::EyeState& eye) {
@@ -87,6 +92,7 @@ render::Frame Session::render(const gpu_scene::View& view, render::Outputs outpu
     begin_frame();
     render::Frame frame = renderer_->render(frame_settings(), view, moment(), float(eye_step_), outputs);
     end_frame(frame.eye);
+    if (on_maps) on_maps(frame.maps);
     return frame;
 }
 
@@ -96,6 +102,8 @@ ChannelMosaic Session::render(const Channels& channels, render::Outputs outputs)
     ChannelMosaic wall =
         wall_->render(*renderer_, channels, frame_settings(), view({1, 1}), moment(), float(eye_step_), outputs);
     end_frame(wall.shown.eye);
+    for (const render::Frame& channel : wall.channels)
+        if (on_maps) on_maps(channel.maps);
     return wall;
 }
 
@@ -105,6 +113,7 @@ void Session::use(gpu::Device& device) {
     renderer_.reset();
     device_ = &device;
     renderer_ = std::make_unique<render::Renderer>(device, scenery_.scene());
+    renderer_->keep_maps(map_cache_);
     if (rendered_) renderer_->set_eye(eye_);
     if (!had_wall) return;
     wall_ = std::make_unique<ChannelRenderer>(device);

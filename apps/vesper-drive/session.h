@@ -64,6 +64,10 @@ public:
     void set(const std::string& name, const std::string& value);
 
     // Pictures.
+    /// Where distance maps are kept from run to run (Renderer::keep_maps); at first nowhere. It is not recorded.
+    void keep_maps(std::shared_ptr<Cache> cache);
+    /// Called after a frame for each view of it.
+    std::function<void(const render::MapReport&)> on_maps;
     /// Tiles of distance maps drawn for a frame where the setting "shadow-budget" is not set; at first all. It is not
     /// recorded: a replay draws all unless it is told otherwise.
     void set_shadow_budget(uint64_t tiles) { shadow_budget_ = tiles; }
@@ -111,6 +115,7 @@ private:
     shared::EyeState eye_{};
     double eye_step_ = 0;
     uint64_t shadow_budget_ = render::kNoShadowBudget;
+    std::shared_ptr<Cache> map_cache_;
     std::unique_ptr<DriveRecorder> recorder_;
 };
 

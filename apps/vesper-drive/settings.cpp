@@ -9,6 +9,7 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/one_line.h"
+#include "shadow_arguments.h"
 #include "tone_arguments.h"
 
 namespace vesper::drive {
@@ -26,8 +27,7 @@ struct SettingsArguments {
     std::vector<double> free{0, 2, 0, 0, 0};
     double sun = 0, fov = 0;
     float threshold = render::ClusterSettings{}.threshold;
-    std::string shadows = "on";
-    uint64_t shadow_budget = render::kNoShadowBudget;
+    apps::ShadowArguments shadows;
 };
 
 void add(apps::Command command, SettingsArguments& a) {
@@ -50,15 +50,8 @@ void add(apps::Command command, SettingsArguments& a) {
     command.add_option("--threshold", a.threshold, "Illuminance below which a lamp counts as dark, lx")
         .check(apps::between(1e-9, 1e3))
         .shows_default();
-    command.add_option("--shadows", a.shadows, "on: lamps light only what they see; off: they shine through everything")
-        .check(apps::one_of({"on", "off"}))
-        .shows_default();
-    command
-        .add_option("--shadow-budget", a.shadow_budget,
-                    "Tiles of distance maps (64 x 64 texels) that are drawn for a frame; what is left is out of date "
-                    "in it\nDefault: " +
-                        std::to_string(kWindowShadowBudget) + " in a window, all without one and in replays")
-        .check(apps::not_negative());
+    apps::add_shadow_options(command, a.shadows,
+                             std::to_string(kWindowShadowBudget) + " in a window, all without one and in replays");
     command.help_group();
 }
 
@@ -70,6 +63,7 @@ const std::set<std::string>& setting_names() {
         add(known, a);
         std::set<std::string> found;
         for (const apps::Option& option : known.options()) found.insert(option.name().substr(2));
+        found.erase("shadow-cache");  // of the machine, and no part of a drive
         return found;
     }();
     return names;
@@ -133,7 +127,7 @@ void DriveSettings::apply(const Values& values) {
     render::RenderSettings render;
     static_cast<render::ToneChainSettings&>(render) = apps::tone_settings(a.tone);
     render.clusters.threshold = a.threshold;
-    render.shadows = a.shadows == "on", render.shadow_budget = a.shadow_budget;
+    apps::set_shadows(a.shadows, render);
     const FreeCamera free = free_camera_of(a.free);
     render_ = std::move(render);
     sun_ = command.count("--sun") ? std::optional(a.sun) : std::nullopt;

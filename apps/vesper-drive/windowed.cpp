@@ -16,6 +16,7 @@
 #include "picture_arguments.h"
 #include "print.h"
 #include "render/passes/operators.h"
+#include "shadow_arguments.h"
 #include "tone_arguments.h"
 
 namespace vesper::drive {
@@ -116,6 +117,7 @@ void WindowedDrive::open_session(const Drive& drive) {
     session_ = std::make_unique<Session>(*device_, start, std::move(scenery));
     if (arguments_.replay.empty()) session_->set_shadow_budget(kWindowShadowBudget);
     watch_contacts();
+    keep_maps();
     apps::print_notes(session_->scenery().notes());
 }
 
@@ -137,6 +139,7 @@ void WindowedDrive::reload(const std::string& scene) {
         session_ = std::move(made);
         session_->set_shadow_budget(kWindowShadowBudget);
         watch_contacts();
+        keep_maps();
     } catch (const Error& error) {
         return say(error.what(), true);
     }
@@ -250,6 +253,12 @@ void WindowedDrive::watch_contacts() {
         say(format("collision with %s at %.0f km/h", contact.node.c_str(), contact.speed * 3.6));
         if (log_) log_->add(contact);
     };
+}
+
+void WindowedDrive::keep_maps() {
+    if (!map_cache_) map_cache_ = apps::shadow_cache(arguments_.shadow_cache);
+    session_->keep_maps(map_cache_);
+    session_->on_maps = [](const render::MapReport& report) { apps::print_note(report); };
 }
 
 void WindowedDrive::draw(const render::Outputs& outputs, ChannelMosaic& wall) {

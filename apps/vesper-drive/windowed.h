@@ -55,6 +55,7 @@ private:
     void move_camera(double seconds);
     void advance(double seconds);
     void watch_contacts();
+    void keep_maps();
     bool replay_to_next_frame();
     void render(bool moved);
     void draw(const render::Outputs&, ChannelMosaic&);
@@ -68,6 +69,7 @@ private:
     DriveArguments arguments_;
     Window window_;
     std::unique_ptr<gpu::Device> device_;
+    std::shared_ptr<Cache> map_cache_;
     std::unique_ptr<Session> session_;
     std::unique_ptr<Screen> screen_;
     bool shown_ = false;  // a picture, since the device is there

@@ -19,6 +19,7 @@
 #include "progress.h"
 #include "render/renderer.h"
 #include "scene_notes.h"
+#include "shadow_arguments.h"
 #include "statistics.h"
 #include "tone_arguments.h"
 #include "tone_log.h"
@@ -29,8 +30,9 @@ namespace {
 using apps::format, apps::print;
 
 struct RenderArguments {
-    std::string scene, camera, size = "1680x1050", device, lambert = "physical", shadows = "on";
+    std::string scene, camera, size = "1680x1050", device, lambert = "physical";
     apps::ToneArguments tone;
+    apps::ShadowArguments shadows;
     apps::GlareArguments glare;
     std::vector<std::string> outputs;
     std::string statistics_file, log_file, replay_file, sources_file;
@@ -90,9 +92,9 @@ void print_statistics(const RenderArguments& arguments, const gpu::Device& devic
             lit, dark, mixed, faint);
     if (arguments.settings.shadows)
         print(
-            "distance maps: %u, %.0f MiB; for this frame %u were drawn anew, and %u tiles of others; %u are out of "
-            "date\n",
-            frame.maps.lamps, double(frame.maps.bytes) / (1 << 20), frame.maps.maps, frame.maps.tiles,
+            "distance maps: %u, %.0f MiB; for this frame %u were drawn anew, %u taken from the cache, and %u tiles of "
+            "others drawn; %u are out of date\n",
+            frame.maps.lamps, double(frame.maps.bytes) / (1 << 20), frame.maps.maps, frame.maps.kept, frame.maps.tiles,
             frame.maps.carried);
     if (frame.directional_levels > 0)
         print("maps of directional lights: %u levels were drawn for this frame\n", frame.directional_levels);
@@ -137,7 +139,7 @@ void check_arguments(RenderArguments& arguments) {
     static_cast<render::ToneChainSettings&>(settings) = apps::tone_settings(arguments.tone);
     apps::check_target(arguments.glare, settings);
     settings.paper_lambert = arguments.lambert == "paper";
-    settings.shadows = arguments.shadows == "on";
+    apps::set_shadows(arguments.shadows, settings);
     io::announce_read(arguments.scene);
     io::announce_read(arguments.replay_file);
     io::announce_read(arguments.glare.lamps);
@@ -242,6 +244,7 @@ void run(RenderArguments& arguments) {
 
     gpu::Device device({.select = arguments.device});
     render::Renderer renderer(device, scene);
+    renderer.keep_maps(apps::shadow_cache(arguments.shadows.cache));
     apps::Progress progress("rendering", arguments.frames);
     std::vector<double> milliseconds;
     std::optional<io::GrowingFile> log, sources;
@@ -260,6 +263,7 @@ void run(RenderArguments& arguments) {
             renderer.render(arguments.settings, view, moment, step,
                             {.display = outputs.display, .scene = outputs.scene || (last && wants_statistics)});
         milliseconds.push_back(frame.milliseconds);
+        apps::print_note(frame.maps);
         if (const std::string note = apps::photometry_note(loaded, arguments.scene); index == 0 && !note.empty())
             apps::print_note(note);
         vision::GlareReport glare;
@@ -338,13 +342,7 @@ void add_render(apps::Command program) {
     apps::add_tone_options(command, a->tone);
     apps::add_glare_options(command, a->glare);
     command.help_group("Light");
-    command
-        .add_option("--shadows", a->shadows, "on: lamps light only what they see; off: they shine through everything")
-        .check(apps::one_of({"on", "off"}))
-        .shows_default();
-    command.add_option("--shadow-budget", a->settings.shadow_budget,
-                       "Tiles of distance maps (64 x 64 texels) that are drawn for a frame where lamps or bodies move; "
-                       "what is left is out of date in it (default: all)");
+    apps::add_shadow_options(command, a->shadows);
     command.add_flag("--all-lamps,--all-lights", a->settings.all_lamps,
                      "Shade every lamp above the threshold in every pixel (slow, for comparison)");
     command.help_group();
@@ -353,8 +351,8 @@ void add_render(apps::Command program) {
         "  vesper render night.gltf --camera driver -o night.exr\n"
         "  mkdir drive && vesper render night.gltf --camera driver --frames 300 --dt 0.0333 -o drive/%04d.png\n");
     command.callback([a, command] {
-        a->options =
-            apps::options_of(command, {"--output", "--log", "--glare-sources", "--stats", "--stats-json", "--plan"});
+        a->options = apps::options_of(
+            command, {"--output", "--log", "--glare-sources", "--stats", "--stats-json", "--plan", "--shadow-cache"});
         run(*a);
     });
 }

@@ -1,0 +1,145 @@
+// `--shadow-cache` of the programs: the same bytes without a cache, with an empty one and with a full one; and what is
+// said where nothing can be kept. SPDX-License-Identifier: MIT
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "places.h"
+#include "support/program.h"
+
+namespace vesper::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kScene = VESPER_SOURCE_DIR "/data/glare/headlamps.gltf --size 83x51 ";
+constexpr const char* kNoVariables = "env -u VESPER_SHADOW_CACHE -u XDG_CACHE_HOME -u HOME";
+
+size_t files_in(const fs::path& folder) {
+    size_t files = 0;
+    for (const auto& entry : fs::directory_iterator(folder)) files += entry.path().extension() == ".vesper-map" ? 1 : 0;
+    return files;
+}
+
+class MapCacheOfRender : public ProgramTest {
+protected:
+    void render(const std::string& options, const std::string& environment = "") {
+        ASSERT_EQ(run("render " + kScene + options, environment), 0) << said;
+    }
+    bool printed_has(const std::string& text) const { return printed.find(text) != printed.npos; }
+    size_t notes() const { return size_t(std::count(said.begin(), said.end(), '\n')); }
+};
+struct MapCacheOfDrive : ProgramTest {
+    MapCacheOfDrive() : ProgramTest(VESPER_DRIVE) {}
+};
+struct MapCacheOfBench : ProgramTest {
+    MapCacheOfBench() : ProgramTest(VESPER_BENCH) {}
+};
+
+TEST_F(MapCacheOfRender, ChangesNoByte) {
+    render("-o off.exr --shadow-cache off --stats");
+    EXPECT_TRUE(printed_has(" 0 taken from the cache"));
+    render("-o cold.exr --shadow-cache maps --stats");
+    EXPECT_TRUE(printed_has(" 0 taken from the cache"));
+    EXPECT_EQ(said, "");
+    const size_t kept = files_in(folder / "maps");
+    EXPECT_GT(kept, 0u);
+    render("-o warm.exr --shadow-cache maps --stats");
+    EXPECT_TRUE(printed_has(" 0 were drawn anew, " + std::to_string(kept) + " taken from the cache"));
+    for (const auto& entry : fs::directory_iterator(folder / "maps")) {
+        fs::resize_file(entry.path(), fs::file_size(entry.path()) - 1);
+        break;
+    }
+    render("-o damaged.exr --shadow-cache maps --stats");
+    EXPECT_TRUE(printed_has(" 1 were drawn anew, " + std::to_string(kept - 1) + " taken from the cache"));
+    EXPECT_EQ(files_in(folder / "maps"), kept);
+    EXPECT_EQ(said, "");
+    const std::string off = read_text(folder / "off.exr");
+    for (const char* name : {"cold.exr", "warm.exr", "damaged.exr"})
+        EXPECT_TRUE(read_text(folder / name) == off) << name;
+}
+
+TEST_F(MapCacheOfRender, HasADefaultFolder) {
+    const std::string home = "HOME=" + (folder / "home").string(), xdg = " XDG_CACHE_HOME=" + (folder / "xdg").string();
+    const std::string bare =
+        std::string(kNoVariables) + " MESA_SHADER_CACHE_DIR=" + (folder / "shaders").string() + " ";
+    fs::create_directory(folder / "home");
+    render("-o a.png", bare + home);
+    EXPECT_GT(files_in(folder / "home/.cache/vesper/shadows"), 0u);
+    fs::remove_all(folder / "home");
+    render("-o a.png", bare + home + xdg);
+    EXPECT_GT(files_in(folder / "xdg/vesper/shadows"), 0u);
+    fs::remove_all(folder / "xdg");
+    render("-o a.png", bare + home + xdg + " VESPER_SHADOW_CACHE=named");
+    EXPECT_GT(files_in(folder / "named"), 0u);
+    fs::remove_all(folder / "named");
+    for (const char* none : {"", " HOME=relative XDG_CACHE_HOME=relative", " VESPER_SHADOW_CACHE=off"}) {
+        render("-o a.png", bare + none);
+        EXPECT_EQ(said, "") << none;
+    }
+    render("-o a.png --shadow-cache off", bare + xdg);
+    render("-o a.png");  // as all tests run them
+    for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+        EXPECT_FALSE(entry.path().string().ends_with(".vesper-map")) << entry.path();
+}
+
+// One note, whatever the number of maps and frames, and the same picture.
+TEST_F(MapCacheOfRender, SaysOnceThatNothingIsKept) {
+    render("-o off.png --frames 3");
+    folder.write("file", "");
+    // The second: files may not grow beyond 4 KiB, which pictures of this size do not.
+    const std::pair<std::string, const char*> ways[]{{"", "file/maps: cannot be written: Not a directory"},
+                                                     {"ulimit -f 8;", "maps: cannot be written: File too large"}};
+    for (const auto& [limit, reason] : ways) {
+        const std::string place = limit.empty() ? "file/maps" : "maps";
+        render("-o a.png --frames 3 --shadow-cache " + place, limit);
+        EXPECT_TRUE(said.starts_with("note: ")) << said;
+        EXPECT_NE(said.find(reason), said.npos) << said;
+        EXPECT_EQ(notes(), 1u) << said;
+        for (const char* number : {".0000.png", ".0002.png"})
+            EXPECT_EQ(read_text(folder / (std::string("a") + number)),
+                      read_text(folder / (std::string("off") + number)));
+    }
+    EXPECT_EQ(files_in(folder / "maps"), 0u);
+    EXPECT_TRUE(fs::is_empty(folder / "maps"));
+}
+
+TEST_F(MapCacheOfRender, RefusesWhatIsNoFolderAndNoBudget) {
+    expect_refused("render " + kScene + "-o a.png --shadow-cache ''", {"--shadow-cache", "a folder or off"});
+    expect_refused("render " + kScene + "-o a.png --shadow-budget -1", {"--shadow-budget", "0 or more, not -1"});
+    expect_refused("render " + kScene + "-o a.png --shadow-budget many", {"--shadow-budget"});
+}
+
+TEST_F(MapCacheOfDrive, ChangesNoByteAndIsNotRecorded) {
+    const std::string scene = VESPER_SOURCE_DIR "/data/glare/headlamps.gltf",
+                      drive = scene + " --headless --seconds 0.2 --fps 10 --size 83x51 ";
+    ASSERT_EQ(run(drive + "--video off%d.png"), 0) << said;
+    ASSERT_EQ(run(drive + "--video cold%d.png --shadow-cache maps --record drive.json"), 0) << said;
+    EXPECT_GT(files_in(folder / "maps"), 0u);
+    EXPECT_EQ(read_text(folder / "drive.json").find("cache"), std::string::npos);
+    ASSERT_EQ(run("--headless --replay drive.json --allow-outside --video warm%d.png --shadow-cache maps"), 0) << said;
+    for (const char* number : {"0.png", "1.png"})
+        for (const char* name : {"cold", "warm"})
+            EXPECT_EQ(read_text(folder / (name + std::string(number))),
+                      read_text(folder / (std::string("off") + number)))
+                << name << number;
+    folder.write("file", "");
+    ASSERT_EQ(run(drive + "--video a%d.png --shadow-cache file"), 0) << said;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+    EXPECT_NE(said.find("note: distance maps are not kept"), said.npos) << said;
+    expect_refused(drive + "--video a%d.png --shadow-budget -1", {"--shadow-budget", "0 or more, not -1"});
+}
+
+TEST_F(MapCacheOfBench, IsOffUnlessNamed) {
+    const std::string bench =
+        "--scene street --lamps 8 --triangles 100 --size 83x51 --frames 1 --laps 1 --warm-up 0 --no-start ";
+    const std::string xdg = std::string(kNoVariables) + " XDG_CACHE_HOME=" + folder.path().string();
+    ASSERT_EQ(run(bench, xdg), 0) << said;
+    EXPECT_FALSE(exists("vesper"));
+    ASSERT_EQ(run(bench + "--shadow-cache maps", xdg), 0) << said;
+    EXPECT_EQ(files_in(folder / "maps"), 8u);
+    expect_refused(bench + "--shadow-budget -1", {"--shadow-budget", "0 or more, not -1"});
+}
+
+}  // namespace
+}  // namespace vesper::test

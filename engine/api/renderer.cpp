@@ -2,6 +2,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "api/handles.h"
+#include "io/cache_folder.h"
 #include "scene/placement.h"
 
 namespace vesper::api {
@@ -98,6 +99,19 @@ VesperResult vesper_renderer_dim(VesperRenderer* renderer, uint32_t node, float 
         require(factor >= 0 && factor <= 1e6f, "a lamp is dimmed by a factor of 0 to 1e6");
         require(renderer->scene.scene.nodes[node].lamp != scene::kNone, "there is no lamp at this node");
         renderer->dimming[node] = factor;
+    });
+}
+
+VesperResult vesper_renderer_keep_shadows(VesperRenderer* renderer, const char* folder, VesperError* error) {
+    return guarded(error, [&] {
+        require(renderer, VesperRenderer::kNone);
+        require(!folder || *folder, "the name of the folder is empty");
+        std::shared_ptr<io::CacheFolder> cache;
+        if (folder) {
+            cache = std::make_shared<io::CacheFolder>(std::filesystem::absolute(folder));
+            cache->make();
+        }
+        renderer->engine.keep_maps(std::move(cache));
     });
 }
 

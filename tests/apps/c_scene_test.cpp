@@ -1,6 +1,7 @@
 // Scenes made in memory through the C interface: light by the laws it follows, and what is added, hung on something,
 // dimmed and removed. SPDX-License-Identifier: MIT
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <numbers>
 #include <string>
@@ -75,6 +76,35 @@ TEST_F(CScene, LampsLightWhatTheySee) {
     EXPECT_EQ(light(), 0);
     view.size = sizeof view, view.no_shadows = 2;
     EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, nullptr, &error), VESPER_BAD_ARGUMENT);
+}
+
+// Distance maps that a host keeps: a second renderer has the same light.
+TEST_F(CScene, ShadowsMayBeKept) {
+    add(candle());
+    uint32_t plate = VESPER_NONE;
+    expect(vesper_scene_add_node(scene, "plate", ground_mesh, at(0, 0.75f, 0).data(), &plate, &error));
+    const std::vector<float> without = render(down(0.4f));
+    const TempFolder folder;
+    const std::string maps = (folder / "of/maps").string();
+    for (const char* run : {"cold", "warm"}) {
+        vesper_renderer_destroy(renderer), renderer = nullptr;
+        expect(vesper_renderer_create(device, scene, &renderer, &error));
+        expect(vesper_renderer_keep_shadows(renderer, maps.c_str(), &error));
+        EXPECT_EQ(render(down(0.4f)), without) << run;
+        EXPECT_EQ(std::distance(std::filesystem::directory_iterator(maps), {}), 1) << run;
+    }
+    const std::string file = folder.write("file", "").string();
+    for (const std::string& bad : {file, file + "/maps"}) {
+        EXPECT_EQ(vesper_renderer_keep_shadows(renderer, bad.c_str(), &error), VESPER_FAILED);
+        EXPECT_NE(std::string(error.message).find(bad), std::string::npos) << error.message;
+    }
+    EXPECT_EQ(vesper_renderer_keep_shadows(renderer, "", &error), VESPER_BAD_ARGUMENT);
+    EXPECT_EQ(vesper_renderer_keep_shadows(nullptr, nullptr, &error), VESPER_BAD_ARGUMENT);
+    expect(vesper_renderer_keep_shadows(renderer, nullptr, &error));
+    std::filesystem::remove_all(maps);
+    expect(vesper_scene_attach(scene, plate, ground, &error));
+    EXPECT_EQ(render(down(0.4f)), without);
+    EXPECT_FALSE(std::filesystem::exists(maps));
 }
 
 // I / d^2, and sums of it; 0.2 % is what half floats of reflectance and the size of a pixel cost.

@@ -360,6 +360,12 @@ VesperResult vesper_renderer_place(VesperRenderer* renderer, uint32_t node, cons
 /** Scales the intensity of the lamp at a node for all later frames; 0 switches it off. The node must have a lamp. */
 VesperResult vesper_renderer_dim(VesperRenderer* renderer, uint32_t node, float factor, VesperError* error);
 
+/** Keeps distance maps (shadow maps) of what stands still in a folder, which is made, for renderers of later runs.
+ * Files there take at most 1 GiB; those that were used longest ago are removed. `folder`: null: nowhere, which is the
+ * default. Pictures are the same with and without, also where a disk is full. VESPER_FAILED: nothing can be written
+ * there. */
+VesperResult vesper_renderer_keep_shadows(VesperRenderer* renderer, const char* folder, VesperError* error);
+
 /** Position and angles of the eye, and size of the picture. */
 typedef struct VesperView {
     uint32_t size;        /**< of this structure */

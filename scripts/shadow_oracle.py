@@ -9,7 +9,7 @@ themselves, no ambient light, so that a pixel holds lx. Lamps of less than the t
   past contacts    of traced light that nothing nearer than --contact to a surface hides, as distance maps promise
   leaks, lost      light that should not be there, and light that is missing, over all traced light
   pairs            of a pixel and a lamp, of lamps that have a colour channel of a picture for themselves
-  near an edge     rays to places up to so many texels of the lamp's map around it disagree
+  near an edge     rays to places up to so many texels of the lamp's map around it disagree, or it is in a penumbra
   Radiance         the same light by rtrace, of all lamps at any illuminance; for some of the pixels
 """
 
@@ -178,9 +178,11 @@ class Oracle:
                 here = np.flatnonzero(wanted & (lit == lamp))
                 pixel = seen["pixel"][points[here]]
                 got = shown[pixel[:, 1], pixel[:, 0], channel] * LUMINANCE[channel] / light[here]
-                share = tracing.visible_share(self.rays, seen, points[here], lit[here])
+                share = tracing.visible_share(self.rays, seen, points[here], lit[here], self.a.opening_samples, self.noise)
+                as_point = tracing.visible_share(self.rays, seen, points[here], lit[here])
                 agree.append((got > 0.5) == (share > 0.5))
-                near.append(tracing.near_silhouette(self.rays, maps, seen, points[here], lit[here], share, EDGE_TEXELS))
+                edge = tracing.near_silhouette(self.rays, maps, seen, points[here], lit[here], as_point, EDGE_TEXELS)
+                near.append(edge | (share != as_point))  # in a penumbra
         agree, near = np.concatenate(agree), np.concatenate(near)
         table.add("pairs", camera, len(agree), "{}")
         table.add("pairs that agree", camera, 100 * agree.mean(), "{:.2f} %")

@@ -1,17 +1,23 @@
 #include "scene/fixtures.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace vesper::scene {
 namespace {
 
-constexpr double kLargestFixture = 20;  // m
+constexpr double kFarthestAside = 20, kFarthestUp = 50;  // m, from the lamp: the ends of long arms and of high masts
 
 bool is_near(const Scene& scene, uint32_t node, const glm::dmat4& world, glm::dvec3 place) {
     return std::ranges::all_of(scene.meshes[scene.nodes[node].mesh].primitives, [&](const Primitive& primitive) {
-        const Bounds& bounds = primitive.bounds;
-        const glm::vec3 middle = bounds.empty() ? glm::vec3(0) : (bounds.low + bounds.high) * 0.5f;
-        return glm::distance(glm::dvec3(world * glm::dvec4(middle, 1)), place) < kLargestFixture;
+        if (primitive.bounds.empty()) return true;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::bvec3 high(corner & 1, corner & 2, corner & 4);
+            const glm::dvec3 at(glm::mix(primitive.bounds.low, primitive.bounds.high, high));
+            const glm::dvec3 from = glm::dvec3(world * glm::dvec4(at, 1)) - place;
+            if (std::hypot(from.x, from.z) >= kFarthestAside || std::abs(from.y) >= kFarthestUp) return false;
+        }
+        return true;
     });
 }
 

@@ -14,7 +14,8 @@ std::vector<bool> nodes_above_meshes(const Scene& scene);
 
 /// For each of these nodes, which have lamps, the nodes with meshes that are its fixture, ascending: those at and below
 /// Node::fixture. Without that those at and below the nearest node, of its own and those above it, that has any; none
-/// if the middle of one of their primitives is 20 m away or more. `world` as of world_transforms().
+/// if one of their primitives reaches 20 m to the side of the lamp, or 50 m up or down. `world` as of
+/// world_transforms().
 std::vector<std::vector<uint32_t>> fixture_nodes(const Scene& scene, std::span<const uint32_t> lamp_nodes,
                                                  std::span<const glm::dmat4> world);
 

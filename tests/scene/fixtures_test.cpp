@@ -41,11 +41,13 @@ TEST(Fixtures, AreTheMeshesBelowTheNearestNodeThatHasAny) {
 TEST(Fixtures, AreSmall) {
     scene::Scene scene = street();
     scene.nodes[3].parent = 1;
-    scene.nodes[2].translation = {19.8, 8, 0};
+    scene.nodes[2].translation = {19, 8, 0};
     scene.nodes[3].translation = {0, 8, 0};
     EXPECT_EQ(fixture_of(scene, 3), (Nodes{1, 2}));
     scene.nodes[2].translation.x = 20.2;
     EXPECT_EQ(fixture_of(scene, 3), Nodes{}) << "a node that holds a whole street is no fixture";
+    scene.nodes[2].translation = {0, 8, 0}, scene.nodes[2].scale = {500, 1, 500};
+    EXPECT_EQ(fixture_of(scene, 3), Nodes{}) << "nor one that holds the ground, in whose middle the lamp stands";
 }
 
 TEST(Fixtures, AreStatedByTheNode) {

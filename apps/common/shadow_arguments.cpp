@@ -37,13 +37,16 @@ void add_shadow_options(Command command, ShadowArguments& a, const std::string& 
                     "what is left is out of date in it\nDefault: " +
                         budget_default)
         .check({[](const std::string& text) {
-                    return text.starts_with('-') ? "a number of tiles is expected, 0 or more, not " + text : "";
+                    const bool number = !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+                    return number
+                               ? ""
+                               : "a number of tiles is expected, 0 or more, not " + (text.empty() ? "nothing" : text);
                 },
                 "TILES"});
     command
         .add_option("--shadow-cache", a.cache,
-                    "Folder that keeps distance maps of what stands still for later runs, at most 1 GiB; off: none "
-                    "(also VESPER_SHADOW_CACHE)\nDefault: " +
+                    "Folder that keeps distance maps of what stands still for later runs, at most 1 GiB; off: none\n"
+                    "Default: " +
                         cache_default)
         .check({[](const std::string& text) {
                     return text.empty() ? std::string("a folder or off is expected") : std::string();

@@ -16,8 +16,9 @@ struct ShadowArguments {
     uint64_t budget = render::kNoShadowBudget;
 };
 /// --shadows, --shadow-budget and --shadow-cache. The texts say the defaults of the last two.
-void add_shadow_options(Command, ShadowArguments&, const std::string& budget_default = "all",
-                        const std::string& cache_default = "vesper/shadows in XDG_CACHE_HOME or ~/.cache");
+void add_shadow_options(
+    Command, ShadowArguments&, const std::string& budget_default = "all",
+    const std::string& cache_default = "VESPER_SHADOW_CACHE, or vesper/shadows in XDG_CACHE_HOME or ~/.cache");
 void set_shadows(const ShadowArguments&, render::RenderSettings&);
 
 /// Where distance maps are kept from run to run: as `asked` with --shadow-cache, else as VESPER_SHADOW_CACHE says, else

@@ -42,7 +42,7 @@ std::string heading(const std::vector<LogProbe>& probes) {
     for (const double percent : kPercents) line += format(",p%g", percent);
     line += apps::glare_columns();
     for (size_t i = 0; i < probes.size(); ++i) line += format(",probe%zu", i);
-    return line + ",lamps,openings,lost_lights,scrubbed_pixels,device_ms,frame_ms\n";
+    return line + ",lamps,openings,lost_lights,outdated_shadows,scrubbed_pixels,device_ms,frame_ms\n";
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ void DriveLog::add(const Session& session, const gpu_scene::View& view, const re
         line += format(",%.9g", double(value));
     if (frame.scene.empty()) {
         const std::string columns = heading(probes_).substr(heading({}).find(",minimum"));
-        line += std::string(size_t(std::count(columns.begin(), columns.end(), ',')) - 6, ',');
+        line += std::string(size_t(std::count(columns.begin(), columns.end(), ',')) - 7, ',');
     } else {
         const apps::LuminanceStatistics s = apps::luminance_statistics(frame.scene);
         for (const double value : {s.minimum, s.maximum, s.mean}) line += format(",%.6g", value);
@@ -107,8 +107,8 @@ void DriveLog::add(const Session& session, const gpu_scene::View& view, const re
     double device = 0;
     for (const graph::Timing& timing : frame.timings) device += timing.milliseconds;
     // Every lamp counts: froxels whose lists overflow look at all of them.
-    file_.append(line + format(",%u,%u,0,%u,%.3f,%.3f\n", frame.lamps, frame.luminaires, frame.histogram.non_finite,
-                               device, frame.milliseconds));
+    file_.append(line + format(",%u,%u,0,%u,%u,%.3f,%.3f\n", frame.lamps, frame.luminaires, frame.maps.carried,
+                               frame.histogram.non_finite, device, frame.milliseconds));
 }
 
 }  // namespace vesper::drive

@@ -42,7 +42,7 @@ MapPoint map_point(FetchedMap map, vec3 from, vec3 normal) {
     const float norm = max(map.fold * (abs(q.x) + abs(q.y)) + q.z, 1e-6);
     const vec2 square = map.zoom / norm * vec2(q.x + q.y, q.x - q.y);
     const int hemisphere = behind ? map.side * map.side : 0;
-    const bool inside = map.side > 0 && (map.both || !behind) && max(abs(square.x), abs(square.y)) <= 1.0;
+    const bool inside = map.side > 0 && (map.both || !behind) && max(abs(square.x), abs(square.y)) <= 1.0 && norm < 0.8 * kMapFar;
     // n . o / (n . q), o = (x, y, 1 - fold (|x| + |y|)) with x, y = (u + v, u - v) / 2 zoom, u = 2 texel / side - 1.
     const float folded = map.fold * n.z;
     const vec2 along = vec2(n.x - (q.x < 0.0 ? -folded : folded), n.y - (q.y < 0.0 ? -folded : folded));

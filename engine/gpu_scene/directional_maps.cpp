@@ -7,11 +7,8 @@
 
 namespace vesper::gpu_scene {
 
-DirectionalPlan directional_plan(uint32_t lamps, double extent) {
+DirectionalPlan directional_plan(uint32_t lamps) {
     DirectionalPlan plan{.lamps = lamps};
-    constexpr double kReaches = 0.92;  // of the half width of a level, from the eye
-    while (plan.levels < shared::kDirectionalLevels && extent > kReaches * half_width_of(plan.levels - 1))
-        ++plan.levels;
     if (lamps == 0) return plan;
     plan.side = kMostDirectionalSide;
     while (plan.side >= kLeastDirectionalSide && plan.texels() > kMostDirectionalTexels) plan.side /= 2;
@@ -19,14 +16,18 @@ DirectionalPlan directional_plan(uint32_t lamps, double extent) {
     return plan;
 }
 
-double extent_of(const GpuScene& scene, std::span<const glm::dmat4> world) {
-    glm::dvec3 low(1e300), high(-1e300);
+uint32_t levels_for(const GpuScene& scene, std::span<const glm::dmat4> world, glm::dvec3 eye, double angle) {
+    constexpr double kReaches = 0.92;  // of the half width of a level, from the eye
+    double away = 0;
     for (const GpuScene::Placement& placement : scene.placements())
         for (uint32_t i = placement.first_part; i < placement.first_part + placement.part_count; ++i) {
             const WorldSphere sphere = world_sphere_of(scene.parts()[i], world[placement.node]);
-            low = glm::min(low, sphere.centre - sphere.radius), high = glm::max(high, sphere.centre + sphere.radius);
+            away = std::max(away, glm::distance(eye, sphere.centre) + sphere.radius);
         }
-    return low.x > high.x ? 0 : glm::distance(low, high);
+    away += std::tan(angle / 2) * double(shared::kDirectionalReach);
+    uint32_t levels = 1;
+    while (levels < shared::kDirectionalLevels && away > kReaches * half_width_of(levels - 1)) ++levels;
+    return levels;
 }
 
 double half_width_of(uint32_t level) { return std::ldexp(double(shared::kFirstHalfWidth), int(level)); }
@@ -39,14 +40,15 @@ glm::dvec3 middle_of(const glm::dmat3& rotation, glm::dvec3 eye, uint32_t level)
 shared::DirectionalMap directional_map(const DirectionalPlan& plan, uint32_t number, const glm::dmat3& rotation,
                                        double angle, const View& view) {
     const glm::dquat turn = glm::normalize(glm::quat_cast(rotation * glm::transpose(glm::dmat3(view.world_to_view))));
-    shared::DirectionalMap map{.turn = glm::vec4(float(turn.x), float(turn.y), float(turn.z), float(turn.w)),
-                               .first = float(number * plan.levels * plan.texels_of_level() / shared::kMapUnit),
-                               .radius = float(std::tan(angle / 2)),
-                               .unused_a = 0,
-                               .unused_b = 0,
-                               .middle = {}};
+    shared::DirectionalMap map{
+        .turn = glm::vec4(float(turn.x), float(turn.y), float(turn.z), float(turn.w)),
+        .first = float(number * shared::kDirectionalLevels * plan.texels_of_level() / shared::kMapUnit),
+        .radius = float(std::tan(angle / 2)),
+        .unused_a = 0,
+        .unused_b = 0,
+        .middle = {}};
     const glm::dvec3 eye = eye_of(view), from = rotation * eye;
-    for (uint32_t level = 0; level < plan.levels; ++level)
+    for (uint32_t level = 0; level < shared::kDirectionalLevels; ++level)
         map.middle[level] = glm::vec4(glm::vec3(middle_of(rotation, eye, level) - from), 0);
     return map;
 }

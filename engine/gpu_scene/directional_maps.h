@@ -17,16 +17,15 @@ constexpr uint32_t kMostDirectionalSide = 2048, kLeastDirectionalSide = 256;  //
 /// Maps of all directional lamps of a scene.
 struct DirectionalPlan {
     uint32_t lamps = 0;
-    uint32_t levels = 1;  ///< so many that they hold the scene wherever in it the eye is, if kDirectionalLevels suffice
-    uint32_t side = 0;    ///< of a level, texels, a power of two; 0: there are no lamps, or too many
+    uint32_t side = 0;  ///< of a level, texels, a power of two; 0: there are no lamps, or too many
 
     uint64_t texels_of_level() const { return uint64_t(side) * side; }
-    uint64_t texels() const { return lamps * levels * texels_of_level(); }
+    uint64_t texels() const { return lamps * shared::kDirectionalLevels * texels_of_level(); }
 };
-/// `extent`: of the scene, m.
-DirectionalPlan directional_plan(uint32_t lamps, double extent);
-/// The diagonal of a box around everything in a scene, m.
-double extent_of(const GpuScene& scene, std::span<const glm::dmat4> world);
+DirectionalPlan directional_plan(uint32_t lamps);
+/// How many levels hold everything in a scene that is seen from an eye (world, m), penumbrae of lamps of this angle
+/// (rad) included, if kDirectionalLevels suffice; at least 1.
+uint32_t levels_for(const GpuScene& scene, std::span<const glm::dmat4> world, glm::dvec3 eye, double angle);
 
 /// Half the side of the square of a level, m.
 double half_width_of(uint32_t level);

@@ -15,7 +15,7 @@ DirectionalMaps::DirectionalMaps(gpu::Device& device, const gpu_scene::GpuScene&
       plan_(plan),
       first_(uint32_t(lamps.size()) - plan.lamps),
       arena_(device),
-      levels_(plan.lamps * plan.levels),
+      levels_(plan.lamps * shared::kDirectionalLevels),
       kernels_(device),
       pipelines_(device),
       executor_(device) {
@@ -34,17 +34,24 @@ uint32_t DirectionalMaps::plan(const gpu_scene::LampList& list, const gpu_scene:
                                const gpu_scene::View& view) {
     to_draw_.clear();
     if (list.counts.directional == 0) return 0;
-    if (world_ != poses.world) {
+    std::vector<glm::dmat4> placed;
+    for (const gpu_scene::GpuScene::Placement& placement : resident_.placements())
+        placed.push_back(poses.world[placement.node]);
+    if (placed_ != placed) {
         std::ranges::fill(levels_, Level{});
-        world_ = poses.world;
+        placed_ = std::move(placed);
     }
     const glm::dvec3 eye = gpu_scene::eye_of(view);
+    double angle = 0;
+    for (uint32_t i = list.placed(); i < list.lamps.size(); ++i)
+        angle = std::max(angle, double(lamps_[list.indices[i]].lamp.angular_diameter));
+    used_ = gpu_scene::levels_for(resident_, poses.world, eye, angle);
     for (uint32_t i = list.placed(); i < list.lamps.size(); ++i) {
         const uint32_t number = list.indices[i] - first_;
         const glm::dmat3 rotation = gpu_scene::map_frame(poses.world[lamps_[list.indices[i]].node]).rotation;
-        for (uint32_t k = 0; k < plan_.levels; ++k) {
+        for (uint32_t k = 0; k < used_; ++k) {
             const Level wanted{rotation, gpu_scene::middle_of(rotation, eye, k)};
-            const uint32_t at = number * plan_.levels + k;
+            const uint32_t at = number * shared::kDirectionalLevels + k;
             if (levels_[at] == wanted) continue;
             levels_[at] = wanted;
             to_draw_.push_back({rotation, wanted.middle, gpu_scene::half_width_of(k), at * plan_.texels_of_level()});
@@ -75,7 +82,7 @@ DirectionalMapsOfFrame DirectionalMaps::maps(graph::FrameGraph& graph, const gpu
     return {graph.upload("directional maps", lamps, VK_FORMAT_R32G32B32A32_SFLOAT),
             graph.external("directional distances", distances_.get(), plan_.texels() * sizeof(uint16_t),
                            VK_FORMAT_R16_SFLOAT),
-            plan_.levels, plan_.side};
+            used_, plan_.side};
 }
 
 }  // namespace vesper::render

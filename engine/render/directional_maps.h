@@ -43,8 +43,9 @@ private:
     uint32_t first_;  // of the directional ones among lamps_
     gpu::Arena arena_;
     gpu::OwnedBuffer distances_;
-    std::vector<Level> levels_;  // lamp by lamp
-    std::vector<glm::dmat4> world_;
+    std::vector<Level> levels_;       // lamp by lamp
+    std::vector<glm::dmat4> placed_;  // poses of placements
+    uint32_t used_ = 1;               // levels
     std::vector<LevelToDraw> to_draw_;
     gpu::KernelCache kernels_;
     gpu::GraphicsPipelineCache pipelines_;

@@ -14,13 +14,9 @@ Renderer::Renderer(gpu::Device& device, const scene::Scene& scene)
 
 namespace {
 
-gpu_scene::DirectionalPlan directional_plan_of(const scene::Scene& scene, const gpu_scene::GpuScene& resident,
-                                               const std::vector<gpu_scene::PlacedLamp>& lamps) {
-    const auto count = std::ranges::count_if(
-        lamps, [](const auto& placed) { return placed.lamp.kind == scene::Lamp::Kind::Directional; });
-    if (count == 0) return {};
-    return gpu_scene::directional_plan(uint32_t(count),
-                                       gpu_scene::extent_of(resident, scene::world_transforms(scene, 0)));
+gpu_scene::DirectionalPlan directional_plan_of(const std::vector<gpu_scene::PlacedLamp>& lamps) {
+    return gpu_scene::directional_plan(uint32_t(std::ranges::count_if(
+        lamps, [](const auto& placed) { return placed.lamp.kind == scene::Lamp::Kind::Directional; })));
 }
 
 }  // namespace
@@ -29,7 +25,7 @@ Renderer::SceneData::SceneData(const gpu::Device& device, const scene::Scene& sc
     : resident(device, scene),
       lamps(gpu_scene::placed_lamps(scene)),
       maps(gpu_scene::map_plan(scene, resident, lamps)),
-      directional(directional_plan_of(scene, resident, lamps)),
+      directional(directional_plan_of(lamps)),
       luminaires(gpu_scene::placed_luminaires(scene)),
       tables(gpu_scene::intensity_tables(scene)),
       table_arena(device),

@@ -23,9 +23,9 @@ layout(push_constant, scalar) uniform Push { DirectionalVisibilityPush push; };
 #include "visibility.glsl"
 
 const float kWiden = 1.08;        // a level reaches at least that much less far from the eye than its half width
-const float kSteepest = 8.0;      // tangent of the angle from the way of the light: the plane of a surface is taken to be no steeper
+const float kSteepest = 100.0;    // tangent of the angle from the way of the light: the plane of a surface is taken to be no steeper
 const float kLeastWidth = 0.7;    // texels, radius of what a pixel looks at: edges of lamps without a size are that soft
-const uint kSearches = 16u;
+const float kFarthest = 0.8 * kMapFar;  // m: nothing is known of surfaces farther along the light
 
 vec3 position[kBlockSize], normal[kBlockSize];  // of the column
 bool drawn[kBlockSize];
@@ -62,7 +62,7 @@ LevelPoint level_point(DirectionalLamp lamp, uint number, vec3 p, vec3 n) {
     const vec3 from = q - texelFetch(maps, int(number * kDirectionalTexels) + 2 + level).xyz;
     const float half_width = kFirstHalfWidth * exp2(float(level)), side = float(push.side), width = 2.0 * half_width / side;
     const vec2 texel = 0.5 * side + from.xy / width;
-    const bool inside = all(greaterThanEqual(texel, vec2(1.0))) && all(lessThanEqual(texel, vec2(side - 1.0)));
+    const bool inside = all(greaterThanEqual(texel, vec2(1.0))) && all(lessThanEqual(texel, vec2(side - 1.0))) && from.z < kFarthest;
     const vec2 slope = m.z != 0.0 ? clamp(-m.xy / m.z, vec2(-kSteepest), vec2(kSteepest)) * width : vec2(0.0);
     return LevelPoint(texel, vec3(slope, from.z - dot(slope, texel)), kMapBias + 0.5 * width + kMapRounding * abs(from.z), width,
                       lamp.first + level * int(push.side * push.side), inside);
@@ -78,19 +78,29 @@ float depth_below(LevelPoint p, vec2 offset) {
 // The widest penumbra, texels.
 float reach_of(DirectionalLamp lamp, LevelPoint p) { return max(lamp.reach / p.width, kLeastWidth); }
 
-// Share of the lamp that a point sees, in 255ths. Where no pixel of the row is in a penumbra the search is all.
+// Where the k-th of kDisc looks searches, in lengths of the widest penumbra: most of them near the middle, since what is close
+// to the surface has narrow ones.
+vec2 search_point(uint k) {
+    const float u = (float(k) + 0.5) / float(kDisc);
+    return u * sqrt(u) * disc_point(k);
+}
+
+// Share of the lamp that a point sees, in 255ths. Where a row of pixels finds nothing that hides it the search is all.
 uint share_of_disc(DirectionalLamp lamp, LevelPoint p) {
     const float reach = reach_of(lamp, p);
     float below = 0.0;
     uint hidden = 0u;
-    for (uint k = 0u; k < kSearches; ++k) {
-        const float depth = depth_below(p, reach * disc_point(2u * k));
+    for (uint k = 0u; k < kDisc; ++k) {
+        const float depth = depth_below(p, reach * search_point(k));
         below += max(depth, 0.0);
         hidden += depth > 0.0 ? 1u : 0u;
     }
-    const bool here = depth_below(p, vec2(0.0)) > 0.0;
-    uint share = here ? 0u : 255u;
-    const bool partly = subgroupAny(p.inside && hidden != (here ? kSearches : 0u));
+    const float depth_here = depth_below(p, vec2(0.0));
+    const bool here = depth_here > 0.0;
+    below += max(depth_here, 0.0);
+    hidden += here ? 1u : 0u;
+    uint share = 255u;
+    const bool partly = subgroupAny(p.inside && hidden > 0u);
     for (uint once = 0u; once < (partly ? 1u : 0u); ++once) {  // a CPU device skips loops, not branches
         const float width = clamp(lamp.radius / p.width * below / max(float(hidden), 1.0), kLeastWidth, reach);
         uint seen = 0u;
@@ -107,7 +117,7 @@ void look(uint number, inout uint words[kBlockSize]) {
     bool any_seen = false, any_hidden = false;
     [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
         const LevelPoint p = level_point(lamp, number, position[r], normal[r]);
-        const vec2 beside = reach_of(lamp, p) * disc_point((r * 5u + lane * 8u) % kDisc);
+        const vec2 beside = reach_of(lamp, p) * search_point(r % 4u * 8u + (r < 4u ? lane : 7u - lane));  // all in every four rows
         const bool here = depth_below(p, vec2(0.0)) > 0.0, there = depth_below(p, beside) > 0.0;
         const bool faces = drawn[r] && dot(normal[r], lamp.way) < 0.0;
         any_seen = any_seen || (faces && (!p.inside || !here || !there));

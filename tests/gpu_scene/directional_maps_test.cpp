@@ -8,24 +8,16 @@
 namespace vesper::test::directional_maps_test {
 namespace {
 
-TEST(DirectionalMaps, LevelsReachThroughTheScene) {
-    EXPECT_EQ(gpu_scene::directional_plan(1, 0).levels, 1u);
-    EXPECT_EQ(gpu_scene::directional_plan(1, 14).levels, 1u);
-    EXPECT_EQ(gpu_scene::directional_plan(1, 29).levels, 2u);
-    EXPECT_EQ(gpu_scene::directional_plan(1, 500).levels, 7u);
-    EXPECT_EQ(gpu_scene::directional_plan(1, 1e9).levels, shared::kDirectionalLevels);
-}
-
 TEST(DirectionalMaps, ManyLampsHaveSmallerMapsInTheSameMemory) {
-    EXPECT_EQ(gpu_scene::directional_plan(0, 1e4).side, 0u);
-    EXPECT_EQ(gpu_scene::directional_plan(1, 1e4).side, 2048u);
-    EXPECT_EQ(gpu_scene::directional_plan(4, 1e4).side, 1024u);
+    EXPECT_EQ(gpu_scene::directional_plan(0).side, 0u);
+    EXPECT_EQ(gpu_scene::directional_plan(1).side, 2048u);
+    EXPECT_EQ(gpu_scene::directional_plan(4).side, 1024u);
     for (uint32_t lamps = 1; lamps <= 64; ++lamps) {
-        const gpu_scene::DirectionalPlan plan = gpu_scene::directional_plan(lamps, 1e4);
+        const gpu_scene::DirectionalPlan plan = gpu_scene::directional_plan(lamps);
         EXPECT_GE(plan.side, gpu_scene::kLeastDirectionalSide) << lamps;
         EXPECT_LE(plan.texels(), gpu_scene::kMostDirectionalTexels) << lamps;
     }
-    EXPECT_EQ(gpu_scene::directional_plan(65, 1e4).side, 0u) << "which is refused";
+    EXPECT_EQ(gpu_scene::directional_plan(65).side, 0u) << "which is refused";
 }
 
 // A level moves in steps and holds what is near the eye, far from the origin too.
@@ -47,14 +39,14 @@ TEST(DirectionalMaps, LevelsMoveInSteps) {
 }
 
 TEST(DirectionalMaps, AShaderTurnsAndMovesPointsAsTheHost) {
-    const gpu_scene::DirectionalPlan plan{.lamps = 2, .levels = 3, .side = 256};
+    const gpu_scene::DirectionalPlan plan{.lamps = 2, .side = 256};
     gpu_scene::View view;
     view.world_to_view =
         glm::translate(glm::mat4_cast(glm::angleAxis(0.5, glm::dvec3(0, 1, 0))), glm::dvec3(-1e4, 3, 7));
     const glm::dmat3 rotation =
         gpu_scene::map_frame(glm::mat4_cast(glm::angleAxis(-1.1, glm::normalize(glm::dvec3(1, 0.1, 0.3))))).rotation;
     const shared::DirectionalMap map = gpu_scene::directional_map(plan, 1, rotation, 0.2, view);
-    EXPECT_EQ(map.first, 3.0f * 256 * 256 / shared::kMapUnit);
+    EXPECT_EQ(map.first, 8.0f * 256 * 256 / shared::kMapUnit);
     EXPECT_NEAR(double(map.radius), std::tan(0.1), 1e-7);
     const glm::dvec3 in_view(2, -1, -30), world(glm::inverse(view.world_to_view) * glm::dvec4(in_view, 1));
     const glm::dquat turn(double(map.turn.w), double(map.turn.x), double(map.turn.y), double(map.turn.z));

@@ -40,9 +40,10 @@ inline DirectionalShare directional_share(const DirectionalLamp& lamp, glm::dvec
     while (k + 1 < lamp.levels.size() && wide > lamp.levels[k].half_width) ++k;
     const Level& level = lamp.levels[k];
     const glm::dvec3 at = to_level(level, point);
-    if (std::min(at.x, at.y) < 1 || std::max(at.x, at.y) > level.side - 1) return {};
+    if (at.z > 0.8 * double(shared::kMapFar) || std::min(at.x, at.y) < 1 || std::max(at.x, at.y) > level.side - 1)
+        return {};
     const double width = 2 * level.half_width / level.side;
-    const glm::dvec2 slope = glm::clamp(-glm::dvec2(m) / m.z, -8.0, 8.0) * width;  // per texel
+    const glm::dvec2 slope = glm::clamp(-glm::dvec2(m) / m.z, -100.0, 100.0) * width;  // per texel
     const double bias = double(shared::kMapBias) + 0.5 * width + double(shared::kMapRounding) * std::abs(at.z);
     int uncertain = 0;
     const auto below = [&](glm::dvec2 offset) {
@@ -56,8 +57,9 @@ inline DirectionalShare directional_share(const DirectionalLamp& lamp, glm::dvec
     const double most = std::max(reach / width, 0.7);  // texels
     double sum = 0;
     int hidden = 0;
-    for (int i = 0; i < 16; ++i) {
-        const double depth = below(most * point_of_disc(2 * i));
+    for (int i = 0; i <= 32; ++i) {  // the last one at the point itself
+        const double u = (i + 0.5) / 32,
+                     depth = below(i < 32 ? most * u * std::sqrt(u) * point_of_disc(i) : glm::dvec2(0));
         sum += std::max(depth, 0.0), hidden += depth > 0 ? 1 : 0;
     }
     if (uncertain > 0) uncertain = 100;  // another width

@@ -74,7 +74,7 @@ private:
         uint32_t count = 0;
         for (const gpu_scene::PlacedLamp& placed : lamps)
             count += placed.lamp.kind == scene::Lamp::Kind::Directional ? 1 : 0;
-        return gpu_scene::directional_plan(count, gpu_scene::extent_of(resident, poses.world));
+        return gpu_scene::directional_plan(count);
     }
 };
 

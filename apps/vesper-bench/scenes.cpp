@@ -59,7 +59,7 @@ scene::Scene Scenes::load(const std::string& name, uint32_t lamps, uint64_t tria
     if (name == "street") return lamp_street(lamps != kOwnLamps ? lamps : kStreetLamps, triangles, luminaire);
     scene::Scene scene = scene::read_gltf(files_.at(name)).scene;
     const gpu_scene::View view = gpu_scene::camera_view(scene, {scene::world_transforms(scene, 0)}, camera, {1, 1});
-    if (lamps != kOwnLamps) keep_nearest_lamps(scene, glm::vec3(glm::inverse(view.world_to_view)[3]), lamps);
+    if (lamps != kOwnLamps) keep_nearest_lamps(scene, glm::vec3(gpu_scene::eye_of(view)), lamps);
     return scene;
 }
 

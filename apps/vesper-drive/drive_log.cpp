@@ -27,6 +27,9 @@ std::string csv_name(std::string name) {
 
 constexpr double kPercents[]{1, 5, 25, 50, 75, 95, 99, 99.9};  // as luminance_statistics has them
 
+constexpr const char* kAfterProbes =
+    ",lamps,openings,lost_lights,outdated_shadows,scrubbed_pixels,device_ms,frame_ms\n";
+
 double luminance_at(const render::Frame& frame, glm::dvec2 place) {
     const auto part = [](double p, uint32_t size) { return size_t(std::clamp(p * size, 0.0, double(size - 1))); };
     const float* p =
@@ -42,7 +45,7 @@ std::string heading(const std::vector<LogProbe>& probes) {
     for (const double percent : kPercents) line += format(",p%g", percent);
     line += apps::glare_columns();
     for (size_t i = 0; i < probes.size(); ++i) line += format(",probe%zu", i);
-    return line + ",lamps,openings,lost_lights,outdated_shadows,scrubbed_pixels,device_ms,frame_ms\n";
+    return line + kAfterProbes;
 }
 
 }  // namespace
@@ -94,8 +97,10 @@ void DriveLog::add(const Session& session, const gpu_scene::View& view, const re
                               frame.eye.cones.fast, frame.eye.cones.slow, frame.curve.log_average})
         line += format(",%.9g", double(value));
     if (frame.scene.empty()) {
-        const std::string columns = heading(probes_).substr(heading({}).find(",minimum"));
-        line += std::string(size_t(std::count(columns.begin(), columns.end(), ',')) - 7, ',');
+        const std::string columns = heading(probes_);
+        line += std::string(size_t(std::count(columns.begin() + ptrdiff_t(columns.find(",minimum")),
+                                              columns.begin() + ptrdiff_t(columns.find(kAfterProbes)), ',')),
+                            ',');
     } else {
         const apps::LuminanceStatistics s = apps::luminance_statistics(frame.scene);
         for (const double value : {s.minimum, s.maximum, s.mean}) line += format(",%.6g", value);

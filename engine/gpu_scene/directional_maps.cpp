@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glm/gtc/quaternion.hpp>
-
 namespace vesper::gpu_scene {
 
 DirectionalPlan directional_plan(uint32_t lamps) {
@@ -14,6 +12,11 @@ DirectionalPlan directional_plan(uint32_t lamps) {
     while (plan.side >= kLeastDirectionalSide && plan.texels() > kMostDirectionalTexels) plan.side /= 2;
     if (plan.side < kLeastDirectionalSide) plan.side = 0;
     return plan;
+}
+
+DirectionalPlan directional_plan(std::span<const PlacedLamp> lamps) {
+    return directional_plan(uint32_t(std::ranges::count_if(
+        lamps, [](const PlacedLamp& placed) { return placed.lamp.kind == scene::Lamp::Kind::Directional; })));
 }
 
 uint32_t levels_for(const GpuScene& scene, std::span<const glm::dmat4> world, glm::dvec3 eye, double angle) {
@@ -39,9 +42,8 @@ glm::dvec3 middle_of(const glm::dmat3& rotation, glm::dvec3 eye, uint32_t level)
 
 shared::DirectionalMap directional_map(const DirectionalPlan& plan, uint32_t number, const glm::dmat3& rotation,
                                        double angle, const View& view) {
-    const glm::dquat turn = glm::normalize(glm::quat_cast(rotation * glm::transpose(glm::dmat3(view.world_to_view))));
     shared::DirectionalMap map{
-        .turn = glm::vec4(float(turn.x), float(turn.y), float(turn.z), float(turn.w)),
+        .turn = turn_to_map(rotation, view),
         .first = float(number * shared::kDirectionalLevels * plan.texels_of_level() / shared::kMapUnit),
         .radius = float(std::tan(angle / 2)),
         .unused_a = 0,
@@ -52,7 +54,5 @@ shared::DirectionalMap directional_map(const DirectionalPlan& plan, uint32_t num
         map.middle[level] = glm::vec4(glm::vec3(middle_of(rotation, eye, level) - from), 0);
     return map;
 }
-
-glm::dvec3 eye_of(const View& view) { return glm::dvec3(glm::inverse(view.world_to_view)[3]); }
 
 }  // namespace vesper::gpu_scene

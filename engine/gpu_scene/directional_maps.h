@@ -1,9 +1,7 @@
 // Where the maps of directional lamps lie (shared/directional_map.h). SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <span>
-#include <vector>
 
 #include "gpu_scene/gpu_scene.h"
 #include "gpu_scene/lamp_maps.h"
@@ -23,6 +21,8 @@ struct DirectionalPlan {
     uint64_t texels() const { return lamps * shared::kDirectionalLevels * texels_of_level(); }
 };
 DirectionalPlan directional_plan(uint32_t lamps);
+/// For those of a scene.
+DirectionalPlan directional_plan(std::span<const PlacedLamp> lamps);
 /// How many levels hold everything in a scene that is seen from an eye (world, m), penumbrae of lamps of this angle
 /// (rad) included, if kDirectionalLevels suffice; at least 1.
 uint32_t levels_for(const GpuScene& scene, std::span<const glm::dmat4> world, glm::dvec3 eye, double angle);
@@ -36,7 +36,5 @@ glm::dvec3 middle_of(const glm::dmat3& rotation, glm::dvec3 eye, uint32_t level)
 /// directional ones.
 shared::DirectionalMap directional_map(const DirectionalPlan& plan, uint32_t number, const glm::dmat3& rotation,
                                        double angle, const View& view);
-/// Of the eye of a view, m.
-glm::dvec3 eye_of(const View& view);
 
 }  // namespace vesper::gpu_scene

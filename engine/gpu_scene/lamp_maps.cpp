@@ -211,10 +211,13 @@ std::vector<glm::uvec2> tiles_of(const MapLayout& layout, glm::dvec3 centre, dou
     return tiles;
 }
 
+glm::vec4 turn_to_map(const glm::dmat3& rotation, const View& view) {
+    const glm::dquat turn = glm::normalize(glm::quat_cast(rotation * glm::transpose(glm::dmat3(view.world_to_view))));
+    return {float(turn.x), float(turn.y), float(turn.z), float(turn.w)};
+}
+
 shared::LampMap lamp_map(const MapLayout& layout, const MapFrame& frame, const View& view) {
-    const glm::dmat3 view_to_map = frame.rotation * glm::transpose(glm::dmat3(view.world_to_view));
-    const glm::dquat turn = glm::normalize(glm::quat_cast(view_to_map));
-    return {.turn = glm::vec4(float(turn.x), float(turn.y), float(turn.z), float(turn.w)),
+    return {.turn = turn_to_map(frame.rotation, view),
             .first = float(layout.first / shared::kMapUnit),
             .side = layout.flat ? -float(layout.side) : float(layout.side),
             .zoom = layout.hemispheres == 2 ? -layout.zoom : layout.zoom,

@@ -72,6 +72,8 @@ bool may_see(const MapWindow& window, glm::dvec2 signs, glm::dvec3 centre, doubl
 /// Corners (texels) of the tiles of a hemisphere, shared::kRegion texels square, that may see something of a sphere.
 std::vector<glm::uvec2> tiles_of(const MapLayout& layout, glm::dvec3 centre, double radius);
 
+/// The quaternion from the frame of a view to that of a map with this rotation, as shaders take it.
+glm::vec4 turn_to_map(const glm::dmat3& rotation, const View& view);
 /// The map of a lamp, as shaders see it in a frame of `view`.
 shared::LampMap lamp_map(const MapLayout& layout, const MapFrame& frame, const View& view);
 

@@ -13,6 +13,8 @@ View View::of(const vision::ImageAngles& image, const glm::dmat4& world_to_view,
     return {{uint32_t(image.width), uint32_t(image.height)}, world_to_view, image.low, image.high, near};
 }
 
+glm::dvec3 eye_of(const View& view) { return glm::dvec3(glm::inverse(view.world_to_view)[3]); }
+
 vision::ImageAngles angles_of(const View& view) {
     return {int(view.extent.width), int(view.extent.height), view.tangent_low, view.tangent_high};
 }

@@ -32,6 +32,8 @@ struct View {
     double degrees_per_pixel() const;
 };
 
+/// Where the eye of a view is, m, world.
+glm::dvec3 eye_of(const View& view);
 /// What a view covers.
 vision::ImageAngles angles_of(const View& view);
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "render/map_parts.h"
 
 namespace vesper::render {
 
@@ -24,10 +25,7 @@ DirectionalMaps::DirectionalMaps(gpu::Device& device, const gpu_scene::GpuScene&
         throw Error("shadows of " + std::to_string(plan.lamps) + " directional lights take maps of more than " +
                     std::to_string(gpu_scene::kMostDirectionalTexels) +
                     " texels; without shadows the scene can be rendered");
-    distances_ = gpu::make_buffer(device, plan.texels() * sizeof(uint16_t),
-                                  VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
-                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-    arena_.bind(distances_.get());
+    distances_ = make_map_texels(device, arena_, plan.texels());
 }
 
 uint32_t DirectionalMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses,

@@ -8,18 +8,10 @@
 
 #include "gpu/commands.h"
 #include "render/kept_maps.h"
+#include "render/map_parts.h"
 
 namespace vesper::render {
 namespace {
-
-gpu::OwnedBuffer make_words(const gpu::Device& device, gpu::Arena& arena, uint64_t words) {
-    gpu::OwnedBuffer buffer =
-        gpu::make_buffer(device, std::max<uint64_t>(words, 1) * sizeof(uint32_t),
-                         VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
-                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-    arena.bind(buffer.get());
-    return buffer;
-}
 
 // Of drawing a whole map, in tiles: all that stands around its lamp takes more time than its texels.
 uint64_t cost_of(const gpu_scene::MapLayout& layout) {
@@ -60,7 +52,7 @@ DistanceMaps::DistanceMaps(gpu::Device& device, const gpu_scene::GpuScene& resid
       kernels_(device),
       pipelines_(device),
       executor_(device) {
-    distances_ = make_words(device, arena_, places_.texels() / 2);
+    distances_ = make_map_texels(device, arena_, places_.texels());
 }
 
 bool DistanceMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses,

@@ -2,6 +2,15 @@
 
 namespace vesper::render {
 
+gpu::OwnedBuffer make_map_texels(const gpu::Device& device, gpu::Arena& arena, uint64_t texels) {
+    gpu::OwnedBuffer buffer =
+        gpu::make_buffer(device, std::max<uint64_t>(texels / 2, 1) * sizeof(uint32_t),
+                         VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
+                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    arena.bind(buffer.get());
+    return buffer;
+}
+
 void record_map_parts(const graph::Recording& recording, const gpu::Device& device,
                       const gpu::GraphicsPipelineCache& pipelines, const gpu::GraphicsShaders& shaders,
                       const gpu_scene::GpuScene& scene, graph::Resource instances,

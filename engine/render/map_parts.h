@@ -10,6 +10,9 @@
 
 namespace vesper::render {
 
+/// A buffer for so many texels of maps, halves, two a word; at least one word. Bound in `arena`.
+gpu::OwnedBuffer make_map_texels(const gpu::Device& device, gpu::Arena& arena, uint64_t texels);
+
 /// Of distance_map.frag: what a masked material lets through.
 struct MaskPush {
     float base_opacity, cutoff;

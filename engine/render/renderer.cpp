@@ -1,6 +1,5 @@
 #include "render/renderer.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "gpu_scene/retro.h"
@@ -12,20 +11,11 @@ namespace vesper::render {
 Renderer::Renderer(gpu::Device& device, const scene::Scene& scene)
     : device_(device), scene_(std::make_unique<SceneData>(device, scene)), frames_(device) {}
 
-namespace {
-
-gpu_scene::DirectionalPlan directional_plan_of(const std::vector<gpu_scene::PlacedLamp>& lamps) {
-    return gpu_scene::directional_plan(uint32_t(std::ranges::count_if(
-        lamps, [](const auto& placed) { return placed.lamp.kind == scene::Lamp::Kind::Directional; })));
-}
-
-}  // namespace
-
 Renderer::SceneData::SceneData(const gpu::Device& device, const scene::Scene& scene)
     : resident(device, scene),
       lamps(gpu_scene::placed_lamps(scene)),
       maps(gpu_scene::map_plan(scene, resident, lamps)),
-      directional(directional_plan_of(lamps)),
+      directional(gpu_scene::directional_plan(lamps)),
       luminaires(gpu_scene::placed_luminaires(scene)),
       tables(gpu_scene::intensity_tables(scene)),
       table_arena(device),

@@ -41,8 +41,7 @@ void shares(OccluderScene& s, Visit visit) {
     Lit lit(rig, s.scene());
     const Lit::Picture p = lit.render(view_of_the_ground(kPixels, kMetres));
     for (size_t i = 0; i < p.pixels.size(); ++i) {
-        const glm::dvec3 at =
-            reference::view_position(p.grid, glm::dvec2(i % kPixels, i / kPixels) + 0.5, double(p.surfaces[i].z));
+        const glm::dvec3 at = p.place(i, kPixels);
         if (at.z < -19.99) visit(at.x, -at.y, double(p.pixels[i].y) * kPi / 100);
     }
     EXPECT_EQ(rig.complaints(), "");
@@ -203,8 +202,7 @@ TEST(DirectionalVisibility, AgreesWithRays) {
     const Lit::Picture p = lit.render(view_of_the_ground(kPixels, kMetres));
     size_t compared = 0, dark = 0, wrong = 0;
     for (size_t i = 0; i < p.pixels.size(); i += 3) {
-        const glm::dvec3 from_eye =
-            reference::view_position(p.grid, glm::dvec2(i % kPixels, i / kPixels) + 0.5, double(p.surfaces[i].z));
+        const glm::dvec3 from_eye = p.place(i, kPixels);
         const glm::dvec3 at(from_eye.x, 20 + from_eye.z, -from_eye.y);
         const glm::dvec3 n = reference::octahedral_decode(glm::dvec2(p.surfaces[i])), normal(n.x, n.z, -n.y);
         if (glm::dot(normal, towards) < 0.05) continue;

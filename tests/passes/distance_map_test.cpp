@@ -10,6 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "render/passes/distance_map.h"
+#include "support/map_texels.h"
 #include "support/occluders.h"
 #include "support/ray_caster.h"
 #include "support/texels.h"
@@ -25,24 +26,9 @@ std::vector<float> draw(PassRig& rig, const scene::Scene& scene, std::span<const
     std::vector<uint32_t> all(resident.placements().size());
     std::iota(all.begin(), all.end(), 0u);
     for (render::MapToDraw& map : maps) map.placements = all;
-    gpu::Arena arena(rig.device());
-    const std::vector<uint32_t> nothing(texels / 2, 0x12341234);
-    const auto buffer =
-        gpu_scene::upload_buffer(rig.device(), arena, std::as_bytes(std::span(nothing)),
-                                 VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
-                                     VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-    graph::FrameGraph graph;
-    const graph::Resource words = graph.lasting("distances", buffer.get(), texels * 2, VK_FORMAT_R32_UINT);
-    render::add_distance_maps(rig.frame(graph, VkExtent2D{1, 1}), resident,
-                              {scene::world_transforms(scene, 0), {}, {}, {}, {}}, maps, words);
-    const graph::Resource distances = PassRig::want<uint32_t>(graph, words, texels / 2);
-    rig.run(graph);
-    std::vector<float> drawn;
-    for (const uint32_t word : rig.got<uint32_t>(distances)) {
-        const glm::vec2 two = glm::unpackHalf2x16(word);
-        drawn.push_back(two.x), drawn.push_back(two.y);
-    }
-    return drawn;
+    return drawn_texels(rig, texels, [&](const render::FrameContext& frame, graph::Resource words) {
+        render::add_distance_maps(frame, resident, {scene::world_transforms(scene, 0), {}, {}, {}, {}}, maps, words);
+    });
 }
 
 OccluderScene room() {

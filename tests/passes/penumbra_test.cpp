@@ -31,8 +31,7 @@ struct Ground {
         Lit lit(rig, s.scene());
         const Lit::Picture p = lit.render(view_of_the_ground(kPixels, kMetres));
         for (size_t i = 0; i < p.pixels.size(); ++i) {
-            const glm::dvec3 at =
-                reference::view_position(p.grid, glm::dvec2(i % kPixels, i / kPixels) + 0.5, double(p.surfaces[i].z));
+            const glm::dvec3 at = p.place(i, kPixels);
             if (at.z > -19.99 || at.x < 0 || std::abs(at.y) > 1.5) continue;
             const double away = std::hypot(at.x, kHeight, at.y);
             visit(at.x, -at.y, double(p.pixels[i].y) * kPi * away * away * away / (1000 * kHeight));

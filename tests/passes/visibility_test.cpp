@@ -43,8 +43,7 @@ TEST(Visibility, AShadowEndsWhereTheRayByTheEdgeDoes) {
         const Lit::Picture p = all.render(view);
         size_t wrong = 0, dark = 0;
         for (size_t i = 0; i < p.pixels.size(); ++i) {
-            const glm::dvec3 at =
-                reference::view_position(p.grid, glm::dvec2(i % 500, i / 500) + 0.5, double(p.surfaces[i].z));
+            const glm::dvec3 at = p.place(i, 500);
             const double x = at.x, z = -at.y, away = std::hypot(x, 6.0, z);
             if (at.z > -19) continue;  // the plate
             // 10 mm: half a texel and rounding.

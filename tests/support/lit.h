@@ -35,7 +35,7 @@ struct Lit {
           plan(gpu_scene::map_plan(s, resident, lamps)),
           tables(gpu_scene::intensity_tables(s)),
           maps(r.device(), resident, lamps, plan),
-          directional(r.device(), resident, lamps, directional_plan()) {}
+          directional(r.device(), resident, lamps, gpu_scene::directional_plan(lamps)) {}
 
     struct Picture {
         gpu_scene::LampList list;
@@ -43,6 +43,11 @@ struct Lit {
         std::vector<glm::vec4> colours, surfaces, pixels;
         shared::VisibilityReport pairs{};
         uint32_t levels = 0;  // drawn for it
+
+        /// What pixel `i` of a picture of this width sees, view frame, m.
+        glm::dvec3 place(size_t i, uint32_t width) const {
+            return reference::view_position(grid, glm::dvec2(i % width, i / width) + 0.5, double(surfaces[i].z));
+        }
     };
     /// The light of lamps alone.
     Picture render(const gpu_scene::View& view, bool all_lamps = false) {
@@ -67,14 +72,6 @@ struct Lit {
         p.surfaces = rig.got<glm::vec4>(surface), p.pixels = rig.got<glm::vec4>(picture);
         p.pairs = rig.got<shared::VisibilityReport>(report).at(0);
         return p;
-    }
-
-private:
-    gpu_scene::DirectionalPlan directional_plan() const {
-        uint32_t count = 0;
-        for (const gpu_scene::PlacedLamp& placed : lamps)
-            count += placed.lamp.kind == scene::Lamp::Kind::Directional ? 1 : 0;
-        return gpu_scene::directional_plan(count);
     }
 };
 

@@ -198,13 +198,27 @@ struct State {
     bool fresh = false;  ///< a transient not yet used this frame
 };
 
+/// How buffers get what they hold before the frame: from passes of other frames and from copies. That these are over
+/// does not make what they wrote visible.
+AccessSet filled_before() {
+    AccessSet set;
+    set.add(Stage::Compute, Access::Update);
+    set.add(Stage::Transfer, Access::CopyTarget);
+    return set;
+}
+
 /// What stands between the frame's first use of each resource and the frame before it.
 std::vector<State> start_of_frame(const FrameGraph& graph, const std::vector<Life>& lives, const Plan& plan) {
     std::vector<State> states(lives.size());
     for (uint32_t i = 0; i < states.size(); ++i) {
         const ResourceInfo& r = graph.resources()[i];
         if (r.external_image.image) states[i].layout = VK_IMAGE_LAYOUT_GENERAL;  // the border of the frame sees to that
-        if (r.origin == Origin::Lasting) states[i].since = states[i].written = lives[i].accesses;  // of the last frame
+        if (r.origin == Origin::External && !r.shape.is_image()) states[i].since = states[i].written = filled_before();
+        if (r.origin == Origin::Lasting) {
+            states[i].written = filled_before();
+            states[i].written.add(lives[i].accesses);  // of the last frame
+            states[i].since = states[i].written;
+        }
         if (r.origin != Origin::HistoryPrevious && r.origin != Origin::HistoryCurrent) continue;
         // The other half was in this memory last frame; if it went untouched, this one the frame before.
         const AccessSet other = lives[r.partner].accesses;

@@ -248,7 +248,6 @@ void DistanceMaps::make_moves() {
         vkCmdCopyBuffer(commands, distances_.get(), between.get(), uint32_t(out.size()), out.data());
         gpu::pipeline_barrier(commands, {}, &after);
         vkCmdCopyBuffer(commands, between.get(), distances_.get(), uint32_t(in.size()), in.data());
-        gpu::pipeline_barrier(commands, {}, &after);
     });
 }
 

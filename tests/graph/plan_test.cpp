@@ -237,8 +237,27 @@ TEST(Plan, ALastingBufferIsWhatTheFrameIsMadeForAndWaitsForTheLastFrame) {
     const Resource unread = f.buffer("unread");
     f.compute("look", {load(maps), store(unread)});
     f.compute("draw", {update(maps)});
-    EXPECT_EQ(f.text(), "draw\n    maps: compute update -> compute update\ndropped: look\nheap 0 of 0 bytes\n");
+    EXPECT_EQ(
+        f.text(),
+        "draw\n    maps: compute update|transfer copy-target -> compute update\ndropped: look\nheap 0 of 0 bytes\n");
     EXPECT_FALSE(f.plan().steps[0].barriers[0].discard);
+}
+
+// Maps are drawn by a frame of their own and read by the next: a fence alone makes nothing visible to caches.
+TEST(Plan, AnExternalBufferIsReadAfterWhatFilledIt) {
+    DeclaredFrame f;
+    const Resource maps = f.graph.external("maps", VK_NULL_HANDLE, 8), seen = f.buffer("seen"), more = f.buffer("more");
+    f.graph.keep(more);
+    f.compute("look", {load(maps), store(seen)});
+    f.compute("look again", {load(maps), load(seen), store(more)});
+    const std::vector<Plan::Step> steps = f.plan().steps;
+    ASSERT_EQ(steps.size(), 2u);
+    const auto waits_for_maps = [&](const Plan::Barrier& b) { return b.resource == maps.index; };
+    const auto barrier = std::ranges::find_if(steps[0].barriers, waits_for_maps);
+    ASSERT_NE(barrier, steps[0].barriers.end());
+    EXPECT_EQ(barrier->from.text(), "compute update|transfer copy-target");
+    EXPECT_EQ(barrier->to.text(), "compute load");
+    EXPECT_TRUE(std::ranges::none_of(steps[1].barriers, waits_for_maps)) << "once is enough";
 }
 
 TEST(Plan, DropsWhatFeedsNothingKept) {

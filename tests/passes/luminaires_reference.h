@@ -54,13 +54,18 @@ inline Added added(const gpu_scene::LuminaireList& list, uint32_t x, uint32_t y,
     Added sum;
     for (const shared::Luminaire& s : list.luminaires) {
         std::vector<dvec2> silhouette;
-        for (size_t i = 0; i < size_t(s.vertices); ++i)
+        dvec2 low(1e30), high(-1e30);
+        for (size_t i = 0; i < size_t(s.vertices); ++i) {
             silhouette.push_back(dvec2(s.origin) + dvec2(list.silhouettes[size_t(s.first) + i]));
+            low = glm::min(low, silhouette.back()), high = glm::max(high, silhouette.back());
+        }
         const double area = area_within(silhouette, x, y), visible = seen(depth, s.hidden);
         sum.luminance += dvec3(s.luminance) * (area * visible);
         // Coordinates of up to some hundred px from the pixel; depths against the edge over which they hide.
         const double hiding = visible > 0 && visible < 1 ? depth * 1.2e-7 / double(shared::kLuminaireEdge) : 0;
-        if (area > 0) sum.rounding += dvec3(s.luminance) * (2e-6 + area * hiding);
+        const bool near =
+            glm::all(glm::greaterThan(high, dvec2(x, y))) && glm::all(glm::lessThan(low, dvec2(x, y) + 1.0));
+        if (near) sum.rounding += dvec3(s.luminance) * (2e-6 + area * hiding);
     }
     return sum;
 }

@@ -99,6 +99,33 @@ TEST(Luminaires, MatchTheReferenceAtEverySize) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+// Times the luminance of a headlamp, rounding of a coverage would be seen.
+TEST(Luminaires, AddNothingBesideASilhouette) {
+    PassRig rig;
+    const View view = view_of({64, 64});
+    const float pixel = view.ray_scale().x;
+    std::mt19937 random(1);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (int k = 0; k < 20; ++k) {
+        Lamps lamps;  // a disc about 10 px wide
+        const float depth = 20, across = 10 * pixel * depth;
+        lamps.add(lamp_with_opening(1e6, across, across, true, scene::Lamp::Kind::Point),
+                  aimed({across * unit(random), across * unit(random), -depth}, {unit(random), 0, 1}));
+        const Inputs in = on_black(view, lamps.seen(view));
+        const auto got = draw(rig, in);
+        glm::vec2 low(1e30f), high(-1e30f);
+        for (const glm::vec2 corner : in.list.silhouettes)
+            low = glm::min(low, corner + in.list.luminaires[0].origin),
+            high = glm::max(high, corner + in.list.luminaires[0].origin);
+        for (uint32_t y = 0; y < 64; ++y)
+            for (uint32_t x = 0; x < 64; ++x) {
+                const bool beside =
+                    float(x) >= high.x || float(x + 1) <= low.x || float(y) >= high.y || float(y + 1) <= low.y;
+                ASSERT_TRUE(!beside || got[64 * y + x] == glm::vec4(0, 0, 0, 1)) << k << ": " << x << ", " << y;
+            }
+    }
+}
+
 // A headlamp that comes nearer from 2 km to 20 m, moved by tenths of a pixel.
 TEST(Luminaires, AHeadlampKeepsItsLightAtAnyDistanceAndPosition) {
     PassRig rig;

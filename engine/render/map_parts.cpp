@@ -1,5 +1,8 @@
 #include "render/map_parts.h"
 
+#include <algorithm>
+#include <tuple>
+
 namespace vesper::render {
 
 gpu::OwnedBuffer make_map_texels(const gpu::Device& device, gpu::Arena& arena, uint64_t texels) {
@@ -9,6 +12,20 @@ gpu::OwnedBuffer make_map_texels(const gpu::Device& device, gpu::Arena& arena, u
                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     arena.bind(buffer.get());
     return buffer;
+}
+
+std::vector<uint32_t> order_by_part(std::span<const uint32_t> parts, const gpu_scene::GpuScene& scene) {
+    std::vector<std::tuple<scene::Material::Alpha, uint32_t, uint32_t, uint32_t>> keys;
+    keys.reserve(parts.size());
+    for (const uint32_t part : parts) {
+        const uint32_t material = scene.parts()[part].material;
+        keys.emplace_back(scene.surfaces()[material].material.alpha, material, part, uint32_t(keys.size()));
+    }
+    std::ranges::sort(keys);
+    std::vector<uint32_t> order;
+    order.reserve(keys.size());
+    for (const auto& [alpha, material, part, index] : keys) order.push_back(index);
+    return order;
 }
 
 void record_map_parts(const graph::Recording& recording, const gpu::Device& device,

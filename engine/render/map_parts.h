@@ -1,8 +1,7 @@
 // Parts of a scene, drawn into maps of distances from lamps. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <tuple>
+#include <span>
 #include <vector>
 
 #include "gpu_scene/gpu_scene.h"
@@ -25,14 +24,8 @@ struct MapBatch {
     uint32_t first_instance, instance_count;
 };
 
-/// Sorts what is drawn, so that few states change. `part_of`: a value's part.
-template <class T, class PartOf>
-void sort_by_part(std::vector<T>& drawn, const gpu_scene::GpuScene& scene, PartOf part_of) {
-    std::ranges::stable_sort(drawn, {}, [&](const T& d) {
-        const uint32_t part = part_of(d), material = scene.parts()[part].material;
-        return std::tuple(scene.surfaces()[material].material.alpha, material, part);
-    });
-}
+/// The order in which parts are drawn, so that few states change: indices of `parts`; equal ones stay in their order.
+std::vector<uint32_t> order_by_part(std::span<const uint32_t> parts, const gpu_scene::GpuScene& scene);
 
 /// Counts one more instance, of this number, to the last batch or a new one.
 inline void add_to_batches(std::vector<MapBatch>& batches, uint32_t part, uint32_t instance) {

@@ -35,7 +35,7 @@ constexpr gpu::GraphicsShaders kLevelShaders{"directional_map.vert", directional
 
 // What a level sees, and how far along the light, m from its plane.
 struct LevelParts {
-    std::vector<std::pair<uint32_t, uint32_t>> parts;  // placements and parts
+    std::vector<uint32_t> placements, parts;  // side by side
     double nearest = 0, farthest = 1;
 };
 
@@ -53,7 +53,7 @@ LevelParts parts_of(const GpuScene& scene, const gpu_scene::SceneFrame& poses, c
             if (std::max(std::abs(from.x), std::abs(from.y)) > level.half_width + radius ||
                 radius < 0.5 * level.half_width / side)
                 continue;
-            seen.parts.emplace_back(p, i);
+            seen.placements.push_back(p), seen.parts.push_back(i);
             low = std::min(low, from.z - radius), high = std::max(high, from.z + radius);
         }
     }
@@ -82,13 +82,12 @@ void add_directional_maps(const FrameContext& frame, const GpuScene& scene, cons
     uint32_t number = 0;
     for (const LevelToDraw& level : levels) {
         const std::string which = " " + std::to_string(number++);
-        LevelParts seen = parts_of(scene, poses, level, side);
-        sort_by_part(seen.parts, scene, [](const auto& part) { return part.second; });
+        const LevelParts seen = parts_of(scene, poses, level, side);
         std::vector<shared::Instance> instances;
         std::vector<MapBatch> batches;
-        for (const auto& [placement, part] : seen.parts) {
-            add_to_batches(batches, part, uint32_t(instances.size()));
-            instances.push_back(instance_of(poses.world[scene.placements()[placement].node], level, seen));
+        for (const uint32_t i : order_by_part(seen.parts, scene)) {
+            add_to_batches(batches, seen.parts[i], uint32_t(instances.size()));
+            instances.push_back(instance_of(poses.world[scene.placements()[seen.placements[i]].node], level, seen));
         }
         if (instances.empty()) instances.emplace_back();  // an upload is never empty
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "render/map_parts.h"
@@ -90,61 +91,81 @@ std::vector<DrawnImage> fill_images(std::span<const MapToDraw> maps) {
     return images;
 }
 
-struct MapPart {
-    uint32_t part;
-    shared::MapInstance instance;
+// What is drawn into an image: parts, and an instance each, side by side.
+struct Drawn {
+    std::vector<uint32_t> parts;
+    std::vector<shared::MapInstance> instances;
 };
 
 // What stands where a square sees it.
 class Collector {
 public:
     Collector(const GpuScene& scene, const gpu_scene::SceneFrame& poses)
-        : scene_(scene), poses_(poses), spheres_(scene.placements().size()) {}
+        : scene_(scene), poses_(poses), bounds_(scene.placements().size()) {}
 
-    void collect(const Square& square, uint32_t image_side, std::vector<MapPart>& drawn) {
+    void collect(const Square& square, uint32_t image_side, Drawn& drawn) {
         const gpu_scene::MapLayout& layout = square.map->layout;
         const gpu_scene::MapFrame& frame = square.map->frame;
         const glm::dvec3 mirror(1, 1, square.second ? -1 : 1);
         const double texel = 2.0 / (double(layout.side) * double(layout.zoom));  // rad, about
         for (const uint32_t p : square.map->placements) {
-            if (std::ranges::binary_search(square.map->fixture, p)) continue;
+            const Bounds& bounds = bounds_of(p);
+            if (!reaches(layout, frame, bounds.whole)) continue;
+            const glm::dvec3 middle = mirror * (frame.rotation * (bounds.whole.centre - frame.position));
+            if (middle.z + bounds.whole.radius < 0 || std::ranges::binary_search(square.map->fixture, p)) continue;
             const GpuScene::Placement& placement = scene_.placements()[p];
-            glm::dmat4 to_map(0);
-            bool known = false;
-            const std::vector<gpu_scene::WorldSphere>& spheres = spheres_of(p);
+            std::optional<glm::mat4> rows;
             for (uint32_t i = 0; i < placement.part_count; ++i) {
-                const auto& [centre, radius] = spheres[i];
+                const auto& [centre, radius] = bounds.parts[i];
                 const GpuScene::Part& part = scene_.parts()[placement.first_part + i];
-                const double away = glm::distance(centre, frame.position);
                 if (part.index_count == 0 || scene_.surfaces()[part.material].material.clear ||
-                    away - radius > double(layout.range) || radius < 0.25 * texel * away)
+                    !reaches(layout, frame, bounds.parts[i]) ||
+                    radius < 0.25 * texel * glm::distance(centre, frame.position))
                     continue;
                 const glm::dvec3 c = mirror * (frame.rotation * (centre - frame.position));
                 if (c.z + radius < 0) continue;
-                if (!known) {
-                    const glm::dmat4 world =
-                        glm::translate(glm::dmat4(1), -frame.position) * poses_.world[placement.node];
-                    to_map = glm::dmat4(frame.rotation) * world;
-                    known = true;
-                }
-                add_quadrants(square, image_side, placement.first_part + i, {c, radius}, glm::mat4(to_map), drawn);
+                if (!rows) rows = rows_to_map(frame, poses_.world[placement.node]);
+                add_quadrants(square, image_side, placement.first_part + i, {c, radius}, *rows, drawn);
             }
         }
     }
 
 private:
-    // Of the parts of a placement, computed when it is first looked at.
-    const std::vector<gpu_scene::WorldSphere>& spheres_of(uint32_t placement) {
+    // Of a placement in the world, and of its parts.
+    struct Bounds {
+        gpu_scene::WorldSphere whole{glm::dvec3(0), -1};
+        std::vector<gpu_scene::WorldSphere> parts;
+    };
+
+    // Computed when a placement is first looked at.
+    const Bounds& bounds_of(uint32_t placement) {
         const GpuScene::Placement& of = scene_.placements()[placement];
-        std::vector<gpu_scene::WorldSphere>& spheres = spheres_[placement];
-        for (uint32_t i = uint32_t(spheres.size()); i < of.part_count; ++i)
-            spheres.push_back(gpu_scene::world_sphere_of(scene_.parts()[of.first_part + i], poses_.world[of.node]));
-        return spheres;
+        Bounds& bounds = bounds_[placement];
+        if (bounds.whole.radius >= 0 || of.part_count == 0) return bounds;
+        for (uint32_t i = 0; i < of.part_count; ++i)
+            bounds.parts.push_back(
+                gpu_scene::world_sphere_of(scene_.parts()[of.first_part + i], poses_.world[of.node]));
+        bounds.whole = bounds.parts[0];
+        for (const gpu_scene::WorldSphere& part : bounds.parts)
+            bounds.whole.radius =
+                std::max(bounds.whole.radius, glm::distance(part.centre, bounds.whole.centre) + part.radius);
+        return bounds;
+    }
+
+    static bool reaches(const gpu_scene::MapLayout& layout, const gpu_scene::MapFrame& frame,
+                        const gpu_scene::WorldSphere& sphere) {
+        const glm::dvec3 to = sphere.centre - frame.position;
+        const double far = double(layout.range) + sphere.radius;
+        return glm::dot(to, to) <= far * far;
+    }
+
+    static glm::mat4 rows_to_map(const gpu_scene::MapFrame& frame, const glm::dmat4& world) {
+        const glm::dmat4 from_lamp = glm::translate(glm::dmat4(1), -frame.position) * world;
+        return glm::transpose(glm::mat4(glm::dmat4(frame.rotation) * from_lamp));
     }
 
     static void add_quadrants(const Square& square, uint32_t image_side, uint32_t part,
-                              const gpu_scene::WorldSphere& sphere, const glm::mat4& to_map,
-                              std::vector<MapPart>& drawn) {
+                              const gpu_scene::WorldSphere& sphere, const glm::mat4& rows, Drawn& drawn) {
         const gpu_scene::MapLayout& layout = square.map->layout;
         const double zoom = double(layout.zoom), per_texel = 2.0 / double(layout.side);
         const glm::dvec2 low = per_texel * glm::dvec2(square.corner) - 1.0;
@@ -152,22 +173,21 @@ private:
         const float image = float(image_side), scale = float(layout.side) / image;
         const glm::vec2 corner = glm::vec2(square.place) - glm::vec2(square.corner);
         const glm::vec2 middle = (corner + 0.5f * float(layout.side)) * (2.0f / image) - 1.0f;
-        const glm::mat4 rows = glm::transpose(to_map);
         for (const glm::dvec2 signs : gpu_scene::quadrants_of(layout)) {
             if (!gpu_scene::may_see(window, signs, sphere.centre, sphere.radius)) continue;
-            drawn.push_back({part,
-                             {.row_x = rows[0],
-                              .row_y = rows[1],
-                              .row_z = square.second ? -rows[2] : rows[2],
-                              .place = glm::vec4(scale, middle, float(signs.x < 0 ? -zoom : zoom)),
-                              .window = glm::vec4(window.low, window.high),
-                              .y_sign = float(signs.y)}});
+            drawn.parts.push_back(part);
+            drawn.instances.push_back({.row_x = rows[0],
+                                       .row_y = rows[1],
+                                       .row_z = square.second ? -rows[2] : rows[2],
+                                       .place = glm::vec4(scale, middle, float(signs.x < 0 ? -zoom : zoom)),
+                                       .window = glm::vec4(window.low, window.high),
+                                       .y_sign = float(signs.y)});
         }
     }
 
     const GpuScene& scene_;
     const gpu_scene::SceneFrame& poses_;
-    std::vector<std::vector<gpu_scene::WorldSphere>> spheres_;  // of placements
+    std::vector<Bounds> bounds_;  // of placements
 };
 
 uint32_t saved_word(const std::optional<MapTile>& tile) {
@@ -188,20 +208,19 @@ std::vector<shared::MapRegion> regions_of(const std::vector<Square>& squares) {
     return regions;
 }
 
-// What is drawn into an image, part by part.
+// What is drawn into an image, in an order in which few states change.
 struct DrawnParts {
     std::vector<shared::MapInstance> instances;
     std::vector<MapBatch> batches;
 };
 
 DrawnParts parts_of(Collector& collector, const GpuScene& scene, const DrawnImage& image) {
-    std::vector<MapPart> drawn;
+    Drawn drawn;
     for (const Square& square : image.squares) collector.collect(square, image.side, drawn);
-    sort_by_part(drawn, scene, [](const MapPart& d) { return d.part; });
     DrawnParts parts;
-    for (const MapPart& d : drawn) {
-        add_to_batches(parts.batches, d.part, uint32_t(parts.instances.size()));
-        parts.instances.push_back(d.instance);
+    for (const uint32_t i : order_by_part(drawn.parts, scene)) {
+        add_to_batches(parts.batches, drawn.parts[i], uint32_t(parts.instances.size()));
+        parts.instances.push_back(drawn.instances[i]);
     }
     return parts;
 }

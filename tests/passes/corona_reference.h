@@ -102,8 +102,9 @@ inline dvec3 corona_added(const std::vector<glm::vec4>& pattern, const CoronaLig
     return lamp.illuminance * glm::mix(at_level(lower), at_level(lower + 1), level - lower) / (degrees * degrees);
 }
 
-/// What single precision may do to each pixel: directions and middles of squares are good to 1e-6 rad, where another
-/// row of the pattern may be taken; azimuths to 4096 ulp (Vulkan's atan), 1e-3 rad; the light itself to 3e-5.
+/// What single precision may do to each pixel: directions and middles of squares are good to 3e-6 rad, where another
+/// row of the pattern may be taken; azimuths to 4096 ulp (Vulkan's atan), 1e-3 rad; the light itself to 1e-4, since its
+/// level of the pattern is a logarithm.
 inline std::vector<double> corona_doubt(const gpu_scene::View& view, const std::vector<dvec3>& scene,
                                         const std::vector<glm::vec4>& pattern) {
     std::vector<double> doubts;
@@ -115,7 +116,7 @@ inline std::vector<double> corona_doubt(const gpu_scene::View& view, const std::
             double doubt = 0;
             for (const CoronaLight& light : lamps) {
                 const dvec3 here = corona_added(pattern, light, ray, pixel);
-                doubt += 3e-5 * glm::length(here);
+                doubt += 1e-4 * glm::length(here);
                 // Inwards, outwards, and to both sides.
                 for (const double turn : {0.0, 0.25, 0.5, 0.75}) {
                     const dvec3 out = ray - light.direction, side = glm::cross(light.direction, out),
@@ -123,7 +124,7 @@ inline std::vector<double> corona_doubt(const gpu_scene::View& view, const std::
                     const dvec3 step =
                         (std::cos(2 * std::numbers::pi * turn) * out + std::sin(2 * std::numbers::pi * turn) * side) /
                         size;
-                    const double far = turn == 0.25 || turn == 0.75 ? 1e-6 + 1e-3 * size.x : 1e-6 + 1e-5 * size.x;
+                    const double far = turn == 0.25 || turn == 0.75 ? 3e-6 + 1e-3 * size.x : 3e-6 + 1e-5 * size.x;
                     doubt += glm::length(corona_added(pattern, light, glm::normalize(ray + far * step), pixel) - here);
                 }
             }

@@ -158,7 +158,8 @@ std::vector<std::string> list_devices() {
     return lines;
 }
 
-Device::Device(const DeviceOptions& options) : on_message_(options.on_message), presentation_(options.presentation) {
+Device::Device(const DeviceOptions& options)
+    : as_gpu_(options.as_gpu), on_message_(options.on_message), presentation_(options.presentation) {
     try {
         open_instance(options.validation);
         const char* variable = std::getenv("VESPER_DEVICE");

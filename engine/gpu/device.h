@@ -61,6 +61,7 @@ struct Presentation {
 
 struct DeviceOptions {
     std::string select;       ///< part of a name, "cpu", or an index; empty: VESPER_DEVICE, else the best there is
+    bool as_gpu = false;      ///< use a CPU device as a GPU is used: what tests do where there is none
     bool validation = false;  ///< core, synchronization and best-practice-free checks of the Khronos layer
     std::function<void(const std::string&)> on_message;  ///< called for every validation message
     std::optional<Presentation>
@@ -108,7 +109,7 @@ public:
     VkQueue queue() const { return queue_; }
     uint32_t queue_family() const { return queue_family_; }
     const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
-    bool is_cpu() const { return properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
+    bool is_cpu() const { return !as_gpu_ && properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
     bool borrowed() const { return borrowed_; }
     bool has_timestamps() const { return timestamp_mask_ != 0; }
     uint64_t timestamp_mask() const { return timestamp_mask_; }  ///< the bits that its queue counts with
@@ -147,6 +148,7 @@ private:
     VkPhysicalDeviceMemoryProperties memory_{};
     mutable DeviceUse use_;
     std::string driver_;
+    bool as_gpu_ = false;
     std::function<void(const std::string&)> on_message_;
     std::optional<Presentation> presentation_;
     std::function<void()> lock_, unlock_;

@@ -16,6 +16,9 @@ struct FrameContext {
     const gpu::KernelCache& kernels;
     const gpu::GraphicsPipelineCache& pipelines;
     gpu_scene::View view;  ///< its extent is that of every image of full size
+
+    /// kLockstep of glsl/lanes.glsl.
+    uint32_t lockstep() const { return kernels.device().is_cpu() ? 1 : 0; }
 };
 
 }  // namespace vesper::render

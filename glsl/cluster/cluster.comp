@@ -1,16 +1,19 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
 
-// Clusters and their lists of lamps, one cell per invocation. Where nothing is drawn no lamp is listed. Elsewhere, a lamp is listed
+// Clusters and their lists of lamps, one cell per workgroup, which tries some lamps at a time. Where nothing is drawn no lamp is listed. Elsewhere, a lamp is listed
 // unless its illuminance stays under the threshold all over the sphere around the cell: the largest intensity in the cone
 // of directions that the sphere subtends, over the square of the nearest distance. Lamps are tried in ascending order, so lists are ascending and the same on every run.
 
 #include "shared/cluster.h"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = 8) in;  // the corners of a cell
 layout(constant_id = 0) const uint kPowers = 1u;  // there are cosine powers,
 layout(constant_id = 1) const uint kTables = 1u;    // measured distributions
+layout(constant_id = 2) const uint kLockstep = 0u;  // see lanes.glsl
 
 layout(binding = 0) uniform samplerBuffer lamps;
 layout(binding = 1) uniform usamplerBuffer parent_counts;
@@ -22,6 +25,7 @@ layout(binding = 6) uniform samplerBuffer tables;
 layout(binding = 7) uniform usamplerBuffer tile_slices;
 layout(push_constant, scalar) uniform Push { ClusterLevelPush push; };
 
+#include "lanes.glsl"
 #include "light_bounds.glsl"
 
 vec3 centre;
@@ -37,12 +41,9 @@ void bound_cell(uvec3 cell) {
     const float z0 = cell.z == 0u ? 0.0 : exp2((first - grid.slice_bias) / grid.slice_scale);
     const float z1 = last >= float(grid.slices) ? push.view.far : exp2((last - grid.slice_bias) / grid.slice_scale);
     centre = vec3(0.5 * (low + high), -1.0) * (0.5 * (z0 + z1));
-    radius = 0.0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const vec2 ray = vec2((corner & 1) == 0 ? low.x : high.x, (corner & 2) == 0 ? low.y : high.y);
-        radius = max(radius, distance(centre, vec3(ray, -1.0) * ((corner & 4) == 0 ? z0 : z1)));
-    }
-    radius *= kSlack;
+    const uint corner = gl_LocalInvocationID.x;  // one of eight for each
+    const vec2 ray = vec2((corner & 1u) == 0u ? low.x : high.x, (corner & 2u) == 0u ? low.y : high.y);
+    radius = kSlack * lanes_max(distance(centre, vec3(ray, -1.0) * ((corner & 4u) == 0u ? z0 : z1)));
 }
 
 // Whether anything is drawn in some of its froxels.
@@ -62,10 +63,22 @@ bool counts_here(uint lamp, bool cone) {
     return gives_threshold(largest_intensity(at, a, cone, measured, centre, radius), distance(centre, a.xyz) - radius, push.view.threshold);
 }
 
+// Lists some of the parent's lamps, those that count here. `from`: before the first of them; `count`: so many are listed.
+uint list_lamps(uint from, uint number, bool cone, bool all_of_them, uint base, uint count) {
+    for (uint begin = 0u; begin < number; begin += gl_WorkGroupSize.x) {
+        const uint i = begin + gl_LocalInvocationID.x;
+        const uint lamp = all_of_them || i >= number ? from + i : texelFetch(parent_indices, int(from + i)).r;
+        const bool listed = i < number && counts_here(lamp, cone);
+        const uint at = count + lanes_add_before(listed ? 1u : 0u);
+        if (listed && at < push.capacity) imageStore(indices, int(base + at), uvec4(lamp));
+        count += lanes_add(listed ? 1u : 0u);
+    }
+    return count;
+}
+
 void main() {
-    const uint index = gl_GlobalInvocationID.x;
+    const uint index = gl_WorkGroupID.x;
     const uvec3 cells = uvec3(push.cells_x, push.cells_y, push.cells_z);
-    if (index >= cells.x * cells.y * cells.z) return;
     const uvec3 cell = uvec3(index % cells.x, index / cells.x % cells.y, index / (cells.x * cells.y));
     bound_cell(cell);
 
@@ -78,23 +91,10 @@ void main() {
     const bool drawn = is_active(cell);
     const uint cones = !drawn ? 0u : all_of_them ? push.view.lamps.cones : listed_cones;
     const uint others = !drawn ? 0u : all_of_them ? push.view.lamps.powers + push.view.lamps.tables : listed_others;
-    const uint list = all_of_them ? 0u : parent_index * push.parent_capacity;
-
-    const uint base = index * push.capacity;
-    uint count = 0u;
-    for (uint i = 0u; i < cones; ++i) {
-        const uint lamp = all_of_them ? i : texelFetch(parent_indices, int(list + i)).r;
-        if (!counts_here(lamp, true)) continue;
-        if (count < push.capacity) imageStore(indices, int(base + count), uvec4(lamp));
-        ++count;
-    }
-    const uint kept_cones = count;
-    for (uint i = 0u; i < others; ++i) {
-        const uint lamp = all_of_them ? cones + i : texelFetch(parent_indices, int(list + cones + i)).r;
-        if (!counts_here(lamp, false)) continue;
-        if (count < push.capacity) imageStore(indices, int(base + count), uvec4(lamp));
-        ++count;
-    }
+    const uint list = all_of_them ? 0u : parent_index * push.parent_capacity, base = index * push.capacity;
+    const uint kept_cones = list_lamps(list, cones, true, all_of_them, base, 0u);
+    const uint count = list_lamps(list + cones, others, false, all_of_them, base, kept_cones);
+    if (gl_LocalInvocationID.x != 0u) return;
 
     const bool fits = count <= push.capacity;
     imageStore(counts, int(2u * index), uvec4(fits ? kept_cones : kAllLamps));

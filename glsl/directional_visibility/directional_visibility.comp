@@ -3,9 +3,9 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 #extension GL_KHR_shader_subgroup_vote : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
 
-// Visibility of directional lamps from pixels: one block per workgroup, which is one subgroup, and one column of pixels per
-// invocation. Each pixel looks at the middle of a lamp's disc and beside it; where these differ within a block, each looks for
+// Visibility of directional lamps from pixels: one block per workgroup, and one column of pixels per invocation. Each pixel looks at the middle of a lamp's disc and beside it; where these differ within a block, each looks for
 // what hides the lamp, as far as its penumbra may reach, and then at all of the disc from its own place (Fernando 2005).
 
 #include "blocks.glsl"
@@ -13,6 +13,7 @@
 #include "shared/directional_map.h"
 
 layout(local_size_x = 8) in;  // kBlockSize
+layout(constant_id = 0) const uint kLockstep = 0u;  // see lanes.glsl
 
 layout(binding = 0, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 1) uniform samplerBuffer maps;       // DirectionalMap
@@ -20,6 +21,7 @@ layout(binding = 2) uniform samplerBuffer distances;  // halves
 layout(binding = 3, r32ui) writeonly uniform uimageBuffer shares;
 layout(push_constant, scalar) uniform Push { DirectionalVisibilityPush push; };
 
+#include "lanes.glsl"
 #include "visibility.glsl"
 
 const float kWiden = 1.08;        // a level reaches at least that much less far from the eye than its half width
@@ -100,7 +102,7 @@ uint share_of_disc(DirectionalLamp lamp, LevelPoint p) {
     below += max(depth_here, 0.0);
     hidden += here ? 1u : 0u;
     uint share = 255u;
-    const bool partly = subgroupAny(p.inside && hidden > 0u);
+    const bool partly = lanes_any(p.inside && hidden > 0u);
     for (uint once = 0u; once < (partly ? 1u : 0u); ++once) {  // a CPU device skips loops, not branches
         const float width = clamp(lamp.radius / p.width * below / max(float(hidden), 1.0), kLeastWidth, reach);
         uint seen = 0u;
@@ -123,8 +125,8 @@ void look(uint number, inout uint words[kBlockSize]) {
         any_seen = any_seen || (faces && (!p.inside || !here || !there));
         any_hidden = any_hidden || (faces && p.inside && (here || there));
     }
-    any_seen = subgroupAny(any_seen);
-    any_hidden = subgroupAny(any_hidden);
+    any_seen = lanes_any(any_seen);
+    any_hidden = lanes_any(any_hidden);
     [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) words[r] |= (any_hidden ? 0u : 255u) << shift;
     for (uint once = 0u; once < (any_seen && any_hidden ? 1u : 0u); ++once)  // a CPU device skips loops, not branches
         [[unroll]] for (uint r = 0u; r < kBlockSize; ++r)

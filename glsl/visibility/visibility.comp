@@ -5,7 +5,7 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
-// Visibility of lamps from blocks of pixels: one block per workgroup, which is one subgroup. Pixels of the block, the probes,
+// Visibility of lamps from blocks of pixels: one block per workgroup. Pixels of the block, the probes,
 // tell what it sees of each lamp on its list, one lamp per invocation: four of them, and sixteen of a lamp that gives a good
 // part of the block's light. Where these differ, or the block is no plane, all pixels look: one column of them per invocation.
 // Lamps that nothing of the block sees leave its list.
@@ -17,6 +17,7 @@
 layout(local_size_x = 8) in;  // kBlockSize
 layout(constant_id = 0) const uint kPowers = 1u;  // there are cosine powers,
 layout(constant_id = 1) const uint kTables = 1u;  // measured distributions
+layout(constant_id = 2) const uint kLockstep = 0u;  // see lanes.glsl
 
 layout(binding = 0, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 1) uniform samplerBuffer lamps;
@@ -30,6 +31,7 @@ layout(binding = 8, r32ui) uniform uimageBuffer report;
 layout(push_constant, scalar) uniform Push { VisibilityPush push; };
 
 #include "lamp.glsl"
+#include "lanes.glsl"
 #include "visibility.glsl"
 
 const float kMostSheen = 8.0;  // what a sheen or a wide lobe has, at most, in place of a cosine
@@ -69,9 +71,9 @@ void look_at_block(uvec2 corner) {
         all_drawn = all_drawn && drawn[r];
         nearest = drawn[r] ? min(nearest, surface.z) : nearest;
     }
-    shiny = subgroupAny(shines);
-    filled = subgroupAll(all_drawn);
-    pixel_size = abs(push.grid.ray_scale.y) * subgroupMin(nearest);
+    shiny = lanes_any(shines);
+    filled = lanes_all(all_drawn);
+    pixel_size = abs(push.grid.ray_scale.y) * -lanes_max(-nearest);
     // The first four are one in each quarter; the last eight are in the corners and near the middle.
     const uint columns[2] = uint[](0x66215152u, 0x44337700u), rows[2] = uint[](0x14636521u, 0x35427070u);
     [[unroll]] for (uint k = 0u; k < kProbes; ++k) {
@@ -86,7 +88,7 @@ void look_at_block(uvec2 corner) {
         const bool level = abs(dot(probe_normal[0], position[r] - probe_position[0])) <= -kMostLift * probe_position[0].z;
         same = same && (!drawn[r] || (level && distance(normal[r], probe_normal[0]) <= kMostTilt));
     }
-    plane = subgroupAll(same);
+    plane = lanes_all(same);
 }
 
 const uint kLit = 0u, kDark = kShares + 1u, kMixed = kShares + 2u;  // of `found`; between: sixteenths that are seen
@@ -202,9 +204,9 @@ uint look(uint index, float stops, out uint word) {
             packed |= counts[r] << 4u * r;  // 8 at most, by fours
         }
         counted[lane] = packed;
-        subgroupBarrier();
+        lanes_wait();
         const uint beside = counted[lane ^ 1u];
-        subgroupBarrier();
+        lanes_wait();
         [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
             const uint four = counts[r] + counts[r ^ 1u] + (beside >> 4u * r & 15u) + (beside >> 4u * (r ^ 1u) & 15u);
             // Rounded in four ways, so that the mean of the four is finer than what four bits hold.
@@ -217,7 +219,7 @@ uint look(uint index, float stops, out uint word) {
         const bool before = drawn[r] && dot(normal[r], position[r] - lamp) < 0.0;
         kinds |= !before ? 0u : (share < 15u ? 1u : 0u) | (share > 0u ? 2u : 0u);
     }
-    kinds = subgroupOr(kinds);
+    kinds = lanes_or(kinds);
     return kinds == 3u ? kMixed : kinds == 1u ? kDark : kLit;
 }
 
@@ -236,21 +238,21 @@ uvec4 see(uint x, uint y) {
         light += probe(i, lamp_of(entry), i < cones);
     }
     // What a lamp must give for more probes to look at it: more than the faint share of the block's mean light.
-    float limit = max(push.faint * subgroupAdd(light), 1e-9);
+    float limit = max(push.faint * lanes_add(light), 1e-9);
     uint number = 0u;
     for (uint begin = 0u; begin < all_; begin += kBlockSize) {
         const uint i = begin + lane;
         const bool more = i < all_ && (brightest[i] * (shiny ? kMostSheen : 1.0) > limit || unpack(found[i], 0.0).facing == 0u);
-        const uint at = number + subgroupExclusiveAdd(more ? 1u : 0u);
+        const uint at = number + lanes_add_before(more ? 1u : 0u);
         if (more) chosen[at] = i;
-        number += subgroupAdd(more ? 1u : 0u);
+        number += lanes_add(more ? 1u : 0u);
     }
-    subgroupBarrier();
+    lanes_wait();
     for (uint c = lane; c < number; c += kBlockSize) {
         const uint i = chosen[c];
         probe_more(i, lamp_of(listed[i]));
     }
-    subgroupBarrier();
+    lanes_wait();
     for (uint i = lane; i < all_; i += kBlockSize) {
         const Sight s = unpack(found[i], way[i]);
         found[i] = found_of(s);
@@ -260,7 +262,7 @@ uvec4 see(uint x, uint y) {
     for (bool fits = false; !fits; limit *= fits ? 1.0 : 2.0) {
         uint matter = 0u;
         for (uint i = lane; i < all_; i += kBlockSize) matter += is_open(found[i]) && brightest[i] > limit ? 1u : 0u;
-        fits = subgroupAdd(matter) <= kSharePlaces;
+        fits = lanes_add(matter) <= kSharePlaces;
     }
 
     uint lit = 0u, dark = 0u, mixed = 0u, kept = 0u;  // kept: cones, and from bit 16 on others
@@ -271,29 +273,29 @@ uvec4 see(uint x, uint y) {
         uint visible = there ? found[i] : kDark, mark = 0u;
         const bool matters = there && is_open(visible) && brightest[i] > limit;
         // Lamps that all pixels look at, one after another.
-        uint next = subgroupMax(matters ? i + 1u : 0u);
+        uint next = lanes_max(matters ? i + 1u : 0u);
         while (next != 0u) {
             const bool mine = i + 1u == next;
-            const uint lamp = subgroupMax(mine ? lamp_of(entry) : 0u);
+            const uint lamp = lanes_max(mine ? lamp_of(entry) : 0u);
             uint word;
-            const float stops = subgroupMax(mine ? way[i] : 0.0);
+            const float stops = lanes_max(mine ? way[i] : 0.0);
             const uint sees_it = look(lamp, stops, word);
             if (sees_it == kMixed)
                 imageStore(shares, int((block * kSharePlaces + mixed) * kBlockSize + lane), uvec4(word));
             visible = mine ? sees_it : visible;
             mark = mine && sees_it == kMixed ? kMixedBit | mixed << kShareShift : mark;
             mixed += sees_it == kMixed ? 1u : 0u;
-            next = subgroupMax(matters && i + 1u < next ? i + 1u : 0u);
+            next = lanes_max(matters && i + 1u < next ? i + 1u : 0u);
         }
         mark = visible < kShares ? visible << kShareShift : mark;
         const bool stays = visible != kDark;
-        const uint one = stays ? (cone ? 1u : 1u << 16u) : 0u, before = kept + subgroupExclusiveAdd(one);
+        const uint one = stays ? (cone ? 1u : 1u << 16u) : 0u, before = kept + lanes_add_before(one);
         if (stays) imageStore(entries, cone ? first + int(before & 0xffffu) : last - int(before >> 16u), uvec4(entry | mark));
-        kept += subgroupAdd(one);
+        kept += lanes_add(one);
         lit += visible == kLit ? 1u : 0u;
         dark += there && visible == kDark ? 1u : 0u;
     }
-    lit = subgroupAdd(lit), dark = subgroupAdd(dark);
+    lit = lanes_add(lit), dark = lanes_add(dark);
     if (lane == 0u) {
         imageStore(block_counts, counts, uvec4(kept & 0xffffu));
         imageStore(block_counts, counts + 1, uvec4(kept >> 16u));

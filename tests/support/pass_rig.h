@@ -1,6 +1,7 @@
 // Runs single passes on a device under core and synchronization validation. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdlib>
 #include <cstring>
 #include <functional>
 #include <memory>
@@ -19,6 +20,7 @@ class PassRig {
 public:
     PassRig()
         : device_({.select = "",
+                   .as_gpu = std::getenv("VESPER_TEST_AS_GPU") != nullptr,
                    .validation = true,
                    .on_message = [this](const std::string& message) { complaints_.push_back(message); }}),
           kernels_(device_),

@@ -108,7 +108,7 @@ Clusters add_clusters(const FrameContext& frame, graph::Resource surface, const 
     graph.clear("clear cluster report", clusters.report);
 
     const LampKinds kinds = lamp_kinds(clusters);
-    const gpu::Kernel& kernel = frame.kernels.get(kCluster, {kinds.powers, kinds.tables});
+    const gpu::Kernel& kernel = frame.kernels.get(kCluster, {kinds.powers, kinds.tables, frame.lockstep()});
     const auto add_level = [&](const char* name, const LampLists& parents, shared::ClusterLevelPush push) {
         push.view = clusters.push;
         const uint32_t cells = push.cells_x * push.cells_y * push.cells_z;
@@ -117,7 +117,7 @@ Clusters add_clusters(const FrameContext& frame, graph::Resource surface, const 
         graph.dispatch(name, kernel,
                        {sample(clusters.lamps), sample(parents.counts), sample(parents.indices), store(lists.counts),
                         store(lists.indices), update(clusters.report), sample(tables.texels), sample(tile_slices)},
-                       push, graph::cover(cells, 1, kernel.group[0], 1));
+                       push, graph::Groups{cells, 1, 1});
         return lists;
     };
 

@@ -28,7 +28,7 @@ Blocks add_directional_visibility(const FrameContext& frame, const GBuffer& surf
     blocks.directional_shares = frame.graph.transient(
         "directional shares", graph::buffer_shape(elements * sizeof(uint32_t), VK_FORMAT_R32_UINT));
     frame.graph.dispatch(
-        "directional visibility", frame.kernels.get(kDirectionalVisibility),
+        "directional visibility", frame.kernels.get(kDirectionalVisibility, {frame.lockstep()}),
         {load(surfaces.surface), sample(maps.lamps), sample(maps.distances), store(blocks.directional_shares)},
         shared::DirectionalVisibilityPush{.grid = clusters.push.grid,
                                           .size = {extent.width, extent.height},

@@ -23,7 +23,7 @@ Blocks add_visibility(const FrameContext& frame, const GBuffer& surfaces, const 
     blocks.visibility =
         graph.transient("visibility report", graph::buffer_shape(sizeof(shared::VisibilityReport), VK_FORMAT_R32_UINT));
     graph.clear("clear visibility report", blocks.visibility);
-    const gpu::Kernel& kernel = frame.kernels.get(kVisibility, {kinds.powers, kinds.tables});
+    const gpu::Kernel& kernel = frame.kernels.get(kVisibility, {kinds.powers, kinds.tables, frame.lockstep()});
     const uint32_t rows = blocks.count / blocks.columns;
     blocks.shares = graph.transient(
         "visible shares",

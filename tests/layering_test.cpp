@@ -30,6 +30,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"vision", {"base", "io", "photometry"}},
     {"scene", {"base", "io", "photometry", "vision"}},
     {"rays", {"base", "photometry", "scene"}},
+    {"transport", {"base", "photometry", "scene", "rays"}},
     {"roads", {"base", "io", "photometry", "vision", "scene", "rays"}},
     {"traffic", {"base", "io", "photometry", "vision", "scene"}},
     {"gpu", {"base"}},

@@ -60,6 +60,10 @@ void run(const InspectArguments& a) {
     only(a.low > 0 || a.high > 0, Kind::Picture, "--low and --high are for pictures (.exr, .hdr)");
     only(a.contours, Kind::Picture, "--contours is for pictures (.exr, .hdr)");
     only(!a.lamp.empty(), Kind::Scene, "--lamp is for scenes (.gltf, .glb)");
+    only(!a.points.empty(), Kind::Scene, "--at is for scenes (.gltf, .glb)");
+    if (!a.lamp.empty() && !a.points.empty()) throw Error("--at and --lamp are two reports: ask for one of them");
+    if (a.points.empty() && (!a.normal.empty() || a.paths > 0))
+        throw Error("--normal and --paths have a meaning only beside --at");
     if (a.lamp.empty() && (a.lamp_number > 1 || !a.device.empty()))
         throw Error("--lamp-number and --device have a meaning only beside --lamp");
     if (!a.picture.empty() && ((kind == Kind::Scene && a.lamp.empty()) || kind == Kind::Table))
@@ -67,7 +71,7 @@ void run(const InspectArguments& a) {
     Inspection found;
     switch (kind) {
         case Kind::Scene:
-            found = a.lamp.empty() ? inspect_scene(a) : inspect_lamp_map(a);
+            found = !a.points.empty() ? inspect_light(a) : a.lamp.empty() ? inspect_scene(a) : inspect_lamp_map(a);
             break;
         case Kind::Distribution:
             found = inspect_distribution(a);
@@ -101,6 +105,13 @@ void add_inspect(apps::Command program) {
     command.add_option("--lamp", a->lamp, "Scenes: how far the lamp of this name, or at this node, sees; a pattern");
     command.add_option("--lamp-number", a->lamp_number, "Scenes: which of the lamps of that name, from 1")
         .check(apps::between(1, 1e6));
+    command.add_option("--at", a->points,
+                       "Scenes: X,Y,Z, m: the light on a surface there, by its origin; may be repeated");
+    command.add_option("--normal", a->normal, "With --at: X,Y,Z, where the surface faces (default: 0,1,0, up)");
+    command
+        .add_option("--paths", a->paths,
+                    "With --at: of rays to a point (default: 16384); the error falls with the root")
+        .check(apps::between(16, 1e8));
     command.add_option("--device", a->device, "With --lamp: part of a name, cpu, or an index of vesper devices");
     command.add_option("--probe", a->probes, "Pictures: X,Y from the top left, px; may be repeated");
     command.add_option("--layer", a->layer, apps::kLayerHelp);
@@ -114,6 +125,7 @@ void add_inspect(apps::Command program) {
     command.footer(
         "Examples:\n  vesper inspect night.gltf\n  vesper inspect data/road/luminaire.ldt -o luminaire.png\n"
         "  vesper inspect night.gltf --lamp \"street lamp\" -o map.png\n"
+        "  vesper inspect night.gltf --at 8.5,0.15,-60 --at 10,3,-60 --normal -1,0,0\n"
         "  vesper inspect night.exr --probe 840,700 -o luminance.png\n");
     command.callback([a] { run(*a); });
 }

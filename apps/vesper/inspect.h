@@ -11,7 +11,9 @@ namespace vesper::commands {
 struct InspectArguments {
     std::string file, json, picture, layer, lamp, device;
     uint32_t lamp_number = 1;  ///< of those that `lamp` names, from 1
-    std::vector<std::string> probes;
+    std::vector<std::string> probes, points;
+    std::string normal;        ///< of the surfaces at the points; empty: up
+    uint32_t paths = 0;        ///< to a point; 0: the standard number
     double low = 0, high = 0;  ///< ends of the colour scale; 0: found
     bool contours = false;
 };
@@ -23,6 +25,7 @@ struct Inspection {
 };
 
 Inspection inspect_scene(const InspectArguments&);
+Inspection inspect_light(const InspectArguments&);         ///< at points of a scene
 Inspection inspect_lamp_map(const InspectArguments&);      ///< of a scene; writes the picture if one is wanted
 Inspection inspect_distribution(const InspectArguments&);  ///< writes the picture if one is wanted
 Inspection inspect_table(const InspectArguments&);         ///< an r-table

@@ -154,6 +154,45 @@ TEST_F(Inspect, WhatALampSees) {
     EXPECT_EQ(picture("all.png").height, one.height);
 }
 
+TEST_F(Inspect, LightByItsOrigin) {
+    folder.write("a.gltf", LampOverPlate().file.text());
+    ASSERT_EQ(inspect("a.gltf --at 0,1,0 --at 0,0,0 --paths 4096 --json a.json"), 0) << said;
+    EXPECT_TRUE(prints("at (0, 1, 0) m, facing (0, 1, 0)") && prints("lamps, directly")) << printed;
+    const auto points = json("a.json")["light"];
+    ASSERT_EQ(points.size(), 2u);
+    const auto &over = points[0]["illuminance_lx"], &under = points[1]["illuminance_lx"];
+    EXPECT_NEAR(over["lamps"].get<double>(), 100 / 9.0 + 100 / std::pow(101, 1.5), 1e-3);
+    EXPECT_NEAR(under["lamps"].get<double>(), 200 / std::pow(104, 1.5), 1e-3) << "under the plate the other lamp alone";
+    EXPECT_GT(under["reflected_more_often"].get<double>(), 0.1) << "between plate and floor";
+    EXPECT_EQ(over["emitters"].get<double>() + over["sky"].get<double>(), 0);
+    double sum = 0;
+    for (const char* origin : {"lamps", "emitters", "sky", "reflected_once", "reflected_more_often"})
+        sum += under[origin].get<double>();
+    EXPECT_NEAR(under["sum"].get<double>(), sum, 1e-9);
+
+    ASSERT_EQ(inspect("a.gltf --at 5,3,0 --normal=-2,0,0 --json b.json"), 0) << said;
+    const auto wall = json("b.json")["light"][0];
+    EXPECT_EQ(wall["normal"], (nlohmann::json{-1, 0, 0}));
+    EXPECT_NEAR(wall["illuminance_lx"]["lamps"].get<double>(), 0, 1e-9) << "beyond the cone, and behind";
+}
+
+TEST_F(Inspect, RefusesPointsThatAreNone) {
+    folder.write("a.gltf", LampOverPlate().file.text());
+    const auto refuses = [&](const std::string& arguments, const std::string& reason) {
+        EXPECT_EQ(inspect(arguments), 2) << arguments;
+        EXPECT_TRUE(contains(said, reason)) << said;
+    };
+    for (const char* point : {"1,2", "1,2,3,4", "1,2,x", "nan,0,0", "1e300,0,0", "1;2;3"})
+        refuses(std::string("a.gltf --at '") + point + "'", "expected X,Y,Z in m");
+    refuses("a.gltf --at 0,0,0 --normal 0,0,0", "has no direction");
+    refuses("a.gltf --normal 0,1,0", "only beside --at");
+    refuses("a.gltf --paths 100", "only beside --at");
+    refuses("a.gltf --at 0,0,0 --paths 1", "--paths");
+    refuses("a.gltf --at 0,0,0 --lamp spot", "two reports");
+    refuses("a.gltf --at 0,0,0 -o a.png", "-o a.png");
+    refuses(kData + "road/luminaire.ldt --at 0,0,0", "--at is for scenes");
+}
+
 TEST_F(Inspect, RefusesLampsThatHaveNoMap) {
     folder.write("a.gltf", LampOverPlate().file.text());
     const auto refuses = [&](const std::string& arguments, const std::string& reason) {

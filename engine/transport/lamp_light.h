@@ -1,0 +1,36 @@
+// Illuminance of a scene's lamps, on the host. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "rays/ray_caster.h"
+
+namespace vesper::transport {
+
+/// What the lamps of a scene give a point that sees them: E = I cos / d^2 of each (directional ones: E cos), lamps as
+/// points. A lamp's own fixture (scene/fixtures.h) does not hide it.
+class LampLight {
+public:
+    /// The scene with its nodes at `world`. Keeps references to the first and the last.
+    LampLight(const scene::Scene& scene, std::span<const glm::dmat4> world, const rays::RayCaster& rays);
+    LampLight(scene::Scene&&, std::span<const glm::dmat4>, const rays::RayCaster&) = delete;
+
+    /// On a surface with the unit normal `normal`, lx RGB. Lamps that give less than `threshold` lx count as dark.
+    glm::dvec3 illuminance(glm::dvec3 point, glm::dvec3 normal, double threshold) const;
+
+private:
+    struct Placed {
+        const scene::Lamp* lamp;
+        glm::dvec3 position;
+        glm::dmat3 to_lamp;             // directions
+        double largest;                 // intensity, cd
+        std::vector<uint32_t> fixture;  // nodes
+    };
+
+    const scene::Scene& scene_;
+    const rays::RayCaster& rays_;
+    std::vector<Placed> lamps_;
+};
+
+}  // namespace vesper::transport

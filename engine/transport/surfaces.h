@@ -1,0 +1,39 @@
+// Surfaces that rays meet: what they reflect and emit. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "rays/ray_caster.h"
+
+namespace vesper::transport {
+
+/// A point of a surface, seen from where a ray comes from.
+struct SurfacePoint {
+    glm::dvec3 position{0};     ///< m, world
+    glm::dvec3 normal{0};       ///< of the triangle, unit length, towards the start of the ray
+    glm::dvec3 reflectance{0};  ///< RGB, [0, 1]: base colour; light transport takes gloss for matt
+    glm::dvec3 emission{0};     ///< RGB luminance, cd/m^2; 0 behind surfaces that are not double-sided
+};
+
+/// The materials of a scene at the places where rays meet its triangles. Textures count as in pictures at close view.
+class Surfaces {
+public:
+    /// The scene with its nodes at `world`. Keeps references to both.
+    Surfaces(const scene::Scene& scene, std::span<const glm::dmat4> world);
+    Surfaces(scene::Scene&&, std::span<const glm::dmat4>) = delete;
+
+    /// `hit`: of a ray from `from`. Meshes that hold a lamp (scene/fixtures.h) emit nothing: the lamp's intensities
+    /// have their light.
+    SurfacePoint at(const rays::Hit& hit, glm::dvec3 from) const;
+    bool holds_lamp(uint32_t node) const { return holds_lamp_[node]; }
+
+private:
+    const scene::Scene& scene_;
+    std::span<const glm::dmat4> world_;
+    std::array<double, 256> codes_, emitted_;  // linear values of base colours, and of textures of emission
+    std::vector<bool> holds_lamp_;             // nodes
+};
+
+}  // namespace vesper::transport

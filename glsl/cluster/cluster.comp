@@ -77,9 +77,8 @@ uint list_lamps(uint from, uint number, bool cone, bool all_of_them, uint base, 
 }
 
 void main() {
-    const uint index = gl_WorkGroupID.x;
-    const uvec3 cells = uvec3(push.cells_x, push.cells_y, push.cells_z);
-    const uvec3 cell = uvec3(index % cells.x, index / cells.x % cells.y, index / (cells.x * cells.y));
+    const uvec3 cell = gl_WorkGroupID;
+    const uint index = (cell.z * push.cells_y + cell.y) * push.cells_x + cell.x;
     bound_cell(cell);
 
     const uvec3 parent = uvec3(cell.xy * push.tiles_per_cell / push.tiles_per_parent,

@@ -117,7 +117,7 @@ Clusters add_clusters(const FrameContext& frame, graph::Resource surface, const 
         graph.dispatch(name, kernel,
                        {sample(clusters.lamps), sample(parents.counts), sample(parents.indices), store(lists.counts),
                         store(lists.indices), update(clusters.report), sample(tables.texels), sample(tile_slices)},
-                       push, graph::Groups{cells, 1, 1});
+                       push, graph::Groups{push.cells_x, push.cells_y, push.cells_z});
         return lists;
     };
 

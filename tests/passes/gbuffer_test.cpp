@@ -69,7 +69,7 @@ size_t expect_reference(const Layers& got, const reference::Geometry& g, const V
                 // Where the surface is steep or bent, the snapping of vertices moves what is seen.
                 double slack = near.depth * want.depth, turned = near.normal, coloured = near.reflectance;
                 for (glm::dvec2 shift : {glm::dvec2(1.0 / 256, 0), glm::dvec2(0, 1.0 / 256)}) {
-                    const reference::Seen other = reference::cast(g, rays, pixel + shift, reference::Filter::Nearest);
+                    const reference::Seen other = reference::cast(g, rays, pixel + shift, near.filter);
                     slack += std::abs(other.depth - want.depth);
                     turned += glm::length(other.normal - want.normal);
                     coloured += glm::length(other.base - want.base);

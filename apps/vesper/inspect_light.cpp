@@ -32,7 +32,7 @@ glm::dvec3 triple(const char* option, const std::string& text) {
     int used = 0;
     const bool read = std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &v.x, &v.y, &v.z, &used) == 3;
     if (!read || size_t(used) != text.size() || !(glm::length(v) < 1e7))
-        throw Error(std::string(option) + " " + one_line(text) + ": expected X,Y,Z in m, within 1e7 m of the origin");
+        throw Error(std::string(option) + " " + one_line(text) + ": expected X,Y,Z, three numbers below 1e7");
     return v;
 }
 
@@ -40,22 +40,20 @@ std::string numbers(glm::dvec3 v) { return format("(%.6g, %.6g, %.6g)", v.x, v.y
 
 void report(const Illuminance& light, glm::dvec3 point, glm::dvec3 normal, Inspection& made) {
     const double sum = luminance(light.sum());
-    double square = 0;
     nlohmann::ordered_json json = {{"point_m", {point.x, point.y, point.z}},
                                    {"normal", {normal.x, normal.y, normal.z}}};
     made.text += "\nat " + numbers(point) + " m, facing " + numbers(normal) + "\n";
     made.text += "  illuminance                          lx   std. error   share\n";
     for (size_t i = 0; i < kRows.size(); ++i) {
         const double lux = luminance(light.rgb[i]), error = light.standard_error[i];
-        square += error * error;
         made.text +=
             format("  %-28s %10.4g   %10.2g   %5.1f %%\n", kRows[i].text, lux, error, sum > 0 ? 100 * lux / sum : 0.0);
         json["illuminance_lx"][kRows[i].key] = lux;
         json["standard_error_lx"][kRows[i].key] = error;
     }
-    made.text += format("  %-28s %10.4g   %10.2g\n", "sum", sum, std::sqrt(square));
+    made.text += format("  %-28s %10.4g   %10.2g\n", "sum", sum, light.standard_error_of_sum);
     json["illuminance_lx"]["sum"] = sum;
-    json["standard_error_lx"]["sum"] = std::sqrt(square);
+    json["standard_error_lx"]["sum"] = light.standard_error_of_sum;
     made.json["light"].push_back(json);
 }
 

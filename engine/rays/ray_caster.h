@@ -42,6 +42,8 @@ public:
     /// The first triangle from `from` to `to`; of several at one place that of the least number in the scene.
     std::optional<Hit> nearest(glm::dvec3 from, glm::dvec3 to, std::span<const uint32_t> without = {}) const;
 
+    /// Amid the triangles, m: corners are rounded by 1e-7 of their distance from it.
+    glm::dvec3 middle() const { return list_.origin; }
     size_t triangles() const { return list_.triangles.size(); }
     /// Triangles without area, and those with a corner that is not finite or beyond kFarthest.
     uint64_t left_out() const { return list_.left_out; }

@@ -5,33 +5,44 @@
 #include <string>
 #include <tuple>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/luminance.h"
+#include "base/one_line.h"
 
 namespace vesper::transport {
 namespace {
 
 auto key_of(const Emitters::Emitter& e) { return std::tuple(e.node, e.primitive, e.triangle); }
 
-double luminance_of(const scene::Scene& scene, const scene::Material& material) {
-    const glm::dvec3 factor(material.emission);
-    const uint32_t picture = material.emission_picture.image;
-    return luminance(picture == scene::kNone ? factor
-                                             : factor * photometry::mean_colour(scene.luminance_pictures[picture]));
+// Of each material, cd/m^2.
+std::vector<double> luminances_of(const scene::Scene& scene) {
+    std::vector<glm::dvec3> means;
+    for (const photometry::LuminancePicture& picture : scene.luminance_pictures)
+        means.push_back(photometry::mean_colour(picture));
+    std::vector<double> luminances;
+    for (const scene::Material& material : scene.materials) {
+        const uint32_t picture = material.emission_picture.image;
+        const glm::dvec3 factor(material.emission);
+        luminances.push_back(luminance(picture == scene::kNone ? factor : factor * means[picture]));
+    }
+    return luminances;
 }
 
 }  // namespace
 
 Emitters::Emitters(const scene::Scene& scene, std::span<const glm::dmat4> world, const Surfaces& surfaces) {
+    const std::vector<double> luminances = luminances_of(scene);
     for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
         if (scene.nodes[node].mesh == scene::kNone || surfaces.holds_lamp(node)) continue;
         const scene::Mesh& mesh = scene.meshes[scene.nodes[node].mesh];
-        const double front = glm::determinant(glm::dmat3(world[node])) > 0 ? 1 : -1;
+        const double front = glm::determinant(glm::dmat3(world[node])) < 0 ? -1 : 1;
         for (uint32_t p = 0; p < mesh.primitives.size(); ++p) {
             const scene::Primitive& primitive = mesh.primitives[p];
             const scene::Material& material = scene.materials[primitive.material];
-            const double emitted = material.emission == glm::vec3(0) ? 0 : luminance_of(scene, material);
+            const double emitted = luminances[primitive.material];
             if (!(emitted > 0) || material.clear) continue;
+            spend(primitive.indices.size() / 3 * 2 * sizeof(Emitter));  // of a vector that grows
             for (uint32_t t = 0; 3 * size_t(t) < primitive.indices.size(); ++t) {
                 Emitter e{node, p, t, {}, {}, 0, emitted, material.double_sided};
                 for (size_t k = 0; k < 3; ++k) {
@@ -42,7 +53,9 @@ Emitters::Emitters(const scene::Scene& scene, std::span<const glm::dmat4> world,
                 e.area = 0.5 * glm::length(twice);
                 if (!(e.area > 0) || !std::isfinite(e.area)) continue;
                 e.outwards = front * twice / (2 * e.area);
-                if (list_.size() == kMost) throw Error("more than " + std::to_string(kMost) + " triangles emit light");
+                if (list_.size() == kMost)
+                    throw Error(one_line(scene.nodes[node].name) + " is one of nodes that emit light with more than " +
+                                std::to_string(kMost) + " triangles");
                 list_.push_back(e);
             }
         }
@@ -71,6 +84,11 @@ EmitterChoice::EmitterChoice(std::span<const Emitters::Emitter> emitters, glm::d
         if (above > 0 && (facing > 0 || e.double_sided)) sum += e.luminance * above * e.area / (distance2 + e.area);
         ends_.push_back(sum);
     }
+}
+
+EmitterChoice::EmitterChoice(std::span<const Emitters::Emitter> emitters) {
+    double sum = 0;
+    for (const Emitters::Emitter& e : emitters) ends_.push_back(sum += e.luminance * e.area);
 }
 
 size_t EmitterChoice::choose(double& share) const {

@@ -39,6 +39,8 @@ private:
 class EmitterChoice {
 public:
     EmitterChoice(std::span<const Emitters::Emitter> emitters, glm::dvec3 point, glm::dvec3 normal);
+    /// For points anywhere: in proportion to the light that each emits.
+    explicit EmitterChoice(std::span<const Emitters::Emitter> emitters);
 
     bool any() const { return !ends_.empty() && ends_.back() > 0; }
     /// `share` from 0 to 1, which is used up: what is left of it is from 0 to 1 again.

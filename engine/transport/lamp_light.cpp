@@ -35,8 +35,8 @@ LampLight::LampLight(const scene::Scene& scene, std::span<const glm::dmat4> worl
     }
 }
 
-glm::dvec3 LampLight::illuminance(glm::dvec3 point, glm::dvec3 normal, double threshold) const {
-    const glm::dvec3 start = point + kSkin * normal;
+glm::dvec3 LampLight::illuminance(glm::dvec3 point, glm::dvec3 normal, double threshold, uint32_t node) const {
+    const glm::dvec3 start = point + skin_at(rays_, point) * normal;
     glm::dvec3 sum(0);
     for (const Placed& lamp : lamps_) {
         const bool directional = lamp.lamp->kind == scene::Lamp::Kind::Directional;
@@ -44,6 +44,7 @@ glm::dvec3 LampLight::illuminance(glm::dvec3 point, glm::dvec3 normal, double th
         const glm::dvec3 to = directional ? -kReach * axis : lamp.position - point;
         const double distance2 = directional ? 1 : glm::dot(to, to), cosine = glm::dot(normal, to) / glm::length(to);
         if (!(cosine > 0) || !(lamp.largest * cosine >= threshold * distance2)) continue;
+        if (node != scene::kNone && std::ranges::binary_search(lamp.fixture, node)) continue;
         const double intensity = directional
                                      ? lamp.largest
                                      : scene::luminous_intensity(*lamp.lamp, scene_.distributions, lamp.to_lamp * -to);

@@ -17,7 +17,9 @@ public:
     LampLight(scene::Scene&&, std::span<const glm::dmat4>, const rays::RayCaster&) = delete;
 
     /// On a surface with the unit normal `normal`, lx RGB. Lamps that give less than `threshold` lx count as dark.
-    glm::dvec3 illuminance(glm::dvec3 point, glm::dvec3 normal, double threshold) const;
+    /// `node`: that has the surface; lamps of whose fixture it is give it nothing, since their intensities hold its
+    /// light.
+    glm::dvec3 illuminance(glm::dvec3 point, glm::dvec3 normal, double threshold, uint32_t node = scene::kNone) const;
 
 private:
     struct Placed {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "base/budget.h"
 #include "base/luminance.h"
 #include "transport/reach.h"
 
@@ -43,14 +44,23 @@ glm::dvec3 cosine_direction(glm::dvec3 normal, double u, double v) {
 struct Sums {
     std::array<glm::dvec3, kOrigins> rgb{};
     std::array<double, kOrigins> squares{};
+    double sum = 0, square = 0;  // of all origins
 
     void add(const std::array<glm::dvec3, kOrigins>& path) {
+        double all = 0;
         for (size_t i = 0; i < kOrigins; ++i) {
-            rgb[i] += path[i];
-            squares[i] += luminance(path[i]) * luminance(path[i]);
+            const double here = luminance(path[i]);
+            rgb[i] += path[i], squares[i] += here * here, all += here;
         }
+        sum += all, square += all * all;
     }
 };
+
+// Of a mean over paths.
+double error_of(double sum, double squares, double paths) {
+    const double mean = sum / paths;
+    return std::sqrt(std::max(squares / paths - mean * mean, 0.0) / paths);
+}
 
 Origin reflected(uint32_t times) { return times == 1 ? Origin::Once : Origin::More; }
 
@@ -67,43 +77,47 @@ LightTracer::LightTracer(const scene::Scene& scene, std::span<const glm::dmat4> 
       rays_(scene, world),
       surfaces_(scene, world),
       emitters_(scene, world, surfaces_),
+      by_power_(emitters_.list()),
       lamps_(scene, world, rays_) {}
 
 // A point that looks for emitters, and how often at which.
 struct LightTracer::Way {
     glm::dvec3 point, normal;
-    const EmitterChoice& choice;
+    const EmitterChoice* choice;
 };
 
 // By the emitter and a place on it: luminance over the density of the direction, divided by pi, RGB cd/m^2. The density
 // is that of both kinds of paths together (the balance heuristic).
 glm::dvec3 LightTracer::look_at_emitter(const Way& way, double u, double v) const {
-    const size_t number = way.choice.choose(u);
+    const size_t number = way.choice->choose(u);
     const Emitters::Emitter& e = emitters_.list()[number];
     const double root = std::sqrt(u);  // even over the triangle (Turk 1990)
     const glm::dvec3 weights(1 - root, root * (1 - v), root * v);
     const glm::dvec3 place = weights.x * e.corners[0] + weights.y * e.corners[1] + weights.z * e.corners[2];
-    const glm::dvec3 start = way.point + kSkin * way.normal, to = place - start;
+    const glm::dvec3 start = way.point + skin_at(rays_, way.point) * way.normal, to = place - start;
     const double distance2 = glm::dot(to, to), distance = std::sqrt(distance2);
     const double cosine = glm::dot(way.normal, to) / distance, leaving = std::abs(glm::dot(e.outwards, to)) / distance;
-    if (!(cosine > 0) || !(leaving > 1e-9)) return glm::dvec3(0);
+    if (!(cosine > 0) || !(leaving > 1e-9) || !(distance < kReach)) return glm::dvec3(0);
     const SurfacePoint surface = surfaces_.at(
         {.share = 1, .node = e.node, .primitive = e.primitive, .triangle = e.triangle, .weights = weights}, start);
-    if (surface.emission == glm::dvec3(0) || rays_.blocked(start, start + (1 - kSkin / std::max(distance, kSkin)) * to))
+    if (surface.emission == glm::dvec3(0)) return glm::dvec3(0);
+    // It is seen if a path that way would meet it: not where it has a hole, nor where another surface lies on it.
+    const std::optional<rays::Hit> hit = rays_.nearest(start, start + kReach / distance * to);
+    if (!hit || hit->node != e.node || hit->primitive != e.primitive || hit->triangle != e.triangle)
         return glm::dvec3(0);
-    const double density = way.choice.probability(number) / e.area * distance2 / leaving;  // 1/sr
+    const double density = way.choice->probability(number) / e.area * distance2 / leaving;  // 1/sr
     return surface.emission * (cosine / kPi / (density + cosine / kPi));
 }
 
 // The share of a cosine-distributed path that meets an emitter.
 double LightTracer::weight_of_hit(const Way& way, const rays::Hit& hit, const SurfacePoint& surface) const {
     const std::optional<size_t> number = emitters_.find(hit);
-    if (!number || !way.choice.any()) return 1;
+    if (!number || !way.choice->any()) return 1;
     const Emitters::Emitter& e = emitters_.list()[*number];
-    const glm::dvec3 to = surface.position - way.point - kSkin * way.normal;
+    const glm::dvec3 to = surface.position - way.point - skin_at(rays_, way.point) * way.normal;
     const double distance2 = glm::dot(to, to), distance = std::sqrt(distance2);
     const double leaving = std::max(std::abs(glm::dot(e.outwards, to)) / distance, 1e-9);
-    const double density = way.choice.probability(*number) / e.area * distance2 / leaving;
+    const double density = way.choice->probability(*number) / e.area * distance2 / leaving;
     const double cosine = glm::dot(way.normal, to) / distance;
     return cosine / kPi / (density + cosine / kPi);
 }
@@ -119,37 +133,42 @@ Illuminance LightTracer::at(glm::dvec3 point, glm::dvec3 normal, const TraceSett
     Random random(settings.seed);
     const double turn_u = random.next(), turn_v = random.next();
     const EmitterChoice choice(emitters_.list(), point, normal);
-    const Way first{point, normal, choice};
     Sums sums;
     for (uint32_t path = 0; path < settings.paths; ++path) {
+        check_time();
         std::array<glm::dvec3, kOrigins> got{};
-        glm::dvec3 from = point, facing = normal, kept(1);
+        Way way{point, normal, &choice};
+        glm::dvec3 kept(1);
         double u = fraction(turn_u + path * kFirst), v = fraction(turn_v + path * kSecond);
-        if (choice.any()) got[size_t(Origin::Emitters)] += look_at_emitter(first, u, v);
-        for (uint32_t reflections = 0; reflections <= settings.most_reflections; ++reflections) {
-            const glm::dvec3 way = cosine_direction(facing, u, v), start = from + kSkin * facing;
-            const std::optional<rays::Hit> hit = rays_.nearest(start, start + kReach * way);
+        if (choice.any()) got[size_t(Origin::Emitters)] += look_at_emitter(way, u, v);
+        for (uint32_t reflections = 0;; ++reflections) {
+            const glm::dvec3 direction = cosine_direction(way.normal, u, v);
+            const glm::dvec3 start = way.point + skin_at(rays_, way.point) * way.normal;
+            const std::optional<rays::Hit> hit = rays_.nearest(start, start + kReach * direction);
             const auto direct = [&](Origin origin) -> glm::dvec3& {
                 return got[size_t(reflections == 0 ? origin : reflected(reflections))];
             };
             if (!hit) {
-                direct(Origin::Sky) += kept * sky(way);
+                direct(Origin::Sky) += kept * sky(direction);
                 break;
             }
             const SurfacePoint surface = surfaces_.at(*hit, start);
             if (surface.emission != glm::dvec3(0))
-                direct(Origin::Emitters) +=
-                    kept * surface.emission * (reflections == 0 ? weight_of_hit(first, *hit, surface) : 1);
+                direct(Origin::Emitters) += kept * surface.emission * weight_of_hit(way, *hit, surface);
             kept *= surface.reflectance;
             const double most = std::max({kept.x, kept.y, kept.z});
             if (most <= 0 || reflections == settings.most_reflections) break;
-            const glm::dvec3 lit = lamps_.illuminance(surface.position, surface.normal, settings.threshold);
-            got[size_t(reflected(reflections + 1))] += kept * lit / kPi;
+            way = {surface.position, surface.normal, &by_power_};
+            glm::dvec3 sent = lamps_.illuminance(surface.position, surface.normal, settings.threshold, hit->node) / kPi;
+            if (by_power_.any()) {
+                const double first = random.next();
+                sent += look_at_emitter(way, first, random.next());
+            }
+            got[size_t(reflected(reflections + 1))] += kept * sent;
             if (reflections >= 2) {  // few paths go on, for more (Arvo and Kirk 1990)
                 if (random.next() >= std::min(most, 0.95)) break;
                 kept /= std::min(most, 0.95);
             }
-            from = surface.position, facing = surface.normal;
             u = random.next(), v = random.next();
         }
         sums.add(got);
@@ -158,11 +177,10 @@ Illuminance LightTracer::at(glm::dvec3 point, glm::dvec3 normal, const TraceSett
     const double paths = std::max(settings.paths, 1u);
     for (size_t i = 0; i < kOrigins; ++i) {
         result.rgb[i] = kPi / paths * sums.rgb[i];
-        const double mean = luminance(sums.rgb[i]) / paths;
-        result.standard_error[i] = kPi * std::sqrt(std::max(sums.squares[i] / paths - mean * mean, 0.0) / paths);
+        result.standard_error[i] = kPi * error_of(luminance(sums.rgb[i]), sums.squares[i], paths);
     }
     result.rgb[size_t(Origin::Lamps)] = lamps_.illuminance(point, normal, settings.threshold);
-    result.standard_error[size_t(Origin::Lamps)] = 0;
+    result.standard_error_of_sum = kPi * error_of(sums.sum, sums.square, paths);
     return result;
 }
 

@@ -25,6 +25,7 @@ constexpr size_t kOrigins = 5;
 struct Illuminance {
     std::array<glm::dvec3, kOrigins> rgb{};         ///< lx
     std::array<double, kOrigins> standard_error{};  ///< of the luminance of each, lx; Lamps: 0, they are summed up
+    double standard_error_of_sum = 0;               ///< lx; origins share paths
 
     glm::dvec3 operator[](Origin origin) const { return rgb[size_t(origin)]; }
     glm::dvec3 sum() const;
@@ -39,8 +40,8 @@ struct TraceSettings {
 
 /// Light in a scene whose surfaces are matt (SurfacePoint): from a point paths go in directions distributed as cosines,
 /// and on from each surface that they meet, which sends the light that it emits and that it gets from lamps (Kajiya
-/// 1986). The point itself looks at emitting triangles as well, and each way to them counts by how likely it was (Veach
-/// and Guibas 1995). Estimates have no bias but for `most_reflections` and the threshold; their error falls with the
+/// 1986). Points look at emitting triangles as well, and each way to them counts by how likely it was (Veach and Guibas
+/// 1995). Estimates have no bias but for `most_reflections` and the threshold; their error falls with the
 /// root of the number of paths. Lamps are points, seen by shadow rays; the ambient constant of the scene is no light
 /// here.
 class LightTracer {
@@ -51,7 +52,7 @@ public:
     LightTracer(const LightTracer&) = delete;
     LightTracer& operator=(const LightTracer&) = delete;
 
-    /// At a point (m, world) of a surface with the unit normal `normal`.
+    /// At a point (m, world) of a surface with the unit normal `normal`. Throws Error if the time of a Budget is over.
     Illuminance at(glm::dvec3 point, glm::dvec3 normal, const TraceSettings& settings = {}) const;
 
 private:
@@ -64,6 +65,7 @@ private:
     rays::RayCaster rays_;
     Surfaces surfaces_;
     Emitters emitters_;
+    EmitterChoice by_power_;
     LampLight lamps_;
 };
 

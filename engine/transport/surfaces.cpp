@@ -63,7 +63,7 @@ SurfacePoint Surfaces::at(const rays::Hit& hit, glm::dvec3 from) const {
     point.reflectance = glm::dvec3(material.base_colour) * colour;
     if (const uint32_t image = material.base_colour_texture.image; image != scene::kNone)
         point.reflectance *= colour_at(scene_.images[image], material.base_colour_texture, uv, codes_);
-    const bool front = along == (glm::determinant(glm::dmat3(to_world)) > 0);
+    const bool front = along != (glm::determinant(glm::dmat3(to_world)) < 0);
     if (holds_lamp_[hit.node] || (!front && !material.double_sided)) return point;
     point.emission = glm::dvec3(material.emission);
     if (point.emission == glm::dvec3(0)) return point;

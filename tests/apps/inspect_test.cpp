@@ -183,7 +183,7 @@ TEST_F(Inspect, RefusesPointsThatAreNone) {
         EXPECT_TRUE(contains(said, reason)) << said;
     };
     for (const char* point : {"1,2", "1,2,3,4", "1,2,x", "nan,0,0", "1e300,0,0", "1;2;3"})
-        refuses(std::string("a.gltf --at '") + point + "'", "expected X,Y,Z in m");
+        refuses(std::string("a.gltf --at '") + point + "'", "expected X,Y,Z");
     refuses("a.gltf --at 0,0,0 --normal 0,0,0", "has no direction");
     refuses("a.gltf --normal 0,1,0", "only beside --at");
     refuses("a.gltf --paths 100", "only beside --at");

@@ -45,6 +45,9 @@ layout(binding = 11) uniform samplerBuffer maps;
 layout(binding = 12) uniform samplerBuffer distances;
 layout(binding = 13) uniform usamplerBuffer shares;
 layout(binding = 14) uniform usamplerBuffer directional_shares;
+layout(binding = 15) uniform usamplerBuffer froxel_counts;
+layout(binding = 16) uniform usamplerBuffer froxel_lamps;
+layout(binding = 17) uniform usamplerBuffer block_slices;
 layout(push_constant, scalar) uniform Push { ShadePush push; };
 
 #include "lamp.glsl"
@@ -162,12 +165,15 @@ List list_of(uint block) {
     return List(block, cones, texelFetch(block_counts, int(2u * block + 1u)).r, first, first + push.capacity - 1u, false);
 }
 
+void add_listed(uint index, uint entry, uint slices, uint block, bool cone, bool every_lamp) {
+    const FetchedLamp lamp = fetch(index, cone, push.lamps.cones + push.lamps.powers);
+    if (kMaps != 0u) look_at(index, lamp.position, entry, block, every_lamp);
+    add_lamp(lamp, slices, cone);
+}
+
 void add_entry(List list, uint at, uint number, bool cone) {
     const uint entry = list.all_of_them ? number : texelFetch(entries, int(at)).r;
-    const uint index = list.all_of_them ? number : lamp_of(entry);
-    const FetchedLamp lamp = fetch(index, cone, push.lamps.cones + push.lamps.powers);
-    if (kMaps != 0u) look_at(index, lamp.position, entry, list.block, list.all_of_them);
-    add_lamp(lamp, list.all_of_them ? ~0u : slices_of(entry), cone);
+    add_listed(list.all_of_them ? number : lamp_of(entry), entry, list.all_of_them ? ~0u : slices_of(entry), list.block, cone, list.all_of_them);
 }
 
 void add_lamps(List list) {
@@ -175,6 +181,43 @@ void add_lamps(List list) {
         for (uint i = 0u; i < list.cones; ++i) add_entry(list, list.first + i, i, true);
     if (kPowers != 0u || kTables != 0u)
         for (uint i = 0u; i < list.others; ++i) add_entry(list, list.last - i, list.cones + i, false);
+}
+
+uint froxel_of(uvec2 tile, uint slice) { return (slice * push.grid.tiles_y + tile.y) * push.grid.tiles_x + tile.x; }
+
+// Whether the lists of a block's froxels are shorter together than one of all lamps. One that overflowed is longer than any.
+bool has_froxel_lists(uint slices, uvec2 tile) {
+    uint sum = 0u;
+    for (uint left = slices; left != 0u; left &= left - 1u) {
+        const int froxel = int(froxel_of(tile, uint(findLSB(left))));
+        const uint cones = texelFetch(froxel_counts, 2 * froxel).r;
+        sum += cones == kAllLamps ? kAllLamps / 64u : cones + texelFetch(froxel_counts, 2 * froxel + 1).r;
+    }
+    return sum < push.lamps.cones + push.lamps.powers + push.lamps.tables;
+}
+
+// Of a block whose list has overflowed, slice by slice: each pixel counts the lamps of its own froxel.
+void add_froxels(uint block, uint slices, uvec2 tile) {
+    for (uint left = slices; left != 0u; left &= left - 1u) {
+        const uint bit = left & (~left + 1u), froxel = froxel_of(tile, uint(findLSB(left)));
+        const uint cones = texelFetch(froxel_counts, int(2u * froxel)).r, others = texelFetch(froxel_counts, int(2u * froxel + 1u)).r;
+        const uint first = froxel * push.grid.capacity;
+        if (kCones != 0u)
+            for (uint i = 0u; i < cones; ++i) add_listed(texelFetch(froxel_lamps, int(first + i)).r, 0u, bit, block, true, true);
+        if (kPowers != 0u || kTables != 0u)
+            for (uint i = cones; i < cones + others; ++i) add_listed(texelFetch(froxel_lamps, int(first + i)).r, 0u, bit, block, false, true);
+    }
+}
+
+void add_lamps_of(uint block, uvec2 corner) {
+    List list = list_of(block);
+    const uint slices = kEveryLamp == 0u && list.all_of_them ? texelFetch(block_slices, int(block)).r : 0u;
+    const uvec2 tile = corner / kTileSize;
+    if (slices != 0u && has_froxel_lists(slices, tile)) {
+        add_froxels(block, slices, tile);
+        list.cones = 0u, list.others = 0u;
+    }
+    add_lamps(list);
 }
 
 void add_directional(uint block) {
@@ -261,7 +304,7 @@ void main() {
     }
 
     if (kMerged != 0u) add_merged(block, first);
-    if (kListed != 0u) add_lamps(list_of(block));
+    if (kListed != 0u) add_lamps_of(block, corner);
     add_directional(block);
 
     [[unroll]] for (uint r = 0u; r < kRows; ++r) {

@@ -98,7 +98,8 @@ graph::Resource add_shading(const FrameContext& frame, const GBuffer& g, const C
              sample(settings.maps.lamps ? settings.maps.lamps : clusters.lamps),
              sample(settings.maps.lamps ? settings.maps.distances : clusters.lamps),
              sample(settings.maps.lamps ? blocks.shares : blocks.entries),
-             sample(blocks.directional_shares ? blocks.directional_shares : blocks.entries)},
+             sample(blocks.directional_shares ? blocks.directional_shares : blocks.entries), sample(clusters.counts),
+             sample(clusters.indices), sample(clusters.block_slices)},
             push,
             graph::Arguments{blocks.class_counts, uint64_t(push.block_class) * shared::kClassWords * sizeof(uint32_t)});
     }

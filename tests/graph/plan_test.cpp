@@ -1,6 +1,8 @@
 // The rules of the graph's compiler, one test each, as the text of plans. SPDX-License-Identifier: MIT
 #include "graph/plan.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "graph/declared_frame.h"

@@ -5,6 +5,8 @@
 // From the eye through the middle of a pixel; z is -1.
 vec3 pixel_ray(ClusterGrid grid, vec2 pixel) { return vec3(grid.ray_scale * (pixel + 0.5) + grid.ray_offset, -1.0); }
 
+uint froxel_of(ClusterGrid grid, uvec2 tile, uint slice) { return (slice * grid.tiles_y + tile.y) * grid.tiles_x + tile.x; }
+
 // The slice of a depth as a bit; 0 where nothing is drawn.
 uint slice_bit(ClusterGrid grid, float depth) {
     const float at = clamp(log2(depth) * grid.slice_scale + grid.slice_bias, 0.0, float(grid.slices) - 1.0);

@@ -17,23 +17,24 @@ void tell_lanes(uint word) {
     barrier();
 }
 
-uint lanes_add(uint value) {
-    if (kLockstep != 0u) return subgroupAdd(value);
+// The sum of what the first `lanes` tell.
+uint sum_of_lanes(uint value, uint lanes) {
     tell_lanes(value);
     uint sum = 0u;
-    for (uint k = 0u; k < kLanes; ++k) sum += lane_words[k];
+    for (uint k = 0u; k < lanes; ++k) sum += lane_words[k];
     barrier();
     return sum;
+}
+
+uint lanes_add(uint value) {
+    if (kLockstep != 0u) return subgroupAdd(value);
+    return sum_of_lanes(value, kLanes);
 }
 
 // The sum over those before this one.
 uint lanes_add_before(uint value) {
     if (kLockstep != 0u) return subgroupExclusiveAdd(value);
-    tell_lanes(value);
-    uint sum = 0u;
-    for (uint k = 0u; k < gl_LocalInvocationID.x; ++k) sum += lane_words[k];
-    barrier();
-    return sum;
+    return sum_of_lanes(value, gl_LocalInvocationID.x);
 }
 
 uint lanes_max(uint value) {

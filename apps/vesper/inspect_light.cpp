@@ -61,7 +61,8 @@ void report(const Illuminance& light, glm::dvec3 point, glm::dvec3 normal, Inspe
 
 Inspection inspect_light(const InspectArguments& arguments) {
     const glm::dvec3 facing = arguments.normal.empty() ? glm::dvec3(0, 1, 0) : triple("--normal", arguments.normal);
-    const transport::TraceSettings settings{.paths = arguments.paths > 0 ? arguments.paths : 16'384};
+    transport::TraceSettings settings;
+    if (arguments.paths > 0) settings.paths = arguments.paths;
     if (!(glm::length(facing) > 1e-6)) throw Error("--normal " + one_line(arguments.normal) + ": has no direction");
     std::vector<glm::dvec3> points;
     for (const std::string& text : arguments.points) points.push_back(triple("--at", text));

@@ -38,6 +38,14 @@ void pipeline_barrier(VkCommandBuffer commands, std::span<const VkImageMemoryBar
 struct UploadPart {
     bool first = true, last = true;
 };
+/// Everything waits for everything that was written.
+inline constexpr VkMemoryBarrier2 kWholeBarrier{
+    .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+    .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+    .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
+    .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+    .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
+
 /// Copies to the levels of an image that nothing else uses as yet.
 void record_upload(VkCommandBuffer commands, VkBuffer from, VkImage image, uint32_t levels,
                    std::span<const VkBufferImageCopy> copies, UploadPart part = {});

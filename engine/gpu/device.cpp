@@ -335,12 +335,7 @@ void Device::run_once(const std::function<void(VkCommandBuffer)>& record) const 
     commands.begin();
     record(commands);
     // The wait below does not make what was written visible to later commands.
-    const VkMemoryBarrier2 after{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                 .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                 .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                 .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                 .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
-    pipeline_barrier(commands, {}, &after);
+    pipeline_barrier(commands, {}, &kWholeBarrier);
     check(vkEndCommandBuffer(commands), "recording");
     const VkCommandBufferSubmitInfo submitted{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                               .commandBuffer = commands};

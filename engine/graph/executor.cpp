@@ -267,9 +267,9 @@ void Executor::realize_histories(const FrameGraph& graph) {
 // Among the frame's commands, so that nothing waits for a queue that may be busy with others' work.
 void Executor::record_clearing() const {
     if (cleared_.empty()) return;
-    gpu::pipeline_barrier(slot_->commands, {}, &kWholeBarrier);
+    gpu::pipeline_barrier(slot_->commands, {}, &gpu::kWholeBarrier);
     for (const Past* past : cleared_) past->zero(slot_->commands);
-    gpu::pipeline_barrier(slot_->commands, {}, &kWholeBarrier);
+    gpu::pipeline_barrier(slot_->commands, {}, &gpu::kWholeBarrier);
 }
 
 // Only a frame that was submitted is the past of the next.

@@ -5,13 +5,6 @@
 
 namespace vesper::graph {
 
-/// Everything waits for everything that was written.
-constexpr VkMemoryBarrier2 kWholeBarrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                         .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                         .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                         .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                         .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
-
 // A transient owns its objects; everything else borrows them from a history, the slot of the frame or an external
 // owner.
 struct Executor::Realized {

@@ -62,8 +62,8 @@ void Executor::record(const FrameGraph& graph, bool among_others) {
 // What a plan says holds within it: at its borders everything waits for everything, and images of others change between
 // their layout and ours.
 void Executor::record_border(const FrameGraph& graph, Border border) const {
-    constexpr gpu::Touch before{kWholeBarrier.srcStageMask, kWholeBarrier.srcAccessMask},
-        after{kWholeBarrier.dstStageMask, kWholeBarrier.dstAccessMask};
+    constexpr gpu::Touch before{gpu::kWholeBarrier.srcStageMask, gpu::kWholeBarrier.srcAccessMask},
+        after{gpu::kWholeBarrier.dstStageMask, gpu::kWholeBarrier.dstAccessMask};
     std::vector<VkImageMemoryBarrier2> images;
     for (const auto& info : graph.resources()) {
         const ExternalImage& image = info.external_image;
@@ -71,7 +71,7 @@ void Executor::record_border(const FrameGraph& graph, Border border) const {
         const VkImageLayout to = border == Border::Enter ? VK_IMAGE_LAYOUT_GENERAL : image.after;
         if (image.image && from != to) images.push_back(gpu::image_barrier(image.image, before, after, from, to));
     }
-    gpu::pipeline_barrier(slot_->commands, images, &kWholeBarrier);
+    gpu::pipeline_barrier(slot_->commands, images, &gpu::kWholeBarrier);
 }
 
 void Executor::record_barriers(const std::vector<Plan::Barrier>& barriers) const {

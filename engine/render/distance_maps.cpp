@@ -239,14 +239,9 @@ void DistanceMaps::make_moves() {
         gpu::make_buffer(device, at, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     arena.bind(between.get());
     device.run_once([&](VkCommandBuffer commands) {
-        const VkMemoryBarrier2 after{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                     .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                     .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-                                     .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                                     .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT};
-        gpu::pipeline_barrier(commands, {}, &after);
+        gpu::pipeline_barrier(commands, {}, &gpu::kWholeBarrier);
         vkCmdCopyBuffer(commands, distances_.get(), between.get(), uint32_t(out.size()), out.data());
-        gpu::pipeline_barrier(commands, {}, &after);
+        gpu::pipeline_barrier(commands, {}, &gpu::kWholeBarrier);
         vkCmdCopyBuffer(commands, between.get(), distances_.get(), uint32_t(in.size()), in.data());
     });
 }

@@ -9,22 +9,12 @@
 #include "scene/gltf.h"
 
 namespace vesper::roads {
-namespace {
-
-std::vector<uint32_t> nodes_with_lamps(const scene::Scene& scene) {
-    std::vector<uint32_t> nodes;
-    for (uint32_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].lamp != scene::kNone) nodes.push_back(i);
-    return nodes;
-}
-
-}  // namespace
 
 Occluders::Occluders(const std::filesystem::path& file) : Occluders(scene::read_gltf(file).scene) {}
 
 Occluders::Occluders(scene::Scene scene)
     : scene_(std::move(scene)), world_(scene::world_transforms(scene_, 0)), rays_(scene_, world_) {
-    const std::vector<uint32_t> nodes = nodes_with_lamps(scene_);
+    const std::vector<uint32_t> nodes = scene::nodes_with_lamps(scene_);
     for (const uint32_t node : nodes) lamps_.emplace_back(world_[node][3]);
     fixtures_ = scene::fixture_nodes(scene_, nodes, world_);
 }

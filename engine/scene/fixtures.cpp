@@ -23,6 +23,13 @@ bool is_near(const Scene& scene, uint32_t node, const glm::dmat4& world, glm::dv
 
 }  // namespace
 
+std::vector<uint32_t> nodes_with_lamps(const Scene& scene) {
+    std::vector<uint32_t> nodes;
+    for (uint32_t i = 0; i < scene.nodes.size(); ++i)
+        if (scene.nodes[i].lamp != kNone) nodes.push_back(i);
+    return nodes;
+}
+
 std::vector<bool> nodes_above_meshes(const Scene& scene) {
     std::vector<bool> has_mesh(scene.nodes.size());
     for (size_t i = scene.nodes.size(); i-- > 0;) {  // children come after their parents

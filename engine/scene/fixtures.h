@@ -9,6 +9,9 @@
 
 namespace vesper::scene {
 
+/// The nodes that have a lamp, ascending.
+std::vector<uint32_t> nodes_with_lamps(const Scene& scene);
+
 /// Whether there is a mesh at or below each node.
 std::vector<bool> nodes_above_meshes(const Scene& scene);
 

@@ -17,9 +17,7 @@ glm::dvec3 unit(glm::dvec3 v) { return v / std::max(glm::length(v), 1e-300); }
 
 LampLight::LampLight(const scene::Scene& scene, std::span<const glm::dmat4> world, const rays::RayCaster& rays)
     : scene_(scene), rays_(rays) {
-    std::vector<uint32_t> nodes;
-    for (uint32_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].lamp != scene::kNone) nodes.push_back(i);
+    const std::vector<uint32_t> nodes = scene::nodes_with_lamps(scene);
     std::vector<std::vector<uint32_t>> fixtures = scene::fixture_nodes(scene, nodes, world);
     for (size_t i = 0; i < nodes.size(); ++i) {
         const scene::Lamp& lamp = scene.lamps[scene.nodes[nodes[i]].lamp];

@@ -13,6 +13,7 @@ namespace vesper::transport {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kLeastLeaving = 1e-9;  // cosine: an emitter that is seen from its edge
 
 // SplitMix64 (Steele, Lea and Flood 2014).
 class Random {
@@ -86,8 +87,19 @@ struct LightTracer::Way {
     const EmitterChoice* choice;
 };
 
+// Of the density of paths to a place on an emitter, the share of those that go by chance, distributed as cosines (the
+// balance heuristic).
+double LightTracer::cosine_share(const Way& way, size_t number, glm::dvec3 to) const {
+    const Emitters::Emitter& e = emitters_.list()[number];
+    const double distance2 = glm::dot(to, to), distance = std::sqrt(distance2);
+    const double leaving = std::max(std::abs(glm::dot(e.outwards, to)) / distance, kLeastLeaving);
+    const double density = way.choice->probability(number) / e.area * distance2 / leaving;  // 1/sr
+    const double cosine = glm::dot(way.normal, to) / distance;
+    return cosine / kPi / (density + cosine / kPi);
+}
+
 // By the emitter and a place on it: luminance over the density of the direction, divided by pi, RGB cd/m^2. The density
-// is that of both kinds of paths together (the balance heuristic).
+// is that of both kinds of paths together.
 glm::dvec3 LightTracer::look_at_emitter(const Way& way, double u, double v) const {
     const size_t number = way.choice->choose(u);
     const Emitters::Emitter& e = emitters_.list()[number];
@@ -95,9 +107,8 @@ glm::dvec3 LightTracer::look_at_emitter(const Way& way, double u, double v) cons
     const glm::dvec3 weights(1 - root, root * (1 - v), root * v);
     const glm::dvec3 place = weights.x * e.corners[0] + weights.y * e.corners[1] + weights.z * e.corners[2];
     const glm::dvec3 start = way.point + skin_at(rays_, way.point) * way.normal, to = place - start;
-    const double distance2 = glm::dot(to, to), distance = std::sqrt(distance2);
-    const double cosine = glm::dot(way.normal, to) / distance, leaving = std::abs(glm::dot(e.outwards, to)) / distance;
-    if (!(cosine > 0) || !(leaving > 1e-9) || !(distance < kReach)) return glm::dvec3(0);
+    const double distance = glm::length(to), leaving = std::abs(glm::dot(e.outwards, to)) / distance;
+    if (!(glm::dot(way.normal, to) > 0) || !(leaving > kLeastLeaving) || !(distance < kReach)) return glm::dvec3(0);
     const SurfacePoint surface = surfaces_.at(
         {.share = 1, .node = e.node, .primitive = e.primitive, .triangle = e.triangle, .weights = weights}, start);
     if (surface.emission == glm::dvec3(0)) return glm::dvec3(0);
@@ -105,21 +116,14 @@ glm::dvec3 LightTracer::look_at_emitter(const Way& way, double u, double v) cons
     const std::optional<rays::Hit> hit = rays_.nearest(start, start + kReach / distance * to);
     if (!hit || hit->node != e.node || hit->primitive != e.primitive || hit->triangle != e.triangle)
         return glm::dvec3(0);
-    const double density = way.choice->probability(number) / e.area * distance2 / leaving;  // 1/sr
-    return surface.emission * (cosine / kPi / (density + cosine / kPi));
+    return surface.emission * cosine_share(way, number, to);
 }
 
 // The share of a cosine-distributed path that meets an emitter.
 double LightTracer::weight_of_hit(const Way& way, const rays::Hit& hit, const SurfacePoint& surface) const {
     const std::optional<size_t> number = emitters_.find(hit);
     if (!number || !way.choice->any()) return 1;
-    const Emitters::Emitter& e = emitters_.list()[*number];
-    const glm::dvec3 to = surface.position - way.point - skin_at(rays_, way.point) * way.normal;
-    const double distance2 = glm::dot(to, to), distance = std::sqrt(distance2);
-    const double leaving = std::max(std::abs(glm::dot(e.outwards, to)) / distance, 1e-9);
-    const double density = way.choice->probability(*number) / e.area * distance2 / leaving;
-    const double cosine = glm::dot(way.normal, to) / distance;
-    return cosine / kPi / (density + cosine / kPi);
+    return cosine_share(way, *number, surface.position - way.point - skin_at(rays_, way.point) * way.normal);
 }
 
 glm::dvec3 LightTracer::sky(glm::dvec3 direction) const {

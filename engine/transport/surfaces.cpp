@@ -34,10 +34,7 @@ Surfaces::Surfaces(const scene::Scene& scene, std::span<const glm::dmat4> world)
       codes_(scene::linear_codes(scene.transfer)),
       emitted_(scene::linear_codes(scene::Transfer{})),
       holds_lamp_(scene.nodes.size()) {
-    std::vector<uint32_t> lamps;
-    for (uint32_t i = 0; i < scene.nodes.size(); ++i)
-        if (scene.nodes[i].lamp != scene::kNone) lamps.push_back(i);
-    for (const std::vector<uint32_t>& fixture : scene::fixture_nodes(scene, lamps, world))
+    for (const std::vector<uint32_t>& fixture : scene::fixture_nodes(scene, scene::nodes_with_lamps(scene), world))
         for (const uint32_t node : fixture) holds_lamp_[node] = true;
 }
 

@@ -91,7 +91,7 @@ uint open_lists(uvec2 tile, inout uint slices) {
     [[unroll]] for (uint k = 0u; k < kTogether; ++k) {
         const bool any = slices != 0u;
         const uint slice = any ? uint(findLSB(slices)) : 0u;
-        const uint cell = (slice * grid.tiles_y + tile.y) * grid.tiles_x + tile.x;
+        const uint cell = froxel_of(grid, tile, slice);
         const uint cones = texelFetch(counts, int(2u * cell)).r;
         const uint others = texelFetch(counts, int(2u * cell + 1u)).r;
         const bool overflowed = cones == kAllLamps;

@@ -183,13 +183,11 @@ void add_lamps(List list) {
         for (uint i = 0u; i < list.others; ++i) add_entry(list, list.last - i, list.cones + i, false);
 }
 
-uint froxel_of(uvec2 tile, uint slice) { return (slice * push.grid.tiles_y + tile.y) * push.grid.tiles_x + tile.x; }
-
 // Whether the lists of a block's froxels are shorter together than one of all lamps. One that overflowed is longer than any.
 bool has_froxel_lists(uint slices, uvec2 tile) {
     uint sum = 0u;
     for (uint left = slices; left != 0u; left &= left - 1u) {
-        const int froxel = int(froxel_of(tile, uint(findLSB(left))));
+        const int froxel = int(froxel_of(push.grid, tile, uint(findLSB(left))));
         const uint cones = texelFetch(froxel_counts, 2 * froxel).r;
         sum += cones == kAllLamps ? kAllLamps / 64u : cones + texelFetch(froxel_counts, 2 * froxel + 1).r;
     }
@@ -199,7 +197,7 @@ bool has_froxel_lists(uint slices, uvec2 tile) {
 // Of a block whose list has overflowed, slice by slice: each pixel counts the lamps of its own froxel.
 void add_froxels(uint block, uint slices, uvec2 tile) {
     for (uint left = slices; left != 0u; left &= left - 1u) {
-        const uint bit = left & (~left + 1u), froxel = froxel_of(tile, uint(findLSB(left)));
+        const uint bit = left & (~left + 1u), froxel = froxel_of(push.grid, tile, uint(findLSB(left)));
         const uint cones = texelFetch(froxel_counts, int(2u * froxel)).r, others = texelFetch(froxel_counts, int(2u * froxel + 1u)).r;
         const uint first = froxel * push.grid.capacity;
         if (kCones != 0u)

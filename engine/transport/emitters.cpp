@@ -60,6 +60,7 @@ Emitters::Emitters(const scene::Scene& scene, std::span<const glm::dmat4> world,
             }
         }
     }
+    make_groups();
 }
 
 std::optional<size_t> Emitters::find(const rays::Hit& hit) const {
@@ -69,39 +70,75 @@ std::optional<size_t> Emitters::find(const rays::Hit& hit) const {
     return size_t(at - list_.begin());
 }
 
-EmitterChoice::EmitterChoice(std::span<const Emitters::Emitter> emitters, glm::dvec3 point, glm::dvec3 normal) {
+// As many groups as nodes that emit, or the root of the number of emitters: choosing takes time by their number.
+void Emitters::make_groups() {
+    const auto most = std::max(size_t(16), size_t(std::sqrt(double(list_.size()))));
     double sum = 0;
-    ends_.reserve(emitters.size());
-    for (const Emitters::Emitter& e : emitters) {
-        double above = 0, distance2 = 1e300;
-        for (const glm::dvec3 corner : e.corners) {
-            const glm::dvec3 to = corner - point;
-            above = std::max(above, glm::dot(to, normal) / std::max(glm::length(to), 1e-300));
-            distance2 = std::min(distance2, glm::dot(to, to));
+    for (size_t i = 0; i < list_.size(); ++i) {
+        if (groups_.empty() || list_[i].node != list_[groups_.back().first].node || groups_.back().count == most)
+            groups_.push_back({i, 0, {}, 0, 0, true});
+        ++groups_.back().count;
+        group_of_.push_back(uint32_t(groups_.size() - 1));
+        powers_up_to_.push_back(sum += list_[i].luminance * list_[i].area);
+    }
+    for (Group& group : groups_) {
+        const std::span<const Emitter> all(&list_[group.first], group.count);
+        glm::dvec3 low(1e300), high(-1e300);
+        for (const Emitter& e : all) {
+            group.power += e.luminance * e.area;
+            for (const glm::dvec3 corner : e.corners) low = glm::min(low, corner), high = glm::max(high, corner);
         }
-        const double facing = glm::dot(e.outwards, point - e.corners[0]);
-        // What a large one gives from close by is no more than its luminance.
-        if (above > 0 && (facing > 0 || e.double_sided)) sum += e.luminance * above * e.area / (distance2 + e.area);
+        group.centre = 0.5 * (low + high), group.radius = 0.5 * glm::distance(low, high);
+        for (const Emitter& e : all)
+            group.flat &= !e.double_sided && glm::dot(e.outwards, all[0].outwards) > 1 - 1e-9 &&
+                          std::abs(glm::dot(all[0].outwards, e.corners[0] - all[0].corners[0])) < 1e-6 * group.radius;
+    }
+}
+
+EmitterChoice::EmitterChoice(const Emitters& emitters, glm::dvec3 point, glm::dvec3 normal, std::span<const float> seen)
+    : emitters_(emitters) {
+    double sum = 0;
+    ends_.reserve(emitters.groups().size());
+    for (const Emitters::Group& group : emitters.groups()) {
+        const glm::dvec3 to = group.centre - point;
+        const double distance = glm::length(to), above = glm::dot(to, normal) + group.radius;
+        const double facing =
+            -glm::dot(emitters.list()[group.first].outwards, emitters.list()[group.first].corners[0] - point);
+        if (above > 0 && (!group.flat || facing > 0)) {
+            // Of a flat one the cosine counts, from close by not fully; what is near gives no more than its luminance.
+            const double near = std::max(distance - group.radius, 0.0);
+            const double leaving =
+                group.flat ? std::min((facing + 0.5 * group.radius) / (near + group.radius), 1.0) : 1;
+            sum += (seen.empty() ? 1 : double(seen[ends_.size()])) * group.power *
+                   std::min(above / (near + group.radius), 1.0) * leaving / (near * near + group.radius * group.radius);
+        }
         ends_.push_back(sum);
     }
 }
 
-EmitterChoice::EmitterChoice(std::span<const Emitters::Emitter> emitters) {
+EmitterChoice::EmitterChoice(const Emitters& emitters) : emitters_(emitters) {
     double sum = 0;
-    for (const Emitters::Emitter& e : emitters) ends_.push_back(sum += e.luminance * e.area);
+    for (const Emitters::Group& group : emitters.groups()) ends_.push_back(sum += group.power);
 }
 
 size_t EmitterChoice::choose(double& share) const {
-    const double at = share * ends_.back();
-    const auto found = std::min(std::ranges::upper_bound(ends_, at), ends_.end() - 1);
-    const size_t emitter = size_t(found - ends_.begin());
-    const double begin = emitter == 0 ? 0 : ends_[emitter - 1];
-    share = std::clamp((at - begin) / std::max(ends_[emitter] - begin, 1e-300), 0.0, 1.0);
-    return emitter;
+    const auto pick = [&share](auto ends, double begin) {
+        const double sum = ends.back() - begin, at = begin + share * sum;
+        const auto found = std::min(std::ranges::upper_bound(ends, at), ends.end() - 1);
+        const double below = found == ends.begin() ? begin : *(found - 1);
+        share = std::clamp((at - below) / std::max(*found - below, 1e-300), 0.0, 1.0);
+        return size_t(found - ends.begin());
+    };
+    const Emitters::Group& group = emitters_.groups()[pick(std::span(ends_), 0.0)];
+    const std::span all = emitters_.powers_up_to();
+    return group.first + pick(all.subspan(group.first, group.count), group.first == 0 ? 0.0 : all[group.first - 1]);
 }
 
 double EmitterChoice::probability(size_t emitter) const {
-    return (ends_[emitter] - (emitter == 0 ? 0 : ends_[emitter - 1])) / ends_.back();
+    const size_t number = emitters_.group_of(emitter);
+    const double group = (ends_[number] - (number == 0 ? 0 : ends_[number - 1])) / ends_.back();
+    const Emitters::Emitter& e = emitters_.list()[emitter];
+    return group * e.luminance * e.area / emitters_.groups()[number].power;
 }
 
 }  // namespace vesper::transport

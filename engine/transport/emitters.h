@@ -22,25 +22,44 @@ public:
         bool double_sided;
     };
 
+    /// Some that lie beside each other in the list.
+    struct Group {
+        size_t first, count;
+        glm::dvec3 centre;  ///< of a sphere around them, m
+        double radius;      ///< m
+        double power;       ///< luminance times area, cd
+        bool flat;          ///< one plane, and seen from its front only: `outwards` of the first is that of all
+    };
+
     /// Keeps nothing of the scene. Throws Error if more than kMost triangles emit.
     static constexpr size_t kMost = size_t{1} << 22;
     Emitters(const scene::Scene& scene, std::span<const glm::dmat4> world, const Surfaces& surfaces);
 
     std::span<const Emitter> list() const { return list_; }  ///< ascending by node, primitive and triangle
+    std::span<const Group> groups() const { return groups_; }
+    size_t group_of(size_t emitter) const { return group_of_[emitter]; }
+    /// Of all emitters up to and with each: luminance times area, cd.
+    std::span<const double> powers_up_to() const { return powers_up_to_; }
     /// Of the triangle that a ray meets; none if it emits nothing.
     std::optional<size_t> find(const rays::Hit& hit) const;
 
 private:
+    void make_groups();
+
     std::vector<Emitter> list_;
+    std::vector<Group> groups_;
+    std::vector<uint32_t> group_of_;
+    std::vector<double> powers_up_to_;
 };
 
-/// How often each emitter is looked at from a point: in proportion to about the illuminance that it gives if it is
-/// seen.
+/// How often each emitter is looked at from a point: groups in proportion to about the illuminance that they give if
+/// they are seen, their emitters by power.
 class EmitterChoice {
 public:
-    EmitterChoice(std::span<const Emitters::Emitter> emitters, glm::dvec3 point, glm::dvec3 normal);
+    /// Both keep a reference to the emitters. `seen`: factors above 0 on how often each group is chosen; empty: 1.
+    EmitterChoice(const Emitters& emitters, glm::dvec3 point, glm::dvec3 normal, std::span<const float> seen = {});
     /// For points anywhere: in proportion to the light that each emits.
-    explicit EmitterChoice(std::span<const Emitters::Emitter> emitters);
+    explicit EmitterChoice(const Emitters& emitters);
 
     bool any() const { return !ends_.empty() && ends_.back() > 0; }
     /// `share` from 0 to 1, which is used up: what is left of it is from 0 to 1 again.
@@ -48,7 +67,8 @@ public:
     double probability(size_t emitter) const;
 
 private:
-    std::vector<double> ends_;  // sums up to and with each emitter
+    const Emitters& emitters_;
+    std::vector<double> ends_;  // sums up to and with each group
 };
 
 }  // namespace vesper::transport

@@ -8,38 +8,13 @@
 #include "base/budget.h"
 #include "base/luminance.h"
 #include "transport/reach.h"
+#include "transport/sampling.h"
 
 namespace vesper::transport {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kLeastLeaving = 1e-9;  // cosine: an emitter that is seen from its edge
-
-// SplitMix64 (Steele, Lea and Flood 2014).
-class Random {
-public:
-    explicit Random(uint64_t seed) : state_(seed) {}
-    // From 0 to 1, without 1.
-    double next() {
-        uint64_t z = state_ += 0x9e3779b97f4a7c15;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-        return double((z ^ (z >> 31)) >> 11) * 0x1p-53;
-    }
-
-private:
-    uint64_t state_;
-};
-
-double fraction(double value) { return value - std::floor(value); }
-
-// Distributed as cosines about a unit normal; u and v from 0 to 1.
-glm::dvec3 cosine_direction(glm::dvec3 normal, double u, double v) {
-    const glm::dvec3 other = std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 a = glm::normalize(glm::cross(normal, other)), b = glm::cross(normal, a);
-    const double sine = std::sqrt(u), turn = 2 * kPi * v;
-    return sine * std::cos(turn) * a + sine * std::sin(turn) * b + std::sqrt(1 - u) * normal;
-}
 
 // Sums over paths of what each origin gives, and of its square.
 struct Sums {
@@ -78,7 +53,7 @@ LightTracer::LightTracer(const scene::Scene& scene, std::span<const glm::dmat4> 
       rays_(scene, world),
       surfaces_(scene, world),
       emitters_(scene, world, surfaces_),
-      by_power_(emitters_.list()),
+      by_power_(emitters_),
       lamps_(scene, world, rays_) {}
 
 // A point that looks for emitters, and how often at which.
@@ -100,23 +75,22 @@ double LightTracer::cosine_share(const Way& way, size_t number, glm::dvec3 to) c
 
 // By the emitter and a place on it: luminance over the density of the direction, divided by pi, RGB cd/m^2. The density
 // is that of both kinds of paths together.
-glm::dvec3 LightTracer::look_at_emitter(const Way& way, double u, double v) const {
-    const size_t number = way.choice->choose(u);
+glm::dvec3 LightTracer::look_at_emitter(const Way& way, glm::dvec2 chance) const {
+    const size_t number = way.choice->choose(chance.x);
     const Emitters::Emitter& e = emitters_.list()[number];
-    const double root = std::sqrt(u);  // even over the triangle (Turk 1990)
-    const glm::dvec3 weights(1 - root, root * (1 - v), root * v);
+    const glm::dvec3 weights = triangle_weights(chance);
     const glm::dvec3 place = weights.x * e.corners[0] + weights.y * e.corners[1] + weights.z * e.corners[2];
     const glm::dvec3 start = way.point + skin_at(rays_, way.point) * way.normal, to = place - start;
     const double distance = glm::length(to), leaving = std::abs(glm::dot(e.outwards, to)) / distance;
     if (!(glm::dot(way.normal, to) > 0) || !(leaving > kLeastLeaving) || !(distance < kReach)) return glm::dvec3(0);
-    const SurfacePoint surface = surfaces_.at(
+    const glm::dvec3 emission = surfaces_.emission(
         {.share = 1, .node = e.node, .primitive = e.primitive, .triangle = e.triangle, .weights = weights}, start);
-    if (surface.emission == glm::dvec3(0)) return glm::dvec3(0);
+    if (emission == glm::dvec3(0)) return glm::dvec3(0);
     // It is seen if a path that way would meet it: not where it has a hole, nor where another surface lies on it.
     const std::optional<rays::Hit> hit = rays_.nearest(start, start + kReach / distance * to);
     if (!hit || hit->node != e.node || hit->primitive != e.primitive || hit->triangle != e.triangle)
         return glm::dvec3(0);
-    return surface.emission * cosine_share(way, number, to);
+    return emission * cosine_share(way, number, to);
 }
 
 // The share of a cosine-distributed path that meets an emitter.
@@ -132,21 +106,19 @@ glm::dvec3 LightTracer::sky(glm::dvec3 direction) const {
 }
 
 Illuminance LightTracer::at(glm::dvec3 point, glm::dvec3 normal, const TraceSettings& settings) const {
-    // First directions follow the lattice of the generalized golden ratio (Roberts 2018), turned by the seed.
-    constexpr double kFirst = 0.7548776662466927, kSecond = 0.5698402909980532;
     Random random(settings.seed);
-    const double turn_u = random.next(), turn_v = random.next();
-    const EmitterChoice choice(emitters_.list(), point, normal);
+    const Lattice first_directions(random);
+    const EmitterChoice choice(emitters_, point, normal);
     Sums sums;
     for (uint32_t path = 0; path < settings.paths; ++path) {
         check_time();
         std::array<glm::dvec3, kOrigins> got{};
         Way way{point, normal, &choice};
         glm::dvec3 kept(1);
-        double u = fraction(turn_u + path * kFirst), v = fraction(turn_v + path * kSecond);
-        if (choice.any()) got[size_t(Origin::Emitters)] += look_at_emitter(way, u, v);
+        glm::dvec2 chance = first_directions.at(path);
+        if (choice.any()) got[size_t(Origin::Emitters)] += look_at_emitter(way, chance);
         for (uint32_t reflections = 0;; ++reflections) {
-            const glm::dvec3 direction = cosine_direction(way.normal, u, v);
+            const glm::dvec3 direction = cosine_direction(way.normal, chance);
             const glm::dvec3 start = way.point + skin_at(rays_, way.point) * way.normal;
             const std::optional<rays::Hit> hit = rays_.nearest(start, start + kReach * direction);
             const auto direct = [&](Origin origin) -> glm::dvec3& {
@@ -166,14 +138,14 @@ Illuminance LightTracer::at(glm::dvec3 point, glm::dvec3 normal, const TraceSett
             glm::dvec3 sent = lamps_.illuminance(surface.position, surface.normal, settings.threshold, hit->node) / kPi;
             if (by_power_.any()) {
                 const double first = random.next();
-                sent += look_at_emitter(way, first, random.next());
+                sent += look_at_emitter(way, {first, random.next()});
             }
             got[size_t(reflected(reflections + 1))] += kept * sent;
             if (reflections >= 2) {  // few paths go on, for more (Arvo and Kirk 1990)
                 if (random.next() >= std::min(most, 0.95)) break;
                 kept /= std::min(most, 0.95);
             }
-            u = random.next(), v = random.next();
+            chance.x = random.next(), chance.y = random.next();
         }
         sums.add(got);
     }

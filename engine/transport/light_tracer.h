@@ -59,7 +59,7 @@ private:
     glm::dvec3 sky(glm::dvec3 direction) const;
     struct Way;
     double cosine_share(const Way& way, size_t number, glm::dvec3 to) const;
-    glm::dvec3 look_at_emitter(const Way& way, double u, double v) const;
+    glm::dvec3 look_at_emitter(const Way& way, glm::dvec2 chance) const;
     double weight_of_hit(const Way& way, const rays::Hit& hit, const SurfacePoint& surface) const;
 
     const scene::Scene& scene_;

@@ -38,37 +38,61 @@ Surfaces::Surfaces(const scene::Scene& scene, std::span<const glm::dmat4> world)
         for (const uint32_t node : fixture) holds_lamp_[node] = true;
 }
 
-SurfacePoint Surfaces::at(const rays::Hit& hit, glm::dvec3 from) const {
+// What a ray meets, before textures are looked up.
+struct Surfaces::Facet {
+    const scene::Material& material;
+    glm::dvec3 position{0}, normal{0}, colour{0};
+    glm::dvec2 uv{0};
+    bool front;
+};
+
+Surfaces::Facet Surfaces::facet(const rays::Hit& hit, glm::dvec3 from) const {
     const scene::Primitive& primitive = scene_.meshes[scene_.nodes[hit.node].mesh].primitives[hit.primitive];
-    const scene::Material& material = scene_.materials[primitive.material];
     const glm::dmat4& to_world = world_[hit.node];
-    SurfacePoint point;
-    glm::dvec3 corners[3], colour(0);
-    glm::dvec2 uv(0);
+    Facet facet{.material = scene_.materials[primitive.material], .front = true};
+    std::array<glm::dvec3, 3> corners;
     for (size_t k = 0; k < 3; ++k) {
         const scene::Vertex& vertex = primitive.vertices[primitive.indices[3 * size_t(hit.triangle) + k]];
         const double weight = hit.weights[int(k)];
         corners[k] = glm::dvec3(to_world * glm::dvec4(vertex.position, 1));
-        point.position += weight * corners[k];
-        uv += weight * glm::dvec2(vertex.uv);
-        colour += weight / 65535 * glm::dvec3(vertex.colour[0], vertex.colour[1], vertex.colour[2]);
+        facet.position += weight * corners[k];
+        facet.uv += weight * glm::dvec2(vertex.uv);
+        facet.colour += weight / 65535 * glm::dvec3(vertex.colour[0], vertex.colour[1], vertex.colour[2]);
     }
     const glm::dvec3 outwards = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-    const bool along = glm::dot(outwards, from - point.position) >= 0;
-    point.normal = glm::normalize(along ? outwards : -outwards);
+    const bool along = glm::dot(outwards, from - facet.position) >= 0;
+    facet.normal = glm::normalize(along ? outwards : -outwards);
+    facet.front = along != (glm::determinant(glm::dmat3(to_world)) < 0);
+    return facet;
+}
 
-    point.reflectance = glm::dvec3(material.base_colour) * colour;
-    if (const uint32_t image = material.base_colour_texture.image; image != scene::kNone)
-        point.reflectance *= colour_at(scene_.images[image], material.base_colour_texture, uv, codes_);
-    const bool front = along != (glm::determinant(glm::dmat3(to_world)) < 0);
-    if (holds_lamp_[hit.node] || (!front && !material.double_sided)) return point;
-    point.emission = glm::dvec3(material.emission);
-    if (point.emission == glm::dvec3(0)) return point;
+glm::dvec3 Surfaces::emission(const Facet& facet, uint32_t node) const {
+    const scene::Material& material = facet.material;
+    if (holds_lamp_[node] || (!facet.front && !material.double_sided)) return glm::dvec3(0);
+    const glm::dvec3 emission(material.emission);
+    if (emission == glm::dvec3(0)) return emission;
     if (const uint32_t picture = material.emission_picture.image; picture != scene::kNone)
-        point.emission *= picture_at(scene_.luminance_pictures[picture], material.emission_picture, uv);
-    else if (const uint32_t image = material.emission_texture.image; image != scene::kNone)
-        point.emission *= colour_at(scene_.images[image], material.emission_texture, uv, emitted_);
-    return point;
+        return emission * picture_at(scene_.luminance_pictures[picture], material.emission_picture, facet.uv);
+    if (const uint32_t image = material.emission_texture.image; image != scene::kNone)
+        return emission * colour_at(scene_.images[image], material.emission_texture, facet.uv, emitted_);
+    return emission;
+}
+
+glm::dvec3 Surfaces::emission(const rays::Hit& hit, glm::dvec3 from) const {
+    return emission(facet(hit, from), hit.node);
+}
+
+bool Surfaces::shows_front(const rays::Hit& hit, glm::dvec3 from) const {
+    const Facet met = facet(hit, from);
+    return met.front || met.material.double_sided;
+}
+
+SurfacePoint Surfaces::at(const rays::Hit& hit, glm::dvec3 from) const {
+    const Facet met = facet(hit, from);
+    glm::dvec3 reflectance = glm::dvec3(met.material.base_colour) * met.colour;
+    if (const uint32_t image = met.material.base_colour_texture.image; image != scene::kNone)
+        reflectance *= colour_at(scene_.images[image], met.material.base_colour_texture, met.uv, codes_);
+    return {met.position, met.normal, reflectance, emission(met, hit.node)};
 }
 
 }  // namespace vesper::transport

@@ -27,9 +27,17 @@ public:
     /// `hit`: of a ray from `from`. Meshes that hold a lamp (scene/fixtures.h) emit nothing: the lamp's intensities
     /// have their light.
     SurfacePoint at(const rays::Hit& hit, glm::dvec3 from) const;
+    /// SurfacePoint::emission only.
+    glm::dvec3 emission(const rays::Hit& hit, glm::dvec3 from) const;
+    /// Whether what a ray from `from` hits is a front, or has none.
+    bool shows_front(const rays::Hit& hit, glm::dvec3 from) const;
     bool holds_lamp(uint32_t node) const { return holds_lamp_[node]; }
 
 private:
+    struct Facet;
+    Facet facet(const rays::Hit& hit, glm::dvec3 from) const;
+    glm::dvec3 emission(const Facet& facet, uint32_t node) const;
+
     const scene::Scene& scene_;
     std::span<const glm::dmat4> world_;
     std::array<double, 256> codes_, emitted_;  // linear values of base colours, and of textures of emission

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "base/luminance.h"
-#include "scene/scene.h"
+#include "support/rooms.h"
 
 namespace vesper::test::light_tracer_test {
 namespace {
@@ -16,34 +16,6 @@ namespace {
 using glm::dvec3, glm::vec3, transport::Illuminance, transport::LightTracer, transport::Origin;
 
 constexpr double kPi = std::numbers::pi;
-
-uint32_t add_material(scene::Scene& scene, float reflectance, float emission = 0) {
-    scene::Material& material = scene.materials.emplace_back();
-    material.base_colour = glm::vec4(vec3(reflectance), 1), material.emission = vec3(emission);
-    return uint32_t(scene.materials.size() - 1);
-}
-
-/// A rectangle from a corner along two sides, seen from where these turn counter-clockwise; at a node of its own.
-void add_rectangle(scene::Scene& scene, uint32_t material, vec3 corner, vec3 along, vec3 up) {
-    scene::Primitive& p = scene.meshes.emplace_back().primitives.emplace_back();
-    p.material = material;
-    for (const vec3 at : {corner, corner + along, corner + along + up, corner + up}) {
-        p.vertices.emplace_back().position = at;
-        p.vertices.back().normal = glm::normalize(glm::cross(along, up));
-        p.bounds.add(at);
-    }
-    p.indices = {0, 1, 2, 0, 2, 3};
-    scene.nodes.emplace_back().mesh = uint32_t(scene.meshes.size() - 1);
-}
-
-/// The inside of a box about the origin.
-void add_room(scene::Scene& scene, uint32_t material, vec3 half) {
-    const auto wall = [&](vec3 corner, vec3 along, vec3 up) { add_rectangle(scene, material, corner, along, up); };
-    const vec3 x(2 * half.x, 0, 0), y(0, 2 * half.y, 0), z(0, 0, 2 * half.z);
-    wall(-half, z, x), wall(vec3(-half.x, half.y, -half.z), x, z);
-    wall(-half, x, y), wall(vec3(-half.x, -half.y, half.z), y, x);
-    wall(-half, y, z), wall(vec3(half.x, -half.y, -half.z), z, y);
-}
 
 /// The inside of a sphere about the origin, from a cube whose faces are split: its vertices lie on the sphere.
 void add_sphere(scene::Scene& scene, uint32_t material, float radius, int splits) {
@@ -69,14 +41,6 @@ void add_sphere(scene::Scene& scene, uint32_t material, float radius, int splits
                 for (const uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) p.indices.push_back(first + k);
             }
     scene.nodes.emplace_back().mesh = uint32_t(scene.meshes.size() - 1);
-}
-
-void add_lamp(scene::Scene& scene, float candela, dvec3 position) {
-    scene::Lamp& lamp = scene.lamps.emplace_back();
-    lamp.intensity = candela;
-    scene::Node& node = scene.nodes.emplace_back();
-    node.lamp = uint32_t(scene.lamps.size() - 1), node.translation = position;
-    node.fixture = scene::kNone;
 }
 
 Illuminance traced(const scene::Scene& scene, dvec3 point, dvec3 normal, transport::TraceSettings settings = {}) {

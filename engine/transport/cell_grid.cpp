@@ -1,0 +1,58 @@
+#include "transport/cell_grid.h"
+
+#include <algorithm>
+
+namespace vesper::transport {
+
+uint32_t side_of(glm::dvec3 direction) {
+    const glm::dvec3 a = glm::abs(direction);
+    const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
+    return uint32_t(2 * axis + (direction[axis] < 0 ? 1 : 0));
+}
+
+double along(glm::dvec3 v, uint32_t side) { return side % 2 ? -v[int(side / 2)] : v[int(side / 2)]; }
+
+CellGrid CellGrid::around(glm::dvec3 low, glm::dvec3 high, double least) {
+    constexpr double kMostCubes = 0.5 * double(uint32_t(-1) / kSides);  // the other half is enough for air
+    constexpr double kMostAlong = 1 << 24;                              // whole numbers of floats, for shaders
+    for (CellGrid grid{.size = least};; grid.size *= 2) {
+        grid.origin = low - 0.5 * grid.size;
+        const glm::dvec3 count = glm::floor(grid.place(high) + 0.5) + 1.0;  // half a cube at least beyond the box
+        if (!(count.x * count.y * count.z <= kMostCubes && std::max({count.x, count.y, count.z}) <= kMostAlong))
+            continue;
+        grid.count = glm::uvec3(count);
+        return grid;
+    }
+}
+
+namespace {
+
+std::optional<uint32_t> number_of(glm::dvec3 cube, glm::uvec3 count, uint32_t side) {
+    const glm::dvec3 most(count);
+    for (int i = 0; i < 3; ++i)
+        if (!(cube[i] >= 0 && cube[i] < most[i])) return std::nullopt;
+    const glm::uvec3 at(cube);
+    return ((at.z * count.y + at.y) * count.x + at.x) * kSides + side;
+}
+
+}  // namespace
+
+std::optional<uint32_t> CellGrid::cell(glm::dvec3 cube, uint32_t side) const { return number_of(cube, count, side); }
+
+std::optional<uint32_t> CellGrid::cell_at(glm::dvec3 point, glm::dvec3 normal) const {
+    return cell(place(point), side_of(normal));
+}
+
+std::optional<uint32_t> CellGrid::air_cell(glm::dvec3 cube, uint32_t side) const {
+    const std::optional<uint32_t> number = number_of(cube, air_count(), side);
+    return number ? std::optional(air_begins() + *number) : std::nullopt;
+}
+
+glm::dvec3 CellGrid::middle(uint32_t cell) const {
+    const glm::uvec3 of = is_air(cell) ? air_count() : count;
+    const uint32_t cube = (is_air(cell) ? cell - air_begins() : cell) / kSides;
+    const glm::uvec3 at(cube % of.x, cube / of.x % of.y, cube / (of.x * of.y));
+    return origin + (is_air(cell) ? kAir : 1) * size * (glm::dvec3(at) + 0.5);
+}
+
+}  // namespace vesper::transport

@@ -1,0 +1,525 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include <glm/gtc/packing.hpp>
+
+#include "base/luminance.h"
+#include "base/parallel.h"
+#include "transport/emitters.h"
+#include "transport/lamp_light.h"
+#include "transport/radiosity.h"
+#include "transport/reach.h"
+#include "transport/sampling.h"
+#include "transport/surfaces.h"
+
+namespace vesper::transport {
+namespace {
+
+constexpr uint32_t kPlaces = 4;      // of a cell, that rays start from
+constexpr double kPlaceStep = 0.35;  // of a cube, between places that are looked for
+constexpr double kCovered = 0.06;    // a surface so near before another is taken to lie on it, m
+constexpr double kLevel = 0.7;       // cosine: ground and floors, with air over them
+constexpr double kAirHeight = 4;     // m, of that
+constexpr double kAtEmitter = 1e-3;  // m
+constexpr uint32_t kMostRounds = 4;
+constexpr double kRegion = 8;            // cubes: cells in one see about the same emitters
+constexpr uint32_t kFirstLooks = 1'024;  // of a region, to learn which it sees
+constexpr float kUnknown = 0.25f;        // of a look, before any: so that no group is taken to be hidden
+constexpr double kKeptSources = 0.995;   // of the light of a cell
+
+// A place on a surface, from the middle of the cube.
+struct Place {
+    glm::vec3 point{0}, normal{0};
+    uint32_t node = 0;
+};
+
+// A cell while places are found.
+struct Cell {
+    std::array<Place, kPlaces> places;
+    uint32_t seen = 0;  // places
+    bool covered = false;
+    double weight = 0, area = 0, height = 0;
+    glm::dvec3 normal{0}, reflectance{0};
+};
+
+struct FoundPlace {
+    glm::dvec3 point, normal, reflectance;
+    uint32_t node;
+    double weight, area;
+};
+
+using Light = std::vector<std::pair<uint32_t, glm::dvec3>>;  // by source, lx
+
+void add_to(Light& light, uint32_t source, glm::dvec3 lux) {
+    for (auto& [known, sum] : light)
+        if (known == source) {
+            sum += lux;
+            return;
+        }
+    light.emplace_back(source, lux);
+}
+
+// The strongest ones, made as strong as all.
+void keep_strongest(Light& light, std::vector<Radiosity::Source>& to) {
+    std::ranges::sort(light, [](const auto& a, const auto& b) {
+        const double of_a = luminance(a.second), of_b = luminance(b.second);
+        return of_a != of_b ? of_a > of_b : a.first < b.first;
+    });
+    glm::dvec3 all(0), kept(0);
+    for (const auto& [node, lux] : light) all += lux;
+    size_t count = 0;
+    while (count < light.size() && luminance(kept) < kKeptSources * luminance(all)) kept += light[count++].second;
+    const double factor = luminance(kept) > 0 ? luminance(all) / luminance(kept) : 0;
+    for (size_t i = 0; i < count; ++i)
+        to.push_back(
+            {light[i].first, glm::packF3x9_E1x5(glm::vec3(factor / Radiosity::kPackedUnit * light[i].second))});
+}
+
+struct Gathering {
+    const scene::Scene& scene;
+    const RadiositySettings& settings;
+    std::vector<glm::dmat4> world;
+    rays::RayCaster rays;
+    Surfaces surfaces;
+    Emitters emitters;
+    LampLight lamps;
+    CellGrid grid;
+
+    Gathering(const scene::Scene& of, std::span<const glm::dmat4> at, const std::vector<bool>& moving,
+              const RadiositySettings& with)
+        : scene(of),
+          settings(with),
+          world(without_moving(at, moving)),
+          rays(of, world),
+          surfaces(of, world),
+          emitters(of, world, surfaces),
+          lamps(of, world, rays) {}
+
+    struct Corners {
+        std::array<glm::dvec3, 3> points, normals;
+        double area;
+    };
+    template <class Take>
+    void each_triangle(Take take) const {
+        for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
+            if (scene.nodes[node].mesh == scene::kNone) continue;
+            const scene::Mesh& mesh = scene.meshes[scene.nodes[node].mesh];
+            const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(world[node])));
+            for (uint32_t p = 0; p < mesh.primitives.size(); ++p) {
+                const scene::Primitive& primitive = mesh.primitives[p];
+                const scene::Material& material = scene.materials[primitive.material];
+                if (material.clear) continue;
+                for (uint32_t t = 0; 3 * size_t(t) < primitive.indices.size(); ++t) {
+                    Corners c{};
+                    for (size_t k = 0; k < 3; ++k) {
+                        const scene::Vertex& vertex = primitive.vertices[primitive.indices[3 * size_t(t) + k]];
+                        c.points[k] = glm::dvec3(world[node] * glm::dvec4(vertex.position, 1));
+                        c.normals[k] = turn * glm::dvec3(vertex.normal);
+                    }
+                    c.area = 0.5 * glm::length(glm::cross(c.points[1] - c.points[0], c.points[2] - c.points[0]));
+                    double farthest = 0;  // per axis, as rays/ has it
+                    for (const glm::dvec3 corner : c.points) {
+                        const glm::dvec3 a = glm::abs(corner);
+                        farthest = std::max({farthest, a.x, a.y, a.z});
+                    }
+                    if (c.area > 0 && farthest <= rays::kFarthest)
+                        take(rays::Hit{.share = 1, .node = node, .primitive = p, .triangle = t}, c,
+                             material.double_sided);
+                }
+            }
+        }
+    }
+
+    bool make_grid() {
+        glm::dvec3 low(1e300), high(-1e300);
+        double area = 0;
+        each_triangle([&](const rays::Hit&, const Corners& c, bool double_sided) {
+            for (const glm::dvec3 corner : c.points) low = glm::min(low, corner), high = glm::max(high, corner);
+            area += double_sided ? 2 * c.area : c.area;
+        });
+        if (!(area > 0)) return false;
+        const double least = std::sqrt(area / double(settings.most_cells));
+        double size = settings.cell_size;
+        while (size < least) size *= std::numbers::sqrt2;
+        grid = CellGrid::around(low, high, size);
+        return true;
+    }
+
+    // Places that are covered count where a cell has no others.
+    void add_place(std::map<uint32_t, Cell>& cells, const FoundPlace& place, bool covered) const {
+        add_place(cells, grid.cell_at(place.point, place.normal), place, covered);
+    }
+    void add_place(std::map<uint32_t, Cell>& cells, std::optional<uint32_t> number, const FoundPlace& place,
+                   bool covered) const {
+        if (!number) return;
+        Cell& cell = cells[*number];
+        if (covered && cell.seen > 0 && !cell.covered) return;
+        if (!covered && cell.covered) cell = {};
+        cell.covered = covered;
+        // Any places are as likely to be kept (reservoir sampling: Vitter 1985).
+        const uint32_t seen = cell.seen++;
+        const uint64_t slot =
+            seen < kPlaces ? seen : Random((uint64_t{*number} << 32u) + seen).next_bits() % (uint64_t{seen} + 1);
+        if (slot < kPlaces)
+            cell.places[slot] = {glm::vec3(place.point - grid.middle(*number)), glm::vec3(place.normal), place.node};
+        cell.weight += place.weight, cell.area += place.area;
+        cell.height += place.weight * grid.height(*number, place.point);
+        cell.normal += place.weight * place.normal, cell.reflectance += place.weight * place.reflectance;
+    }
+
+    // Places all over the triangles, a few in each cell: in strips along the longest side, at the middle of pieces.
+    void find_places(std::map<uint32_t, Cell>& cells) const {
+        Random random(0);
+        const double step = grid.size * kPlaceStep;
+        each_triangle([&](rays::Hit hit, const Corners& c, bool double_sided) {
+            int p = 0;  // where the longest side begins
+            for (int k = 1; k < 3; ++k)
+                if (side_length(c, k) > side_length(c, p)) p = k;
+            const double longest = side_length(c, p);
+            const double strips = std::ceil(2 * c.area / longest / step);
+            for (double strip = 0; strip < strips; ++strip) {
+                // Of the way from that side to the other corner.
+                const double from = strip / strips, to = (strip + 1) / strips, width = to - from,
+                             squares = (to * to - from * from) / 2, cubes = (to * to * to - from * from * from) / 3,
+                             middle = (squares - cubes) / (width - squares);
+                const double pieces = std::max(std::ceil(longest * (1 - middle) / step), 1.0);
+                const double area = c.area * 2 * (width - squares) / pieces;
+                for (double piece = 0; piece < pieces; ++piece) {
+                    const double along_it = (piece + 0.5) / pieces;
+                    hit.weights[p] = (1 - middle) * (1 - along_it);
+                    hit.weights[(p + 1) % 3] = (1 - middle) * along_it, hit.weights[(p + 2) % 3] = middle;
+                    add_on_triangle(cells, hit, c, area, double_sided, random);
+                }
+            }
+        });
+    }
+
+    static double side_length(const Corners& c, int from) {
+        return glm::distance(c.points[size_t(from)], c.points[size_t((from + 1) % 3)]);
+    }
+
+    void add_on_triangle(std::map<uint32_t, Cell>& cells, const rays::Hit& hit, const Corners& c, double area,
+                         bool double_sided, Random& random) const {
+        glm::dvec3 point(0), normal(0);
+        for (int k = 0; k < 3; ++k)
+            point += hit.weights[k] * c.points[size_t(k)], normal += hit.weights[k] * c.normals[size_t(k)];
+        if (!(glm::length(normal) > 1e-12)) return;
+        normal = glm::normalize(normal);
+        const glm::dvec3 reflectance = surfaces.at(hit, point + normal).reflectance;
+        for (const glm::dvec3 outwards : {normal, -normal}) {
+            const std::optional<double> open = open_before(point, outwards);
+            add_place(cells, {point, outwards, reflectance, hit.node, area, area}, !open);
+            if (open && outwards.y > kLevel) add_air(cells, point, outwards, *open, random);
+            if (!double_sided) break;
+        }
+    }
+
+    // How far a surface sees along its normal, m; none if it is under another or within a body: what is there shows its
+    // back.
+    std::optional<double> open_before(glm::dvec3 point, glm::dvec3 outwards) const {
+        const std::optional<rays::Hit> hit =
+            rays.nearest(point + skin_at(rays, point) * outwards, point + kReach * outwards);
+        if (!hit) return kReach;
+        if (hit->share * kReach < kCovered || !surfaces.shows_front(*hit, point)) return std::nullopt;
+        return hit->share * kReach;
+    }
+
+    // Over ground and floors, where things move.
+    void add_air(std::map<uint32_t, Cell>& cells, glm::dvec3 ground, glm::dvec3 up, double open, Random& random) const {
+        const glm::dvec3 point = ground + std::min(random.next() * kAirHeight, 0.9 * open) * up;
+        for (uint32_t side = 0; side < kSides; ++side) {
+            glm::dvec3 outwards(0);
+            outwards[int(side / 2)] = side % 2 ? -1 : 1;
+            const glm::dvec3 cube = grid.place(point) / double(CellGrid::kAir);
+            add_place(cells, grid.air_cell(cube, side), {point, outwards, {}, scene::kNone, 1, 0}, false);
+        }
+    }
+
+    // What the rays of some cells found.
+    struct Round {
+        std::vector<uint32_t> numbers;
+        std::vector<Cell> cells;
+        std::vector<float> sky;
+        std::vector<uint32_t> met;  // numbers
+        struct Region {
+            std::vector<uint32_t> cells;
+            std::vector<uint32_t> counts;  // of sources of each
+            std::vector<Radiosity::Source> sources;
+            std::vector<FoundPlace> places;  // where rays met what may be no cell
+        };
+        std::vector<Region> regions;
+    };
+
+    void make_regions(Round& round) const {
+        std::map<std::array<uint32_t, 4>, std::vector<uint32_t>> found;
+        for (uint32_t i = 0; i < round.numbers.size(); ++i) {
+            const bool air = grid.is_air(round.numbers[i]);
+            const glm::uvec3 at(grid.place(grid.middle(round.numbers[i])) / kRegion);
+            found[{at.z, at.y, at.x, grid.side(round.numbers[i]) + (air ? kSides : 0)}].push_back(i);
+        }
+        for (auto& [key, cells] : found) round.regions.push_back({.cells = std::move(cells)});
+    }
+
+    struct Start {
+        glm::dvec3 point, normal;  // before the surface
+        const EmitterChoice& choice;
+        uint32_t looks, rays;
+    };
+    Start start_of(const Place& place, uint32_t number, const EmitterChoice& choice) const {
+        const glm::dvec3 point = grid.middle(number) + glm::dvec3(place.point);
+        const glm::dvec3 normal = glm::normalize(glm::dvec3(place.normal));
+        return {point + skin_at(rays, point) * normal, normal, choice, 1, 0};
+    }
+    EmitterChoice choice_at(const Place& place, uint32_t number, std::span<const float> seen) const {
+        return {emitters, grid.middle(number) + glm::dvec3(place.point), glm::normalize(glm::dvec3(place.normal)),
+                seen};
+    }
+
+    // Of each group of emitters, about the part of looks that see it from a region.
+    std::vector<float> seen_from(const Round& round, const Round::Region& region) const {
+        std::vector<float> looks(emitters.groups().size(), kUnknown), seen(emitters.groups().size(), kUnknown);
+        if (looks.empty()) return {};
+        Random random(round.numbers[region.cells[0]]);
+        constexpr uint32_t kFromEach = 32;
+        for (uint32_t i = 0; i < kFirstLooks / kFromEach; ++i) {
+            const uint32_t c = region.cells[random.next_bits() % region.cells.size()];
+            const Cell& cell = round.cells[c];
+            const Place& place = cell.places[random.next_bits() % std::min(cell.seen, kPlaces)];
+            const EmitterChoice choice = choice_at(place, round.numbers[c], {});
+            if (!choice.any()) continue;
+            const Start start = start_of(place, round.numbers[c], choice);
+            for (uint32_t k = 0; k < kFromEach; ++k) {
+                const double group = random.next(), u = random.next();
+                const auto [number, light] = look(start, {group, u});
+                const size_t of = emitters.group_of(number);
+                looks[of] += 1, seen[of] += light != glm::dvec3(0) ? 1.0f : 0.0f;
+            }
+        }
+        for (size_t g = 0; g < seen.size(); ++g) seen[g] /= looks[g];
+        return seen;
+    }
+
+    // Of the direction to a place on an emitter: the density of looks and rays together, 1/sr.
+    double density(const Start& start, size_t number, glm::dvec3 to, double cosine) const {
+        const Emitters::Emitter& e = emitters.list()[number];
+        const double distance2 = glm::dot(to, to);
+        const double leaving = std::max(std::abs(glm::dot(e.outwards, to)) / std::sqrt(distance2), 1e-9);
+        return start.looks * start.choice.probability(number) / e.area * distance2 / leaving +
+               start.rays * cosine / std::numbers::pi;
+    }
+
+    // At an emitter by chance: which, and its light, lx.
+    std::pair<size_t, glm::dvec3> look(const Start& start, glm::dvec2 chance) const {
+        const glm::dvec3 none(0);
+        const size_t number = start.choice.choose(chance.x);
+        const Emitters::Emitter& e = emitters.list()[number];
+        rays::Hit wanted{.share = 1, .node = e.node, .primitive = e.primitive, .triangle = e.triangle};
+        wanted.weights = triangle_weights(chance);
+        glm::dvec3 place(0);
+        for (int k = 0; k < 3; ++k) place += wanted.weights[k] * e.corners[size_t(k)];
+        const glm::dvec3 to = place - start.point;
+        const double distance = glm::length(to), cosine = glm::dot(start.normal, to) / distance;
+        if (!(cosine > 0) || !(distance < kReach)) return {number, none};
+        // Nothing before it, and it has no hole there.
+        const double skin = std::min(1e-3, kAtEmitter / distance);
+        const glm::dvec3 before = start.point + (1 - skin) * to, behind = start.point + (1 + skin) * to;
+        if (rays.blocked(start.point, before) || !rays.blocked(before, behind)) return {number, none};
+        const glm::dvec3 emission = surfaces.emission(wanted, start.point);
+        return {number, cosine / density(start, number, to, cosine) * emission};
+    }
+
+    // A ray distributed as cosines. Returns the number of the cell that it meets.
+    uint32_t send(const Start& start, glm::dvec2 chance, double share, Light& meshes, float& sky,
+                  std::vector<FoundPlace>& places) const {
+        const glm::dvec3 direction = cosine_direction(start.normal, chance);
+        const std::optional<rays::Hit> hit = rays.nearest(start.point, start.point + kReach * direction);
+        if (!hit) {
+            sky += float(share / start.rays);
+            return Radiosity::kNowhere;
+        }
+        const SurfacePoint surface = surfaces.at(*hit, start.point);
+        if (surface.emission != glm::dvec3(0))
+            if (const std::optional<size_t> number = emitters.find(*hit)) {
+                const double cosine = glm::dot(start.normal, direction);
+                const glm::dvec3 to = surface.position - start.point;
+                add_to(meshes, hit->node, share * cosine / density(start, *number, to, cosine) * surface.emission);
+            }
+        const std::optional<uint32_t> cell = grid.cell_at(surface.position, surface.normal);
+        if (!cell) return Radiosity::kNowhere;
+        places.push_back({surface.position, surface.normal, surface.reflectance, hit->node, 1, 0});
+        return *cell;
+    }
+
+    void gather(Round& round, Round::Region& region) const {
+        const std::vector<float> seen = seen_from(round, region);
+        for (const uint32_t i : region.cells) gather(round, i, seen, region);
+    }
+
+    void gather(Round& round, size_t i, std::span<const float> seen, Round::Region& region) const {
+        const Cell& cell = round.cells[i];
+        const uint32_t number = round.numbers[i], places = std::min(cell.seen, kPlaces);
+        Random random(number);
+        Light meshes, of_lamps;
+        std::vector<LampLight::Share> shares;
+        const double share = 1.0 / places;
+        for (uint32_t k = 0; k < places; ++k) {
+            const EmitterChoice choice = choice_at(cell.places[k], number, seen);
+            Start start = start_of(cell.places[k], number, choice);
+            start.looks = choice.any() ? settings.looks / places : 0;
+            start.rays = (settings.rays + places - 1 - k) / places;
+            const Lattice looks(random), directions(random);
+            for (uint32_t l = 0; l < start.looks; ++l) {
+                const auto [emitter, light] = look(start, looks.at(l));
+                if (light != glm::dvec3(0)) add_to(meshes, emitters.list()[emitter].node, share * light);
+            }
+            for (uint32_t r = 0; r < start.rays; ++r)
+                round.met[i * settings.rays + k + places * r] =
+                    send(start, directions.at(r), share, meshes, round.sky[i], region.places);
+            shares.clear();
+            lamps.sample(start.point, start.normal, cell.places[k].node, settings.lamp_looks, random, shares);
+            for (const LampLight::Share& s : shares) add_to(of_lamps, s.node | Radiosity::kLamp, share * s.lux);
+        }
+        const size_t before = region.sources.size();
+        keep_strongest(of_lamps, region.sources), keep_strongest(meshes, region.sources);
+        region.counts.push_back(uint32_t(region.sources.size() - before));
+    }
+
+    std::optional<Radiosity> run(const std::function<bool(double)>& progress) {
+        Radiosity result;
+        result.rays = settings.rays;
+        result.first_source.push_back(0);
+        if (!make_grid()) return result;
+        std::map<uint32_t, Cell> wanted;
+        find_places(wanted);
+        std::vector<Round> rounds;
+        std::map<uint32_t, std::pair<uint32_t, uint32_t>> known;  // round and place in it, by number
+        while (!wanted.empty() && rounds.size() < kMostRounds) {
+            Round& round = rounds.emplace_back();
+            for (auto& [number, cell] : wanted) {
+                known[number] = {uint32_t(rounds.size() - 1), uint32_t(round.cells.size())};
+                round.numbers.push_back(number), round.cells.push_back(cell);
+            }
+            const size_t cells = round.cells.size();
+            round.sky.resize(cells), round.met.resize(cells * settings.rays);
+            make_regions(round);
+            // What rays of a round find takes about a fifth of the time of that.
+            const double begins = 1 - std::pow(0.2, double(rounds.size() - 1)), width = 0.8 * (1 - begins);
+            const bool done = in_parallel(
+                round.regions.size(), 1,
+                [&](size_t number, size_t) {
+                    Round::Region& region = round.regions[number];
+                    gather(round, region);
+                    std::erase_if(region.places, [&](const FoundPlace& place) {
+                        return known.contains(*grid.cell_at(place.point, place.normal));
+                    });
+                },
+                [&](size_t so_far) {
+                    return !progress || progress(begins + width * double(so_far) / double(round.regions.size()));
+                });
+            if (!done) return std::nullopt;
+            wanted.clear();
+            for (const Round::Region& region : round.regions)
+                for (const FoundPlace& place : region.places) add_place(wanted, place, false);
+        }
+        put_together(rounds, known, result);
+        return result;
+    }
+
+    // A quarter of a cube before a surface, so that what is carved or laid on it hides nothing.
+    glm::dvec3 before(uint32_t number, glm::dvec3 point) const {
+        const uint32_t side = grid.side(number);
+        point[int(side / 2)] += (side % 2 ? -1 : 1) * 0.25 * grid.size;
+        return point;
+    }
+
+    // Whether something stands between the places of a cell: a wall is between half of the pairs at least, a post is
+    // not.
+    bool is_split(const Cell& cell, uint32_t number) const {
+        const glm::dvec3 middle = grid.middle(number);
+        const uint32_t places = std::min(cell.seen, kPlaces);
+        uint32_t pairs = 0, apart = 0;
+        for (uint32_t a = 1; a < places; ++a)
+            for (uint32_t b = 0; b < a; ++b, ++pairs)
+                apart += rays.blocked(before(number, middle + glm::dvec3(cell.places[a].point)),
+                                      before(number, middle + glm::dvec3(cell.places[b].point)))
+                             ? 1
+                             : 0;
+        return pairs > 0 && 2 * apart >= pairs;
+    }
+
+    // A cell that something splits is seen by no other, and sees none.
+    void connect(const std::vector<Round>& rounds, const std::map<uint32_t, std::pair<uint32_t, uint32_t>>& known,
+                 Radiosity& result) const {
+        std::vector<const Cell*> cells;
+        for (const auto& [number, at] : known) cells.push_back(&rounds[at.first].cells[at.second]);
+        std::vector<char> split(cells.size());
+        in_parallel(cells.size(), 1024, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i)
+                split[i] = !grid.is_air(result.numbers[i]) && is_split(*cells[i], result.numbers[i]);
+        });
+        const auto point = [&](uint32_t i) {
+            const uint32_t number = result.numbers[i], side = grid.side(number);
+            glm::dvec3 surface = grid.middle(number);
+            surface[int(side / 2)] += (side % 2 ? -1 : 1) * double(result.heights[i]);
+            return before(number, surface);
+        };
+        result.connect(
+            [&](uint32_t a, uint32_t b) { return !split[a] && !split[b] && !rays.blocked(point(a), point(b)); });
+    }
+
+    void put_together(const std::vector<Round>& rounds, const std::map<uint32_t, std::pair<uint32_t, uint32_t>>& known,
+                      Radiosity& result) const {
+        result.grid = grid;
+        std::vector<std::vector<std::span<const Radiosity::Source>>> sources;  // of each cell of each round
+        for (const Round& round : rounds) {
+            auto& of_cells = sources.emplace_back(round.cells.size());
+            for (const Round::Region& region : round.regions) {
+                size_t first = 0;
+                for (size_t i = 0; i < region.cells.size(); first += region.counts[i++])
+                    of_cells[region.cells[i]] = std::span(region.sources).subspan(first, region.counts[i]);
+            }
+        }
+        for (const auto& [number, at] : known) result.numbers.push_back(number);
+        for (const auto& [number, at] : known) {
+            const Round& round = rounds[at.first];
+            const size_t i = at.second;
+            const Cell& cell = round.cells[i];
+            result.heights.push_back(float(cell.height / cell.weight));
+            result.areas.push_back(float(cell.area));
+            const double length = glm::length(cell.normal);
+            result.normals.push_back(length > 0 ? glm::vec3(cell.normal / length) : cell.places[0].normal);
+            result.reflectances.push_back(glm::vec3(cell.reflectance / cell.weight));
+            result.sky.push_back(round.sky[i]);
+            for (size_t ray = i * settings.rays; ray < (i + 1) * settings.rays; ++ray)
+                result.met.push_back(round.met[ray] == Radiosity::kNowhere
+                                         ? Radiosity::kNowhere
+                                         : result.find(round.met[ray]).value_or(Radiosity::kNowhere));
+            const std::span of_cell = sources[at.first][i];
+            result.sources.insert(result.sources.end(), of_cell.begin(), of_cell.end());
+            result.first_source.push_back(uint32_t(result.sources.size()));
+        }
+        connect(rounds, known, result);
+    }
+};
+
+}  // namespace
+
+std::vector<glm::dmat4> without_moving(std::span<const glm::dmat4> world, const std::vector<bool>& moving) {
+    std::vector<glm::dmat4> still(world.begin(), world.end());
+    const glm::dvec4 nowhere(std::numeric_limits<double>::quiet_NaN());
+    for (size_t node = 0; node < moving.size(); ++node)
+        if (moving[node]) still[node] = glm::dmat4(nowhere, nowhere, nowhere, nowhere);
+    return still;
+}
+
+std::optional<Radiosity> gather_radiosity(const scene::Scene& scene, std::span<const glm::dmat4> world,
+                                          const std::vector<bool>& moving, const RadiositySettings& settings,
+                                          const std::function<bool(double)>& progress) {
+    return Gathering(scene, world, moving, settings).run(progress);
+}
+
+}  // namespace vesper::transport

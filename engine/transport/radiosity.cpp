@@ -1,0 +1,202 @@
+#include "transport/radiosity.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include <glm/gtc/packing.hpp>
+
+#include "base/parallel.h"
+
+namespace vesper::transport {
+namespace {
+
+template <class T>
+uint64_t bytes_of(const std::vector<T>& values) {
+    return values.size() * sizeof(T);
+}
+
+// The cells around one, across its side, and the weights of a binomial filter.
+struct Offset {
+    int across, over;
+    float weight;
+};
+constexpr std::array<Offset, Radiosity::kBeside> kOffsets{
+    {{-1, -1, 1}, {0, -1, 2}, {1, -1, 1}, {-1, 0, 2}, {1, 0, 2}, {-1, 1, 1}, {0, 1, 2}, {1, 1, 1}}};
+constexpr float kOwnWeight = 4, kAllWeights = 16;
+constexpr float kOneSurface = 0.9f;  // cosine between the normals of cells that are
+constexpr size_t kAtATime = 4096;    // cells
+
+struct Axes {
+    int along, across, over;
+};
+Axes axes_of(uint32_t side) {
+    const int axis = int(side / 2);
+    return {axis, (axis + 1) % 3, (axis + 2) % 3};
+}
+
+glm::dvec3 sky_on(const RadiosityLight& light, glm::dvec3 normal) {
+    if (!light.sky_picture) return std::numbers::pi * light.sky;
+    return photometry::evaluate(*light.sky_picture, normal);
+}
+
+}  // namespace
+
+glm::dvec3 Radiosity::Source::illuminance() const { return kPackedUnit * glm::dvec3(glm::unpackF3x9_E1x5(lux)); }
+
+std::optional<uint32_t> Radiosity::find(uint32_t number) const {
+    const auto at = std::ranges::lower_bound(numbers, number);
+    if (at == numbers.end() || *at != number) return std::nullopt;
+    return uint32_t(at - numbers.begin());
+}
+
+uint64_t Radiosity::bytes() const {
+    return bytes_of(numbers) + bytes_of(heights) + bytes_of(areas) + bytes_of(normals) + bytes_of(reflectances) +
+           bytes_of(sky) + bytes_of(first_source) + bytes_of(sources) + bytes_of(met) + bytes_of(beside) +
+           bytes_of(walls);
+}
+
+void Radiosity::connect(const std::function<bool(uint32_t, uint32_t)>& sees) {
+    beside.assign(cells() * kBeside, 0), walls.assign(cells(), 0);
+    in_parallel(cells(), kAtATime, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const uint32_t side = grid.side(numbers[i]);
+            const Axes axes = axes_of(side);
+            glm::dvec3 middle = grid.place(grid.middle(numbers[i]));
+            middle[axes.along] += (side % 2 ? -1 : 1) * double(heights[i]) / grid.size;
+            for (size_t k = 0; k < kBeside; ++k) {
+                uint32_t& other = beside[i * kBeside + k] = uint32_t(i);
+                if (grid.is_air(numbers[i])) continue;
+                glm::dvec3 place = middle;
+                place[axes.across] += kOffsets[k].across, place[axes.over] += kOffsets[k].over;
+                const std::optional<Nearest> cell = nearest(glm::floor(place), place, side);
+                if (!cell) continue;
+                if (!sees(uint32_t(i), cell->index))
+                    walls[i] |= uint8_t(1u << k);
+                else if (cell->off <= kNearBorder && glm::dot(normals[cell->index], normals[i]) >= kOneSurface)
+                    other = cell->index;
+            }
+        }
+    });
+}
+
+Radiosity::Solution Radiosity::solve(const RadiosityLight& light) const {
+    Solution result{std::vector<glm::vec3>(cells()), std::vector<glm::vec3>(cells())};
+    std::vector<glm::vec3> unreflected(cells()), sent(cells());
+    const auto each_cell = [this](const auto& work) {
+        in_parallel(cells(), kAtATime, [&work](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) work(i);
+        });
+    };
+    each_cell([&](size_t i) {
+        glm::dvec3 of_lamps(0), of_meshes(0);
+        for (uint32_t s = first_source[i]; s < first_source[i + 1]; ++s) {
+            const uint32_t node = sources[s].node & ~kLamp;
+            const double factor = light.factors.empty() ? 1 : double(light.factors[node]);
+            (sources[s].node & kLamp ? of_lamps : of_meshes) += factor * sources[s].illuminance();
+        }
+        result.lamps[i] = glm::vec3(of_lamps);
+        unreflected[i] = glm::vec3(of_meshes + double(sky[i]) * sky_on(light, glm::dvec3(normals[i])));
+    });
+    std::vector<glm::vec3> other = unreflected;
+    for (uint32_t reflection = 0; reflection < light.reflections; ++reflection) {
+        each_cell([&](size_t i) { sent[i] = reflectances[i] * (result.lamps[i] + other[i]); });
+        each_cell([&](size_t i) {
+            glm::vec3 sum(0);
+            for (size_t ray = i * rays; ray < (i + 1) * rays; ++ray)
+                if (met[ray] != kNowhere) sum += sent[met[ray]];
+            other[i] = unreflected[i] + sum / float(rays);
+        });
+    }
+    // Of neighbours, for less noise.
+    each_cell([&](size_t i) {
+        glm::vec3 sum = kOwnWeight * other[i];
+        for (size_t k = 0; k < kBeside; ++k) sum += kOffsets[k].weight * other[beside[i * kBeside + k]];
+        result.other[i] = sum / kAllWeights;
+    });
+    return result;
+}
+
+// In the cube of a point or, if there is no cell, in the one along the side whose surface is near to that.
+std::optional<Radiosity::Nearest> Radiosity::nearest(glm::dvec3 cube, glm::dvec3 place, uint32_t side) const {
+    const int axis = axes_of(side).along;
+    for (const double layer : {0.0, -1.0, 1.0}) {
+        glm::dvec3 there = cube;
+        there[axis] += layer;
+        const std::optional<uint32_t> number = grid.cell(there, side), index = number ? find(*number) : std::nullopt;
+        if (!index) continue;
+        const double height = double(heights[*index]) / grid.size;
+        if (layer != 0 && (side % 2 ? layer : -layer) * height < 0.5 - kNearBorder) continue;
+        return Nearest{*index, std::abs(along(place - there - 0.5, side) - height)};
+    }
+    return std::nullopt;
+}
+
+// The cells at a point and beside it, across the side.
+std::array<std::optional<Radiosity::Nearest>, 4> Radiosity::columns_at(glm::dvec3 place, glm::dvec3 corner,
+                                                                       uint32_t side) const {
+    const auto [axis, across, over] = axes_of(side);
+    std::array<std::optional<Nearest>, 4> columns;
+    for (uint32_t k = 0; k < 4; ++k) {
+        glm::dvec3 cube = glm::floor(place);
+        cube[across] = corner[across] + (k & 1), cube[over] = corner[over] + (k >> 1);
+        columns[k] = nearest(cube, place, side);
+    }
+    return columns;
+}
+
+// Of one of four columns as another sees it, in the order of `beside`.
+uint32_t Radiosity::number_beside(uint32_t own, uint32_t other) {
+    const int across = int(other & 1) - int(own & 1), over = int(other >> 1) - int(own >> 1);
+    const int number = 3 * (over + 1) + across + 1;
+    return uint32_t(number > 4 ? number - 1 : number);
+}
+
+glm::dvec3 Radiosity::at(std::span<const glm::vec3> values, glm::dvec3 point, glm::dvec3 normal) const {
+    const uint32_t side = side_of(normal);
+    const glm::dvec3 place = grid.place(point);
+    const auto [axis, across, over] = axes_of(side);
+    const glm::dvec3 corner = glm::floor(place - 0.5), share = place - 0.5 - corner;
+    const std::array<std::optional<Nearest>, 4> columns = columns_at(place, corner, side);
+    // The column of the point itself says which of the others it sees.
+    const uint32_t own = (share[across] >= 0.5 ? 1 : 0) + (share[over] >= 0.5 ? 2 : 0);
+    const uint32_t hidden = columns[own] && !walls.empty() ? walls[columns[own]->index] : 0;
+    glm::dvec3 sum(0);
+    double weights = 0;
+    for (uint32_t k = 0; k < 4; ++k) {
+        if (!columns[k] || (k != own && hidden >> number_beside(own, k) & 1)) continue;
+        const double linear = (k & 1 ? share[across] : 1 - share[across]) * (k >> 1 ? share[over] : 1 - share[over]);
+        const double weight = linear * std::max(1 - columns[k]->off / kSameSurface, kElsewhere) + kLeastWeight;
+        sum += weight * glm::dvec3(values[columns[k]->index]), weights += weight;
+    }
+    double weights_of_air = 0;
+    if (weights < 2 * kElsewhere) {
+        const glm::dvec3 air = in_air(values, place, normal, weights_of_air);
+        if (weights_of_air > 0) return air / weights_of_air;
+    }
+    return weights > 0 ? sum / weights : glm::dvec3(0);
+}
+
+// Linear between eight cubes of air; in each the three sides that the normal goes to by the squares of its components.
+glm::dvec3 Radiosity::in_air(std::span<const glm::vec3> values, glm::dvec3 place, glm::dvec3 normal,
+                             double& weights) const {
+    const glm::dvec3 air = place / double(CellGrid::kAir) - 0.5, corner = glm::floor(air), share = air - corner;
+    const glm::dvec3 unit = normal / glm::length(normal);
+    glm::dvec3 sum(0);
+    for (uint32_t k = 0; k < 8; ++k) {
+        const glm::dvec3 offset(k & 1, k >> 1 & 1, k >> 2), linear = glm::mix(1.0 - share, share, offset);
+        for (uint32_t axis = 0; axis < 3; ++axis) {
+            const double part = unit[int(axis)] * unit[int(axis)];
+            const uint32_t side = 2 * axis + (unit[int(axis)] < 0 ? 1 : 0);
+            const std::optional<uint32_t> number = grid.air_cell(corner + offset, side);
+            const std::optional<uint32_t> index = number ? find(*number) : std::nullopt;
+            if (!index) continue;
+            const double weight = part * (linear.x * linear.y * linear.z + kLeastWeight);
+            sum += weight * glm::dvec3(values[*index]), weights += weight;
+        }
+    }
+    return sum;
+}
+
+}  // namespace vesper::transport

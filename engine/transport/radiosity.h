@@ -1,0 +1,106 @@
+// Light that surfaces at rest send each other, solved for cells of them. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "photometry/environment.h"
+#include "scene/scene.h"
+#include "transport/cell_grid.h"
+
+namespace vesper::transport {
+
+/// What lights a scene at one moment.
+struct RadiosityLight {
+    std::span<const float> factors;  ///< per node, on the light of its lamp and of its mesh; empty: 1
+    glm::dvec3 sky{0};               ///< luminance of all directions without a surface, RGB cd/m^2
+    const photometry::Irradiance9* sky_picture = nullptr;  ///< instead of it: illuminance by direction, unobstructed
+    uint32_t reflections = 3;                              ///< that are counted
+};
+
+/// The transport of light among the surfaces of a scene at rest (radiosity: Goral et al. 1984), for cells of them as
+/// patches. It holds for any intensities: each cell knows what each source gives it directly, and which cells its rays,
+/// distributed as cosines, end at (form factors: Malley 1988). Surfaces count as matt.
+struct Radiosity {
+    static constexpr uint32_t kNowhere = ~0u;  ///< a ray that meets no surface
+
+    /// Direct light of a cell from a lamp or an emitting mesh, at its full light.
+    struct Source {
+        uint32_t node;  ///< with kLamp, or of the mesh
+        uint32_t lux;   ///< RGB, of kPackedUnit lx, as shared exponents (packF3x9_E1x5)
+        glm::dvec3 illuminance() const;
+    };
+    static constexpr uint32_t kBeside = 8;
+    static constexpr uint32_t kLamp = 1u << 31u;
+    static constexpr double kPackedUnit = 16;  ///< lx
+    /// In cubes: how near to a border a surface may go on beyond it; how far from the height of a cell it is another
+    /// one; the weight of such, and the least weight.
+    static constexpr double kNearBorder = 0.25, kSameSurface = 0.75, kElsewhere = 1e-3, kLeastWeight = 1e-7;
+
+    CellGrid grid;
+    std::vector<uint32_t> numbers;  ///< of the cells, ascending
+    std::vector<float> heights;     ///< of their surfaces, mean, over the middle of the cube along the side, m
+    std::vector<float> areas;       ///< of them, m^2; 0 of those that only rays found
+    std::vector<glm::vec3> normals;
+    std::vector<glm::vec3> reflectances;
+    std::vector<float> sky;              ///< part of the light of a uniform hemisphere that comes from the sky
+    std::vector<uint32_t> first_source;  ///< of each, and the end
+    std::vector<Source> sources;
+    std::vector<uint32_t> met;     ///< index of the cell that each ray of each cell met, or kNowhere
+    uint32_t rays = 0;             ///< of each
+    std::vector<uint32_t> beside;  ///< of each the kBeside cells of the same surface around it, or itself
+    std::vector<uint8_t> walls;    ///< of each bits of those around it that it does not see; empty: it sees all
+
+    /// Finds `beside` and `walls`, from the rest and from what `sees` says of two cells, by several threads.
+    void connect(const std::function<bool(uint32_t, uint32_t)>& sees);
+
+    size_t cells() const { return numbers.size(); }
+    std::optional<uint32_t> find(uint32_t number) const;
+    uint64_t bytes() const;
+
+    /// Illuminance of each cell, RGB lx.
+    struct Solution {
+        std::vector<glm::vec3> lamps;  ///< directly
+        std::vector<glm::vec3> other;  ///< from emitting surfaces and the sky, and all that is reflected
+    };
+    Solution solve(const RadiosityLight& light) const;
+
+    /// Of cells' values, the one at a point of a surface: linear between four cells beside each other that face the
+    /// same side, those at its height; where there is none, between those of the air. 0 where there are none either.
+    glm::dvec3 at(std::span<const glm::vec3> values, glm::dvec3 point, glm::dvec3 normal) const;
+
+private:
+    struct Nearest {
+        uint32_t index;
+        double off;  // in cubes
+    };
+    static uint32_t number_beside(uint32_t own, uint32_t other);
+    std::array<std::optional<Nearest>, 4> columns_at(glm::dvec3 place, glm::dvec3 corner, uint32_t side) const;
+    std::optional<Nearest> nearest(glm::dvec3 cube, glm::dvec3 place, uint32_t side) const;
+    glm::dvec3 in_air(std::span<const glm::vec3> values, glm::dvec3 place, glm::dvec3 normal, double& weights) const;
+};
+
+/// World transforms with those of nodes that are `moving` nowhere (NaN), so that their triangles and lamps count for
+/// nothing.
+std::vector<glm::dmat4> without_moving(std::span<const glm::dmat4> world, const std::vector<bool>& moving);
+
+struct RadiositySettings {
+    double cell_size = 1;           ///< m, at least
+    uint32_t rays = 32;             ///< from each cell
+    uint32_t looks = 64;            ///< of each cell at emitters
+    uint32_t lamp_looks = 16;       ///< at lamps, of each of four places
+    uint64_t most_cells = 600'000;  ///< roughly: cells are larger where there would be more
+};
+
+/// For a scene with its nodes at `world`. Those that are `moving` (per node; empty: none) neither get light nor hide or
+/// send any. `progress` is called with shares from 0 to 1, from this thread; where it returns false the work ends and
+/// the result is empty. On all processors; the same scene gives the same result.
+std::optional<Radiosity> gather_radiosity(const scene::Scene& scene, std::span<const glm::dmat4> world,
+                                          const std::vector<bool>& moving, const RadiositySettings& settings,
+                                          const std::function<bool(double)>& progress = {});
+
+}  // namespace vesper::transport

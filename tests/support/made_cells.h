@@ -1,0 +1,45 @@
+// Cells of radiosity that no scene has, made up one by one. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "transport/radiosity.h"
+
+namespace vesper::test {
+
+/// Cells with a value each, in any order; as a Radiosity they have numbers, heights and normals, and nothing else.
+struct MadeCells {
+    transport::CellGrid grid;
+    struct Cell {
+        float height;  // m
+        glm::vec3 light;
+    };
+    std::map<uint32_t, Cell> cells;  // by number
+
+    void add(glm::dvec3 cube, uint32_t side, double height, glm::vec3 light) {
+        cells[grid.cell(cube, side).value()] = {float(height), light};
+    }
+    void add_air(glm::dvec3 cube, uint32_t side, glm::vec3 light) {
+        cells[grid.air_cell(cube, side).value()] = {0, light};
+    }
+
+    transport::Radiosity radiosity() const {
+        transport::Radiosity radiosity;
+        radiosity.grid = grid;
+        for (const auto& [number, cell] : cells) {
+            radiosity.numbers.push_back(number), radiosity.heights.push_back(cell.height);
+            glm::vec3 normal(0);
+            normal[int(grid.side(number) / 2)] = grid.side(number) % 2 ? -1.0f : 1.0f;
+            radiosity.normals.push_back(normal);
+        }
+        return radiosity;
+    }
+    std::vector<glm::vec3> light() const {
+        std::vector<glm::vec3> light;
+        for (const auto& [number, cell] : cells) light.push_back(cell.light);
+        return light;
+    }
+};
+
+}  // namespace vesper::test

@@ -1,0 +1,142 @@
+// Numbers of cells and where they are. SPDX-License-Identifier: MIT
+#include "transport/cell_grid.h"
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace vesper::test::cell_grid_test {
+namespace {
+
+using glm::dvec3, transport::CellGrid, transport::kSides;
+
+const CellGrid kGrid{.origin = {-3.5, 100, 7}, .size = 0.5, .count = {7, 5, 9}};
+
+dvec3 direction_of(uint32_t side) {
+    dvec3 direction(0);
+    direction[int(side / 2)] = side % 2 ? -1 : 1;
+    return direction;
+}
+
+TEST(CellGrid, ADirectionGoesToTheSideItPointsAtMost) {
+    for (uint32_t side = 0; side < kSides; ++side) {
+        EXPECT_EQ(transport::side_of(direction_of(side)), side);
+        EXPECT_EQ(transport::side_of(3.0 * direction_of(side) + dvec3(0.9, -1.1, 1.3) * 0.5), side) << "by a slope";
+        EXPECT_EQ(transport::along(dvec3(2, 3, 4), side), glm::dot(dvec3(2, 3, 4), direction_of(side)));
+    }
+    // Of equal ones the first axis, as the shader has it.
+    EXPECT_EQ(transport::side_of({1, 1, 1}), 0u);
+    EXPECT_EQ(transport::side_of({-1, 1, 1}), 1u);
+    EXPECT_EQ(transport::side_of({0.5, -1, 1}), 3u);
+    EXPECT_EQ(transport::side_of({0.5, 1, -1}), 2u);
+}
+
+TEST(CellGrid, EveryCellHasANumberOfItsOwnAndThoseOfAirComeLast) {
+    std::set<uint32_t> numbers;
+    uint32_t expected = 0;
+    const glm::uvec3 air = kGrid.air_count();
+    EXPECT_EQ(air, glm::uvec3(2, 2, 3)) << "in cubes four times as large, that cover all";
+    for (const bool of_air : {false, true}) {
+        const glm::uvec3 count = of_air ? air : kGrid.count;
+        for (uint32_t z = 0; z < count.z; ++z)
+            for (uint32_t y = 0; y < count.y; ++y)
+                for (uint32_t x = 0; x < count.x; ++x)
+                    for (uint32_t side = 0; side < kSides; ++side) {
+                        const dvec3 cube(x, y, z);
+                        const auto number = of_air ? kGrid.air_cell(cube, side) : kGrid.cell(cube, side);
+                        ASSERT_TRUE(number);
+                        EXPECT_EQ(*number, expected++) << "x first, then y and z, the side fastest";
+                        EXPECT_EQ(kGrid.is_air(*number), of_air);
+                        EXPECT_EQ(kGrid.side(*number), side);
+                        EXPECT_TRUE(numbers.insert(*number).second);
+                    }
+        if (!of_air) {
+            EXPECT_EQ(expected, kGrid.air_begins());
+        }
+    }
+}
+
+TEST(CellGrid, MiddleAndHeightAreThoseOfTheCellAtAPoint) {
+    for (uint32_t number = 0; number < kGrid.air_begins(); ++number) {
+        const dvec3 normal = direction_of(kGrid.side(number)), middle = kGrid.middle(number);
+        EXPECT_EQ(kGrid.cell_at(middle, normal), number);
+        // Anywhere in the cube; along the side counts as height, across it nothing does.
+        EXPECT_EQ(kGrid.cell_at(middle + dvec3(0.24, -0.24, 0.24), normal), number);
+        EXPECT_NEAR(kGrid.height(number, middle + 0.2 * normal + dvec3(0.1) * (1.0 - glm::abs(normal))), 0.2, 1e-12);
+    }
+    const auto air_at = [](dvec3 point, uint32_t side) { return kGrid.air_cell(kGrid.place(point) / 4.0, side); };
+    const glm::uvec3 air = kGrid.air_count();
+    for (uint32_t number = kGrid.air_begins(); number < kGrid.air_begins() + air.x * air.y * air.z * kSides; ++number) {
+        const dvec3 middle = kGrid.middle(number);
+        EXPECT_EQ(air_at(middle, kGrid.side(number)), number);
+        EXPECT_EQ(air_at(middle + dvec3(0.99, -0.99, 0.99), kGrid.side(number)), number);
+    }
+    EXPECT_EQ(kGrid.place({-3.0, 101, 10}), dvec3(1, 2, 6));
+}
+
+TEST(CellGrid, BeyondItNothingHasANumber) {
+    const dvec3 inside = kGrid.middle(0), up(0, 1, 0);
+    const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        const double begin = kGrid.origin[axis], end = begin + 0.5 * kGrid.count[axis];
+        for (const double to : {begin - 1e-9, end + 1e-9, 1e30, -1e30, nan, inf, -inf}) {
+            dvec3 point = inside;
+            point[axis] = to;
+            EXPECT_FALSE(kGrid.cell_at(point, up)) << axis << " at " << to;
+            if (to > begin && to < end + 2) continue;  // cubes of air may go on to there
+            EXPECT_FALSE(kGrid.air_cell(kGrid.place(point) / 4.0, 0)) << axis << " at " << to;
+        }
+    }
+    EXPECT_FALSE(CellGrid{}.cell_at({0, 0, 0}, up));
+}
+
+// Cubes have the least size where they fit; surfaces on the border of the box lie in the middle of a cube.
+TEST(CellGrid, IsAroundItsBox) {
+    const dvec3 low(-10, 0, 3), high(27.3, 8.2, 3);
+    const CellGrid grid = CellGrid::around(low, high, 0.75);
+    EXPECT_EQ(grid.size, 0.75);
+    for (const dvec3 corner : {low, high, dvec3(low.x, high.y, low.z)})
+        for (uint32_t side = 0; side < kSides; ++side) EXPECT_TRUE(grid.cell_at(corner, direction_of(side)));
+    EXPECT_EQ(grid.middle(0), low);
+    for (int axis = 0; axis < 3; ++axis)
+        EXPECT_LE(grid.count[axis], (high - low)[axis] / 0.75 + 3) << "and little is beside it";
+}
+
+// A surface on the border of the box that a place is found to be beyond, by rounding, still has a cube there: the table
+// on the device has no cells beyond the grid.
+TEST(CellGrid, LeavesRoomBesideItsBox) {
+    for (const double extent : {7.5, 7.4999998, 7.5000002, 8.0}) {
+        const CellGrid grid = CellGrid::around(dvec3(0), dvec3(extent), 1);
+        const dvec3 place = grid.place(dvec3(extent));
+        EXPECT_GE(place.x, 0.25) << extent;
+        EXPECT_LE(place.x, grid.count.x - 0.25) << extent;
+    }
+}
+
+// All numbers, those of air too, must be less than that of an empty place of the table on the device.
+TEST(CellGrid, CubesGrowWhereNumbersWouldNotFit) {
+    for (const dvec3 extent : {dvec3(800, 800, 800), dvec3(3e4, 200, 3e4), dvec3(2e8, 0, 0), dvec3(2e8), dvec3(1e30),
+                               dvec3(0, 1e5, 5e5), dvec3(0, 0, 1e12)}) {
+        const CellGrid grid = CellGrid::around(-0.5 * extent, 0.5 * extent, 1);
+        const glm::dvec3 count(grid.count), air(grid.air_count());
+        const double numbers = kSides * (count.x * count.y * count.z + air.x * air.y * air.z);
+        EXPECT_LT(numbers, 4294967295.0) << extent.x;
+        EXPECT_LE(std::max({count.x, count.y, count.z}), 0x1p24) << "whole numbers of floats";
+        EXPECT_EQ(std::exp2(std::round(std::log2(grid.size))), grid.size) << "a power of two of the least";
+        EXPECT_TRUE(grid.cell_at(-0.5 * extent, {0, 1, 0})) << extent.x;
+        EXPECT_TRUE(grid.cell_at(0.5 * extent, {0, 1, 0})) << extent.x;
+        if (grid.size > 1) {  // and no larger than needed
+            const dvec3 more = extent / (grid.size / 2) + 3.0;
+            EXPECT_TRUE(2 * kSides * more.x * more.y * more.z > 4294967295.0 ||
+                        std::max({more.x, more.y, more.z}) > 0x1p24)
+                << extent.x;
+        }
+    }
+    EXPECT_GT(CellGrid::around(dvec3(0), dvec3(3e4, 200, 3e4), 1).size, 1);
+    EXPECT_EQ(CellGrid::around(dvec3(0), dvec3(3e3, 30, 3e3), 1).size, 1);
+}
+
+}  // namespace
+}  // namespace vesper::test::cell_grid_test

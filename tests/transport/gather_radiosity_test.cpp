@@ -1,0 +1,309 @@
+// What takes part in light between surfaces: what moves, covers, hides, or is broken. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "support/gathered.h"
+#include "support/rooms.h"
+
+namespace vesper::test::gather_radiosity_test {
+namespace {
+
+using glm::dvec3, glm::vec3, transport::Radiosity;
+
+constexpr double kPi = std::numbers::pi;
+const dvec3 kUp(0, 1, 0);
+
+void add_floor(scene::Scene& scene, uint32_t material, float half) {
+    add_rectangle(scene, material, {-half, 0, -half}, {0, 0, 2 * half}, {2 * half, 0, 0});
+}
+
+/// A floor with a wall on it that glows, a lamp and a box.
+scene::Scene yard() {
+    scene::Scene scene;
+    add_floor(scene, add_material(scene, 0.4f), 8);
+    add_rectangle(scene, add_material(scene, 0.5f, 20), {-5, 0, 4}, {0, 0, -8}, {0, 3, 0});
+    add_box(scene, 0, {1, 0.5f, 0.5f}, {2, 0.5f, 1});
+    add_lamp(scene, 400, {3, 3, -2});
+    return scene;
+}
+
+void expect_same(const Radiosity& a, const Radiosity& b) {
+    EXPECT_EQ(a.grid.origin, b.grid.origin);
+    EXPECT_EQ(a.grid.size, b.grid.size);
+    EXPECT_EQ(a.numbers, b.numbers);
+    EXPECT_EQ(a.heights, b.heights);
+    EXPECT_EQ(a.areas, b.areas);
+    EXPECT_EQ(a.normals, b.normals);
+    EXPECT_EQ(a.reflectances, b.reflectances);
+    EXPECT_EQ(a.sky, b.sky);
+    EXPECT_EQ(a.first_source, b.first_source);
+    EXPECT_EQ(a.met, b.met);
+    EXPECT_EQ(a.beside, b.beside);
+    const auto same = [](const Radiosity::Source& x, const Radiosity::Source& y) {
+        return x.node == y.node && x.lux == y.lux;
+    };
+    EXPECT_TRUE(std::ranges::equal(a.sources, b.sources, same));
+}
+
+TEST(GatherRadiosity, TheSameSceneGivesTheSame) {
+    const scene::Scene scene = yard();
+    const Radiosity radiosity = gathered(scene);
+    expect_same(radiosity, gathered(scene));
+    // And all parts belong together.
+    const size_t cells = radiosity.cells();
+    EXPECT_GT(cells, 256u);
+    const auto unsorted = std::ranges::adjacent_find(radiosity.numbers, std::ranges::greater_equal{});
+    EXPECT_TRUE(unsorted == radiosity.numbers.end());
+    EXPECT_EQ(radiosity.met.size(), cells * radiosity.rays);
+    EXPECT_EQ(radiosity.beside.size(), cells * Radiosity::kBeside);
+    EXPECT_EQ(radiosity.first_source.size(), cells + 1);
+    EXPECT_EQ(radiosity.first_source.back(), radiosity.sources.size());
+    for (const uint32_t met : radiosity.met) EXPECT_TRUE(met < cells || met == Radiosity::kNowhere);
+    for (uint32_t i = 0; i < cells; ++i) EXPECT_EQ(radiosity.find(radiosity.numbers[i]), i);
+    const Radiosity::Solution lit = radiosity.solve({.sky = dvec3(1)});
+    for (const std::vector<vec3>& values : {lit.lamps, lit.other})
+        for (const vec3& light : values) EXPECT_TRUE(light.g >= 0 && std::isfinite(light.g));
+}
+
+TEST(GatherRadiosity, AreasAreThoseOfTheSurfaces) {
+    const Radiosity radiosity = gathered(yard());
+    std::array<double, transport::kSides> areas{};
+    for (size_t i = 0; i < radiosity.cells(); ++i)
+        areas[radiosity.grid.side(radiosity.numbers[i])] += double(radiosity.areas[i]);
+    EXPECT_NEAR(areas[0], 8 * 3 + 1, 1e-3);
+    EXPECT_NEAR(areas[1], 1, 1e-3);
+    EXPECT_NEAR(areas[4], 2, 1e-3);
+    EXPECT_NEAR(areas[5], 2, 1e-3);
+    // The floor under the box is covered; a cell that has other places leaves it out.
+    EXPECT_LE(areas[2], 16 * 16 + 2 + 1e-3);
+    EXPECT_GE(areas[2], 16 * 16 - 0.01);
+}
+
+TEST(GatherRadiosity, ProgressIsToldAndEndsIt) {
+    const scene::Scene scene = yard();
+    const auto world = scene::world_transforms(scene, 0);
+    double least = 2, most = -1;
+    int calls = 0;
+    const auto run = [&](int last) {
+        calls = 0;
+        return transport::gather_radiosity(scene, world, {}, {}, [&](double share) {
+            least = std::min(least, share), most = std::max(most, share);
+            return ++calls < last;
+        });
+    };
+    EXPECT_TRUE(run(1'000'000));
+    EXPECT_GT(calls, 1);
+    EXPECT_GE(least, 0);
+    EXPECT_LE(most, 1);
+    EXPECT_GT(most, 0.7);
+    EXPECT_FALSE(run(1));
+    EXPECT_EQ(calls, 1);
+}
+
+TEST(GatherRadiosity, NothingGivesNoCells) {
+    scene::Scene scene;
+    EXPECT_EQ(gathered(scene).cells(), 0u);
+    add_lamp(scene, 100, {0, 1, 0});
+    const Radiosity radiosity = gathered(scene);
+    EXPECT_EQ(radiosity.cells(), 0u);
+    EXPECT_TRUE(radiosity.solve({.sky = dvec3(3)}).other.empty());
+    EXPECT_EQ(radiosity.at({}, {0, 0, 0}, kUp), dvec3(0));
+    scene::Scene clear;
+    add_floor(clear, add_material(clear, 0.5f), 5);
+    clear.materials[0].clear = true;
+    EXPECT_EQ(gathered(clear).cells(), 0u) << "what is clear has no light of its own";
+}
+
+// An emitter and a roof: all that they do is gone, to the last bit.
+TEST(GatherRadiosity, WhatMovesGivesGetsAndHidesNothing) {
+    scene::Scene scene = yard();
+    const Radiosity without = gathered(scene);
+    const size_t still = scene.nodes.size();
+    add_rectangle(scene, 1, {-2, 2, -2}, {4, 0, 0}, {0, 0, 4});
+    add_box(scene, 0, {3, 0.2f, 3}, {0, 2.5f, 0});
+    std::vector<bool> moving(scene.nodes.size(), false);
+    std::fill(moving.begin() + std::ptrdiff_t(still), moving.end(), true);
+    expect_same(without, gathered(scene, {}, moving));
+    EXPECT_NE(without.numbers, gathered(scene).numbers);
+}
+
+// A strong lamp on a car: none of the looks at lamps is for it.
+TEST(GatherRadiosity, AMovingLampTakesNoLooksFromOthers) {
+    scene::Scene scene = yard();
+    const Radiosity without = gathered(scene);
+    add_lamp(scene, 1e5, {0, 2, 0});
+    std::vector<bool> moving(scene.nodes.size(), false);
+    moving.back() = true;
+    expect_same(without, gathered(scene, {}, moving));
+}
+
+// And gives no light, for one.
+TEST(GatherRadiosity, AMovingLampGivesNothing) {
+    scene::Scene scene = yard();
+    add_lamp(scene, 1e5, {0, 2, 0});
+    std::vector<bool> moving(scene.nodes.size(), false);
+    moving.back() = true;
+    const auto last = uint32_t(scene.nodes.size() - 1);
+    for (const Radiosity::Source& source : gathered(scene, {}, moving).sources)
+        EXPECT_NE(source.node & ~Radiosity::kLamp, last);
+}
+
+// In the open over a wide black floor: from above the whole sky, from below nothing, from the side half, and slopes
+// something between.
+TEST(GatherRadiosity, TheAirOverAFloorLightsWhatMovesThere) {
+    scene::Scene scene;
+    add_floor(scene, add_material(scene, 0), 200);  // beyond it are 0.5 % of a side's light
+    const Radiosity radiosity = gathered(scene, {.cell_size = 5, .rays = 512});
+    const std::vector<vec3> light = radiosity.solve({.sky = dvec3(1 / kPi)}).other;
+    for (const dvec3 point : {dvec3(0.3, 1, 2), dvec3(-3, 2, 5.5), dvec3(7, 2.5, -9)}) {
+        const auto at = [&](dvec3 normal) { return radiosity.at(light, point, glm::normalize(normal)).g; };
+        EXPECT_NEAR(at({0, 1, 0}), 1, 1e-6);
+        EXPECT_NEAR(at({0, -1, 0}), 0, 0.02) << "of what is beyond the floor";
+        for (const dvec3 side : {dvec3(1, 0, 0), dvec3(-1, 0, 0), dvec3(0, 0, 1), dvec3(0, 0, -1)}) {
+            EXPECT_NEAR(at(side), 0.5, 0.03) << "of eight times 512 rays";
+            EXPECT_NEAR(at(side + 0.98 * kUp), 0.745, 0.02);
+            EXPECT_NEAR(at(side - 0.98 * kUp), 0.255, 0.03);
+        }
+    }
+    EXPECT_EQ(radiosity.at(light, {0, 300, 0}, kUp), dvec3(0)) << "beyond the grid";
+}
+
+// Air is there only over ground, as high as it is open. 10 %: looks at walls that are near.
+TEST(GatherRadiosity, TheAirOfARoomIsThatOfTheRoom) {
+    scene::Scene scene;
+    add_room(scene, add_material(scene, 0.5f, 3), {4, 1.2f, 4});
+    const Radiosity radiosity = gathered(scene);
+    const std::vector<vec3> light = radiosity.solve({.sky = dvec3(1e5), .reflections = 40}).other;
+    for (const dvec3 normal : {dvec3(1, 0, 0), dvec3(0, -1, 0), dvec3(0, 1, 0), dvec3(0, 0, -1)})
+        EXPECT_NEAR(radiosity.at(light, {1, -0.1, -2}, normal).g / (kPi * 3 / 0.5), 1, 0.1);
+}
+
+// A ceiling that shows its back has no places of its own; rays find it, and it reflects what it gets.
+TEST(GatherRadiosity, BacksAreFoundByRays) {
+    scene::Scene scene;
+    add_room(scene, add_material(scene, 0.5f), {3, 2, 3});
+    scene::Primitive& ceiling = scene.meshes[1].primitives[0];
+    ceiling.indices = {0, 2, 1, 0, 3, 2};
+    for (scene::Vertex& vertex : ceiling.vertices) vertex.normal = -vertex.normal;
+    add_lamp(scene, 100, {0.4, 0.3, 0});
+    const Radiosity radiosity = gathered(scene);
+    const Radiosity::Solution light = radiosity.solve({.reflections = 1});
+    for (size_t ray = 0; ray < radiosity.met.size(); ++ray) {
+        const uint32_t from = radiosity.numbers[ray / radiosity.rays];
+        if (!radiosity.grid.is_air(from) && radiosity.grid.middle(from).y < 2) {
+            EXPECT_NE(radiosity.met[ray], Radiosity::kNowhere);
+        }
+    }
+    // 1.7 m over the lamp, where it faces down; less, as a cell is a mean over 1 m.
+    EXPECT_NEAR(radiosity.at(light.lamps, {0.4, 2, 0}, -kUp).g, 100 / (1.7 * 1.7), 0.3 * 100 / (1.7 * 1.7));
+}
+
+// A carpet 4 cm over a floor, and a closed body through it: of the places in their cells those that nobody sees
+// count for nothing.
+TEST(GatherRadiosity, CoveredPlacesDoNotDarkenWhatIsSeen) {
+    scene::Scene scene;
+    add_floor(scene, add_material(scene, 0.5f), 8);
+    add_box(scene, 0, {2.3f, 0.005f, 2.3f}, {-4, 0.045f, -4});  // 4 to 5 cm over the floor
+    add_box(scene, 0, {1.7f, 0.2f, 1.7f}, {4, 0.15f, 4});       // some of it below
+    const Radiosity radiosity = gathered(scene);
+    const std::vector<vec3> light = radiosity.solve({.sky = dvec3(1 / kPi), .reflections = 0}).other;
+    for (double x = -7.5; x < 8; x += 0.5)
+        for (double z = -7.5; z < 8; z += 0.5) {
+            const bool body = std::abs(x - 4) < 1.7 && std::abs(z - 4) < 1.7;
+            const bool carpet = std::abs(x + 4) < 2.3 && std::abs(z + 4) < 2.3;
+            const double height = body ? 0.35 : carpet ? 0.05 : 0;
+            // Before the body's sides, 35 cm high, a place loses up to half of its sky; some are in cells of its top.
+            const bool near = !body && std::abs(x - 4) < 4 && std::abs(z - 4) < 4;
+            EXPECT_GE(radiosity.at(light, {x, height, z}, kUp).g, near ? 0.5 : body ? 0.8 : 0.93) << x << ", " << z;
+        }
+}
+
+// Two closed rooms side by side, 10 cm of wall between, one of them lit. Rays find no way through; but the cells of
+// floor and ceiling that the wall crosses lie on both sides, so up to 0.55 of the light in the middle of the lit room
+// is in their part of the dark one, and what they send on: 0.022 beside them, 0.005 at 5 m. None where a border of
+// cubes lies in the wall.
+TEST(GatherRadiosity, LightThroughAThinWallStaysNearIt) {
+    for (const double shift : {0.0, 0.2, 0.45, 0.7}) {  // of the walls against the cubes, whose borders are at 0.5
+        scene::Scene scene;
+        const uint32_t grey = add_material(scene, 0.7f);
+        add_room(scene, grey, {3, 1.5f, 3}, {float(shift), 0, 0});
+        add_room(scene, grey, {3, 1.5f, 3}, {6.1f + float(shift), 0, 0});
+        add_rectangle(scene, grey, {-3, -1.5f, -3}, {0, 0, 1}, {0, 1, 0});  // so that the grid begins there
+        add_lamp(scene, 1000, {shift, 1, 0});
+        const Radiosity radiosity = gathered(scene);
+        const Radiosity::Solution light = radiosity.solve({});
+        const auto mean = [&](double x, const std::vector<vec3>& values) {
+            double sum = 0;
+            for (double z = -2.5; z < 2.6; z += 0.25) sum += radiosity.at(values, {x + shift, -1.5, z}, kUp).g / 21;
+            return sum;
+        };
+        const double bright = mean(0, light.other);
+        EXPECT_GT(bright, 100);
+        const double border = std::floor(3.1 + shift + 0.5) + 0.5;  // of the cubes that the wall crosses
+        for (const double x : {3.2, 3.6, 4.1, 4.6, 5.1, 6.1, 8.5}) {
+            if (x + shift > border) {
+                EXPECT_EQ(mean(x, light.lamps), 0) << x << " by " << shift;
+            }
+            const double most = shift == 0.45 ? 0 : x + shift < border ? 0.6 : x > 8 ? 0.006 : 0.03;
+            EXPECT_LE(mean(x, light.other), most * bright) << x << " by " << shift;
+        }
+    }
+}
+
+// Beside an ordinary floor: triangles with corners that are no places change nothing, whichever corner it is.
+TEST(GatherRadiosity, BrokenTrianglesChangeNothing) {
+    scene::Scene scene = yard();
+    const Radiosity whole = gathered(scene);
+    const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+    for (const float bad : {nan, inf, 1e30f, -3e38f, 2e8f})
+        for (size_t corner = 0; corner < 3; ++corner) {
+            scene::Scene broken = scene;
+            add_rectangle(broken, 0, {1, 1, 1}, {1, 0, 0}, {0, 1, 0});
+            scene::Primitive& p = broken.meshes.back().primitives[0];
+            p.indices = {0, 1, 2};
+            p.vertices[corner].position.y = bad;
+            const Radiosity radiosity = gathered(broken);
+            EXPECT_EQ(radiosity.grid.size, whole.grid.size) << bad << " at corner " << corner;
+            EXPECT_EQ(radiosity.numbers.size(), whole.numbers.size()) << bad << " at corner " << corner;
+        }
+}
+
+// Cells grow with the area, and with the space where numbers would not fit.
+TEST(GatherRadiosity, TheNumberOfCellsIsBounded) {
+    scene::Scene scene;
+    add_floor(scene, add_material(scene, 0.5f), 5000);
+    const Radiosity wide = gathered(scene, {.most_cells = 5'000});
+    size_t floors = 0;
+    for (const uint32_t number : wide.numbers) floors += !wide.grid.is_air(number);
+    EXPECT_LE(floors, 5'000u * 5 / 4) << "roughly: those along borders are halves";
+    EXPECT_GE(floors, 2'000u);
+    EXPECT_NEAR(wide.at(wide.solve({.sky = dvec3(1)}).other, {100, 0, -1234}, kUp).g, kPi, 1e-5);
+
+    scene::Scene far = yard();
+    add_rectangle(far, 0, {5e7f, 3e7f, -5e7f}, {8, 0, 0}, {0, 8, 0});
+    EXPECT_GT(gathered(far).cells(), 0u);
+}
+
+// Nodes without extent, and turned inside out.
+TEST(GatherRadiosity, ScalesOfNodesKeepFrontsAndAreas) {
+    scene::Scene scene;
+    add_floor(scene, add_material(scene, 0.5f), 4);
+    scene.nodes[0].scale = {2, 1, -1};
+    scene.nodes[0].translation = {100, 3, 0};
+    add_rectangle(scene, 0, {0, 3, 0}, {1, 0, 0}, {0, 1, 0});
+    scene.nodes[1].scale = {0, 0, 0};
+    const Radiosity radiosity = gathered(scene);
+    const std::vector<vec3> light = radiosity.solve({.sky = dvec3(1)}).other;
+    double area = 0;
+    for (const float of_cell : radiosity.areas) area += double(of_cell);
+    EXPECT_NEAR(area, 16 * 8, 1e-3);
+    EXPECT_NEAR(radiosity.at(light, {106, 3, 2}, kUp).g, kPi, 1e-5);
+}
+
+}  // namespace
+}  // namespace vesper::test::gather_radiosity_test

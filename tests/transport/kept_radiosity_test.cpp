@@ -1,0 +1,108 @@
+// Radiosity from a cache is what was given to it, and belongs to one scene. SPDX-License-Identifier: MIT
+#include "transport/kept_radiosity.h"
+
+#include <cstring>
+#include <functional>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "support/rooms.h"
+
+namespace vesper::test::kept_radiosity_test {
+namespace {
+
+class Shelf : public Cache {
+public:
+    std::map<Digest::Value, std::vector<std::byte>> kept;
+    bool full = false;
+
+    bool read(const Digest::Value& key, std::span<std::byte> bytes) override {
+        const auto found = kept.find(key);
+        if (found == kept.end() || found->second.size() != bytes.size()) return false;
+        std::ranges::copy(found->second, bytes.begin());
+        return true;
+    }
+    bool writes() const override { return !full; }
+    void write(const Digest::Value& key, std::span<const std::byte> bytes) override {
+        kept[key].assign(bytes.begin(), bytes.end());
+    }
+    std::string settle() override { return full ? "full" : ""; }
+};
+
+scene::Scene room() {
+    scene::Scene scene;
+    add_room(scene, add_material(scene, 0.5f), glm::vec3(2));
+    add_lamp(scene, 100, {0, 0, 0});
+    add_rectangle(scene, add_material(scene, 0, 10), {-1, 1, 1}, {2, 0, 0}, {0, 0, -2});
+    return scene;
+}
+
+std::optional<transport::Radiosity> found(Shelf& shelf, const scene::Scene& scene, bool& gathers,
+                                          const std::vector<bool>& moving = {},
+                                          const transport::RadiositySettings& settings = {}) {
+    gathers = false;
+    return transport::kept_or_gathered(scene, scene::world_transforms(scene, 0), moving, settings, &shelf,
+                                       [&](double) { return gathers = true; });
+}
+
+TEST(KeptRadiosity, IsTheSame) {
+    Shelf shelf;
+    bool gathers = false;
+    const scene::Scene scene = room();
+    const auto first = found(shelf, scene, gathers);
+    EXPECT_TRUE(gathers);
+    const auto second = found(shelf, scene, gathers);
+    EXPECT_FALSE(gathers);
+    ASSERT_TRUE(first && second);
+    EXPECT_EQ(first->numbers, second->numbers);
+    EXPECT_EQ(first->met, second->met);
+    EXPECT_EQ(first->beside, second->beside);
+    EXPECT_EQ(first->grid.origin, second->grid.origin);
+    EXPECT_EQ(first->bytes(), second->bytes());
+    EXPECT_EQ(first->solve({}).other, second->solve({}).other);
+    for (auto& [key, bytes] : shelf.kept) bytes.pop_back();
+    found(shelf, scene, gathers);
+    EXPECT_TRUE(gathers) << "what is not whole counts as none";
+}
+
+TEST(KeptRadiosity, BelongsToOneScene) {
+    Shelf shelf;
+    bool gathers = false;
+    found(shelf, room(), gathers);
+    const std::pair<const char*, std::function<void(scene::Scene&)>> changes[]{
+        {"reflectance", [](scene::Scene& s) { s.materials[0].base_colour.g = 0.51f; }},
+        {"emission", [](scene::Scene& s) { s.materials[1].emission.r = 11; }},
+        {"sides", [](scene::Scene& s) { s.materials[1].double_sided = true; }},
+        {"candela", [](scene::Scene& s) { s.lamps[0].intensity = 101; }},
+        {"place", [](scene::Scene& s) { s.nodes.back().translation.y = 0.01; }},
+        {"fixture", [](scene::Scene& s) { s.nodes[6].fixture.reset(); }},
+        {"vertex", [](scene::Scene& s) { s.meshes[0].primitives[0].vertices[0].position.x += 0.01f; }},
+        {"transfer", [](scene::Scene& s) { s.transfer.kind = scene::Transfer::Kind::Gamma; }}};
+    for (const auto& [what, change] : changes) {
+        scene::Scene scene = room();
+        change(scene);
+        found(shelf, scene, gathers);
+        EXPECT_TRUE(gathers) << what;
+    }
+    found(shelf, room(), gathers, std::vector<bool>(room().nodes.size(), false));
+    EXPECT_FALSE(gathers) << "nothing moves";
+    std::vector<bool> moving(room().nodes.size(), false);
+    moving.back() = true;
+    found(shelf, room(), gathers, moving);
+    EXPECT_TRUE(gathers);
+    found(shelf, room(), gathers, {}, {.rays = 16});
+    EXPECT_TRUE(gathers);
+}
+
+TEST(KeptRadiosity, AFullCacheChangesNothing) {
+    Shelf shelf;
+    shelf.full = true;
+    bool gathers = false;
+    EXPECT_TRUE(found(shelf, room(), gathers));
+    EXPECT_TRUE(gathers);
+    EXPECT_TRUE(shelf.kept.empty());
+}
+
+}  // namespace
+}  // namespace vesper::test::kept_radiosity_test

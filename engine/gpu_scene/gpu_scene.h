@@ -22,7 +22,8 @@ struct AmbientLight {
 /// Where everything in a scene stands at one moment, and how it is lit.
 struct SceneFrame {
     std::vector<glm::dmat4> world;        ///< per node, see world_transforms
-    std::vector<float> dimming;           ///< per node, factor on the intensity of its lamp, >= 0; empty: 1 everywhere
+    std::vector<float> dimming;           ///< per node, factor on the intensity of its lamp and on the emission of its
+                                          ///< mesh, >= 0; empty: 1 everywhere
     std::optional<AmbientLight> ambient;  ///< in place of the scene's
     std::vector<scene::Tunnel> tunnels;   ///< that it does not reach into
     std::vector<bool> moving;  ///< per node, whether it moves in frames like this one; empty: none is known to

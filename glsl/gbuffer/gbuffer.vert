@@ -14,6 +14,7 @@ layout(location = 3) in vec4 colour;
 layout(location = 4) in vec4 row_x;
 layout(location = 5) in vec4 row_y;
 layout(location = 6) in vec4 row_z;
+layout(location = 7) in float dimming;
 
 layout(push_constant, scalar) uniform Push { GBufferPush push; };
 
@@ -38,6 +39,6 @@ void main() {
 
     texture_uv = uv;
     base_colour = push.base_colour * colour;
-    emission_cutoff = vec4(push.emission, push.alpha_cutoff);
+    emission_cutoff = vec4(dimming * push.emission, push.alpha_cutoff);
     metallic_roughness = vec2(push.metallic, push.roughness);
 }

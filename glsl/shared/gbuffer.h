@@ -16,13 +16,14 @@ struct GBufferPush {
 };
 SHARED_SIZE(GBufferPush, 60)
 
-// One instance of a mesh: the rows of its model-to-view matrix, read at instance rate.
+// One instance of a mesh, read at instance rate.
 struct Instance {
-    vec4 row_x;
+    vec4 row_x;      // rows of its model-to-view matrix
     vec4 row_y;
     vec4 row_z;
+    float dimming;   // factor on its emission
 };
-SHARED_SIZE(Instance, 48)
+SHARED_SIZE(Instance, 52)
 
 SHARED_END
 #endif

@@ -27,7 +27,8 @@ constexpr VkVertexInputAttributeDescription kAttributes[]{
     {3, 0, VK_FORMAT_R16G16B16A16_UNORM, offsetof(scene::Vertex, colour)},
     {4, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_x)},
     {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_y)},
-    {6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_z)}};
+    {6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_z)},
+    {7, 1, VK_FORMAT_R32_SFLOAT, offsetof(shared::Instance, dimming)}};
 constexpr gpu::GraphicsShaders kShaders{
     "gbuffer.frag", gbuffer_vert, gbuffer_frag, kTextures, sizeof(shared::GBufferPush), VK_SHADER_STAGE_VERTEX_BIT,
     kBuffers,       kAttributes};
@@ -124,11 +125,12 @@ std::vector<DrawnPart> cull(const GpuScene& scene, const gpu_scene::SceneFrame& 
         const glm::mat4 m = view.from(frame.world[placement.node]);
         const bool mirrored = glm::determinant(glm::mat3(m)) < 0;
         const glm::mat4 rows = glm::transpose(m);
+        const float dimming = frame.dimming_of(placement.node);
         for (uint32_t i = placement.first_part; i < placement.first_part + placement.part_count; ++i) {
             const GpuScene::Part& part = scene.parts()[i];
             const gpu_scene::Sphere sphere = gpu_scene::sphere_of(part, m);
             if (part.index_count == 0 || !visible(view, sphere)) continue;
-            drawn.push_back({i, mirrored, layer_of(sphere), {rows[0], rows[1], rows[2]}});
+            drawn.push_back({i, mirrored, layer_of(sphere), {rows[0], rows[1], rows[2], dimming}});
         }
     }
     return drawn;

@@ -36,9 +36,10 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"gpu", {"base"}},
     {"window", {"base", "gpu", "glsl"}},
     {"graph", {"base", "gpu"}},
-    {"gpu_scene", {"base", "photometry", "vision", "scene", "gpu", "glsl"}},
-    {"render", {"base", "photometry", "vision", "scene", "gpu", "graph", "gpu_scene", "glsl"}},
-    {"api", {"base", "io", "photometry", "vision", "scene", "gpu", "graph", "gpu_scene", "render", "glsl"}},
+    {"gpu_scene", {"base", "photometry", "vision", "scene", "rays", "transport", "gpu", "glsl"}},
+    {"render", {"base", "photometry", "vision", "scene", "transport", "gpu", "graph", "gpu_scene", "glsl"}},
+    {"api",
+     {"base", "io", "photometry", "vision", "scene", "transport", "gpu", "graph", "gpu_scene", "render", "glsl"}},
 };
 
 std::string text_of(const fs::path& file) {

@@ -45,7 +45,8 @@ void add_shadow_options(Command command, ShadowArguments& a, const std::string& 
                 "TILES"});
     command
         .add_option("--shadow-cache", a.cache,
-                    "Folder that keeps distance maps of what stands still for later runs, at most 1 GiB; off: none\n"
+                    "Folder that keeps shadows and light between surfaces that stand still for later runs, at most 1 "
+                    "GiB; off: none\n"
                     "Default: " +
                         cache_default)
         .check({[](const std::string& text) {
@@ -64,8 +65,10 @@ std::shared_ptr<Cache> shadow_cache(const std::string& asked) {
     return folder == kOff ? nullptr : std::make_shared<io::CacheFolder>(folder);
 }
 
-void print_note(const render::MapReport& report) {
-    if (!report.note.empty()) print_note("distance maps are not kept for later runs (--shadow-cache): " + report.note);
+void print_note(const render::MapReport& report) { print_cache_note(report.note); }
+
+void print_cache_note(const std::string& problem) {
+    if (!problem.empty()) print_note("shadows and light are not kept for later runs (--shadow-cache): " + problem);
 }
 
 }  // namespace vesper::apps

@@ -24,7 +24,8 @@ void set_shadows(const ShadowArguments&, render::RenderSettings&);
 /// Where distance maps are kept from run to run: as `asked` with --shadow-cache, else as VESPER_SHADOW_CACHE says, else
 /// in the folder for caches of the user. Null with "off", or where no folder is known.
 std::shared_ptr<Cache> shadow_cache(const std::string& asked);
-/// Says on standard error that maps are kept no more, if the report does.
+/// Says on standard error why nothing is kept any more, if there is a reason.
+void print_cache_note(const std::string& problem);
 void print_note(const render::MapReport&);
 
 }  // namespace vesper::apps

@@ -9,6 +9,7 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
+#include "indirect_arguments.h"
 #include "io/file_gate.h"
 #include "machine.h"
 #include "measure.h"
@@ -31,6 +32,7 @@ struct BenchArguments {
     RunPlan run{.settings = {.frames = 48, .laps = 3, .warm_up = 4}, .render = {}, .camera = {}, .device = {}};
     apps::ToneArguments tone;
     apps::ShadowArguments shadows;
+    apps::IndirectArguments indirect{.indirect = "off"};
     std::string json, picture, growth, tables;
     std::vector<std::string> compared;
     bool no_start = false;
@@ -81,6 +83,8 @@ std::vector<Planned> planned_runs(const BenchArguments& a) {
         s.threshold = double(run.plan.render.clusters.threshold);
         apps::set_shadows(a.shadows, run.plan.render);
         s.shadows = run.plan.render.shadows;
+        apps::set_indirect(a.indirect, run.plan.render);
+        s.indirect = run.plan.render.indirect;
         if (!a.shadows.cache.empty()) run.plan.map_cache = apps::shadow_cache(a.shadows.cache);
         runs.push_back(std::move(run));
     };
@@ -238,6 +242,7 @@ void add_bench(apps::Command program) {
         .check(apps::between(1e-9, 1e3))
         .shows_default();
     apps::add_shadow_options(program, a->shadows, "all", "off; one that is empty at first for the timing of starts");
+    apps::add_indirect_options(program, a->indirect);
     program.add_option("--device", a->run.device,
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     apps::Option json = program.add_option("--json", a->json, "Write everything that was measured to a file");

@@ -6,7 +6,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/stopwatch.h"
+#include "indirect_arguments.h"
 #include "machine.h"
+#include "scene/placement.h"
 #include "shadow_arguments.h"
 
 namespace vesper::bench {
@@ -54,6 +56,9 @@ public:
           seconds_(scene::animation_length(scene) > 0 ? scene::animation_length(scene) : kStanding),
           renderer_(device, scene) {
         renderer_.keep_maps(plan.map_cache);
+        if (plan.render.indirect)
+            renderer_.set_radiosity(apps::gathered(scene, scene::world_transforms(scene, 0),
+                                                   scene::animated_nodes(scene), plan.map_cache.get()));
     }
 
     /// Renders every channel at a part [0, 1) of the path, `step` s after the frame before.

@@ -31,6 +31,7 @@ Json of(const RunSettings& s) {
             {"triangles", s.triangles},
             {"threshold_lx", s.threshold},
             {"shadows", s.shadows},
+            {"indirect", s.indirect},
             {"frames", s.frames},
             {"laps", s.laps},
             {"warm_up", s.warm_up}};
@@ -79,6 +80,7 @@ RunSettings read_settings(const JsonValue& value) {
             .triangles = value.at("triangles").integer(),
             .threshold = amount(value.at("threshold_lx")),
             .shadows = value.boolean_or("shadows", false),
+            .indirect = value.boolean_or("indirect", false),
             .frames = count(value.at("frames")),
             .laps = count(value.at("laps")),
             .warm_up = count(value.at("warm_up"))};

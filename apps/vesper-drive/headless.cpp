@@ -10,6 +10,7 @@
 #include "drive.h"
 #include "drive_file.h"
 #include "drive_log.h"
+#include "indirect_arguments.h"
 #include "io/file_gate.h"
 #include "io/image_file.h"
 #include "numbered_files.h"
@@ -225,7 +226,12 @@ void run_headless(const DriveArguments& a) {
     if (!outlet.wanted() && a.record.empty()) throw Error("nothing to do: give --video, --log or --record");
     gpu::Device device({.select = a.device});
     Session session(device, options, std::move(scenery));
-    session.keep_maps(apps::shadow_cache(a.shadow_cache));
+    const std::shared_ptr<Cache> cache = apps::shadow_cache(a.shadow_cache);
+    session.keep_maps(cache);
+    if (outlet.wanted() && session.settings().render().indirect) {
+        const gpu_scene::SceneFrame rest = session.moment();
+        session.set_radiosity(apps::gathered(session.scenery().scene(), rest.world, rest.moving, cache.get()));
+    }
     session.on_maps = [](const render::MapReport& report) { apps::print_note(report); };
     Playback playback(std::move(drive.events), a.settings);
     outlet.open(playback.frames());

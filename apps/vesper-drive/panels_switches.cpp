@@ -103,6 +103,8 @@ void Instruments::draw_switches(const FrameState& now, std::vector<Change>& chan
         }
         bool shadows = render.shadows;
         if (ImGui::Checkbox("shadows of lamps (F10)", &shadows)) to.change("shadows", shadows ? "on" : "off");
+        bool indirect = render.indirect;
+        if (ImGui::Checkbox("light between surfaces", &indirect)) to.change("indirect", indirect ? "cached" : "off");
         ImGui::PopItemWidth();
     }
     ImGui::End();

@@ -80,6 +80,11 @@ void Session::keep_maps(std::shared_ptr<Cache> cache) {
     renderer_->keep_maps(map_cache_);
 }
 
+void Session::set_radiosity(std::shared_ptr<const transport::Radiosity> radiosity) {
+    radiosity_ = std::move(radiosity);
+    renderer_->set_radiosity(radiosity_);
+}
+
 void Session::begin_frame() { eye_step_ = rendered_ ? double(world_->steps() - *rendered_) * options_.time_step : 0; }
 
 void Session::end_frame(const shared::EyeState& eye) {
@@ -114,6 +119,7 @@ void Session::use(gpu::Device& device) {
     device_ = &device;
     renderer_ = std::make_unique<render::Renderer>(device, scenery_.scene());
     renderer_->keep_maps(map_cache_);
+    renderer_->set_radiosity(radiosity_);
     if (rendered_) renderer_->set_eye(eye_);
     if (!had_wall) return;
     wall_ = std::make_unique<ChannelRenderer>(device);

@@ -66,6 +66,9 @@ public:
     // Pictures.
     /// Where distance maps are kept from run to run (Renderer::keep_maps); at first nowhere. It is not recorded.
     void keep_maps(std::shared_ptr<Cache> cache);
+    /// What surfaces at rest send each other (Renderer::set_radiosity); at first nothing. It is not recorded: frames
+    /// before it is known are replayed with it.
+    void set_radiosity(std::shared_ptr<const transport::Radiosity> radiosity);
     /// Called after a frame for each view of it.
     std::function<void(const render::MapReport&)> on_maps;
     /// Tiles of distance maps drawn for a frame where the setting "shadow-budget" is not set; at first all. It is not
@@ -116,6 +119,7 @@ private:
     double eye_step_ = 0;
     uint64_t shadow_budget_ = render::kNoShadowBudget;
     std::shared_ptr<Cache> map_cache_;
+    std::shared_ptr<const transport::Radiosity> radiosity_;
     std::unique_ptr<DriveRecorder> recorder_;
 };
 

@@ -9,6 +9,7 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/one_line.h"
+#include "indirect_arguments.h"
 #include "shadow_arguments.h"
 #include "tone_arguments.h"
 
@@ -28,6 +29,7 @@ struct SettingsArguments {
     double sun = 0, fov = 0;
     float threshold = render::ClusterSettings{}.threshold;
     apps::ShadowArguments shadows;
+    apps::IndirectArguments indirect;
 };
 
 void add(apps::Command command, SettingsArguments& a) {
@@ -52,6 +54,7 @@ void add(apps::Command command, SettingsArguments& a) {
         .shows_default();
     apps::add_shadow_options(command, a.shadows,
                              std::to_string(kWindowShadowBudget) + " in a window, all without one and in replays");
+    apps::add_indirect_options(command, a.indirect);
     command.help_group();
 }
 
@@ -128,6 +131,7 @@ void DriveSettings::apply(const Values& values) {
     static_cast<render::ToneChainSettings&>(render) = apps::tone_settings(a.tone);
     render.clusters.threshold = a.threshold;
     apps::set_shadows(a.shadows, render);
+    apps::set_indirect(a.indirect, render);
     const FreeCamera free = free_camera_of(a.free);
     render_ = std::move(render);
     sun_ = command.count("--sun") ? std::optional(a.sun) : std::nullopt;

@@ -136,7 +136,7 @@ void WindowedDrive::reload(const std::string& scene) {
                                                                    .seed = arguments_.seed,
                                                                    .settings = settings});
         if (!recording_.empty()) session_->stop_recording();
-        session_ = std::move(made);
+        light_.reset(), session_ = std::move(made);
         session_->set_shadow_budget(kWindowShadowBudget);
         watch_contacts();
         keep_maps();
@@ -261,6 +261,33 @@ void WindowedDrive::keep_maps() {
     session_->on_maps = [](const render::MapReport& report) { apps::print_note(report); };
 }
 
+// What is known of the light between surfaces; the first time that it is wanted its work begins.
+void WindowedDrive::take_light() {
+    if (!session_->settings().render().indirect) return;
+    if (!light_) {
+        gpu_scene::SceneFrame rest = session_->moment();
+        light_ = std::make_unique<LightGatherer>(session_->scenery().scene(), std::move(rest.world),
+                                                 std::move(rest.moving), apps::shadow_cache(arguments_.shadow_cache));
+    }
+    try {
+        const bool done = light_->done();
+        auto radiosity = light_->take();
+        if (!radiosity) return;
+        session_->set_radiosity(std::move(radiosity)), stale_ = true;
+        if (done) apps::print_cache_note(light_->problem());
+    } catch (const gpu::DeviceLost&) {
+        throw;
+    } catch (const Error& error) {
+        say(error.what(), true);
+    }
+}
+
+// What the window says while no message is shown.
+std::string WindowedDrive::standing_message() const {
+    if (!light_ || light_->done() || !session_->settings().render().indirect) return {};
+    return format("light between surfaces: %.0f %%, rough until then", 100 * light_->share());
+}
+
 void WindowedDrive::draw(const render::Outputs& outputs, ChannelMosaic& wall) {
     if (channels_) {
         wall = session_->render(*channels_, outputs);
@@ -271,6 +298,7 @@ void WindowedDrive::draw(const render::Outputs& outputs, ChannelMosaic& wall) {
 }
 
 void WindowedDrive::render(bool moved) {
+    take_light();
     const VkExtent2D extent = picture_extent();
     const bool ldr = session_->settings().render().tone_operator == render::Operator::Ldr;
     const render::Outputs outputs{.display = true, .scene = (instruments_.needs_scene() || log_) && !ldr};
@@ -334,8 +362,8 @@ void WindowedDrive::present() {
                          .shown_per_second = pictures_per_second_,
                          .paused = paused_,
                          .recording = recording_,
-                         .message = talks ? message_ : "",
-                         .alarm = alarm_};
+                         .message = talks ? message_ : standing_message(),
+                         .alarm = talks && alarm_};
     const std::vector<Change> changes = instruments_.draw(now);
     const bool colours = instruments_.shows_false_colour() && display.bits == 8;
     const auto coloured = colours ? instruments_.coloured(frame_, frame_number_) : std::span<const uint8_t>();

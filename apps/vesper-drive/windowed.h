@@ -13,6 +13,7 @@
 #include "gpu/device.h"
 #include "input_devices.h"
 #include "instruments.h"
+#include "light_gatherer.h"
 #include "playback.h"
 #include "screen.h"
 #include "session.h"
@@ -56,6 +57,8 @@ private:
     void advance(double seconds);
     void watch_contacts();
     void keep_maps();
+    void take_light();
+    std::string standing_message() const;
     bool replay_to_next_frame();
     void render(bool moved);
     void draw(const render::Outputs&, ChannelMosaic&);
@@ -71,6 +74,7 @@ private:
     std::unique_ptr<gpu::Device> device_;
     std::shared_ptr<Cache> map_cache_;
     std::unique_ptr<Session> session_;
+    std::unique_ptr<LightGatherer> light_;  // of its scene; none before it is wanted
     std::unique_ptr<Screen> screen_;
     bool shown_ = false;  // a picture, since the device is there
     ScreenSettings screen_settings_;

@@ -10,6 +10,7 @@
 #include "base/one_line.h"
 #include "commands.h"
 #include "glare_arguments.h"
+#include "indirect_arguments.h"
 #include "io/file_gate.h"
 #include "io/growing_file.h"
 #include "io/image_file.h"
@@ -18,6 +19,7 @@
 #include "print.h"
 #include "progress.h"
 #include "render/renderer.h"
+#include "scene/placement.h"
 #include "scene_notes.h"
 #include "shadow_arguments.h"
 #include "statistics.h"
@@ -33,6 +35,7 @@ struct RenderArguments {
     std::string scene, camera, size = "1680x1050", device, lambert = "physical";
     apps::ToneArguments tone;
     apps::ShadowArguments shadows;
+    apps::IndirectArguments indirect;
     apps::GlareArguments glare;
     std::vector<std::string> outputs;
     std::string statistics_file, log_file, replay_file, sources_file;
@@ -140,6 +143,7 @@ void check_arguments(RenderArguments& arguments) {
     apps::check_target(arguments.glare, settings);
     settings.paper_lambert = arguments.lambert == "paper";
     apps::set_shadows(arguments.shadows, settings);
+    apps::set_indirect(arguments.indirect, settings);
     io::announce_read(arguments.scene);
     io::announce_read(arguments.replay_file);
     io::announce_read(arguments.glare.lamps);
@@ -244,7 +248,10 @@ void run(RenderArguments& arguments) {
 
     gpu::Device device({.select = arguments.device});
     render::Renderer renderer(device, scene);
-    renderer.keep_maps(apps::shadow_cache(arguments.shadows.cache));
+    const std::shared_ptr<Cache> cache = apps::shadow_cache(arguments.shadows.cache);
+    renderer.keep_maps(cache);
+    if (arguments.settings.indirect)
+        renderer.set_radiosity(apps::gathered(scene, moment.world, scene::animated_nodes(scene), cache.get()));
     apps::Progress progress("rendering", arguments.frames);
     std::vector<double> milliseconds;
     std::optional<io::GrowingFile> log, sources;
@@ -343,6 +350,7 @@ void add_render(apps::Command program) {
     apps::add_glare_options(command, a->glare);
     command.help_group("Light");
     apps::add_shadow_options(command, a->shadows);
+    apps::add_indirect_options(command, a->indirect);
     command.add_flag("--all-lamps,--all-lights", a->settings.all_lamps,
                      "Shade every lamp above the threshold in every pixel (slow, for comparison)");
     command.help_group();

@@ -4,6 +4,7 @@
 #include "api/handles.h"
 #include "io/cache_folder.h"
 #include "scene/placement.h"
+#include "transport/kept_radiosity.h"
 
 namespace vesper::api {
 namespace {
@@ -42,13 +43,14 @@ gpu_scene::View view_of(const VesperView& v, const scene::Scene& scene, const gp
 struct Seen {
     gpu_scene::SceneFrame frame;
     gpu_scene::View view;
-    bool shadows;
+    bool shadows, indirect;
 };
 Seen see(const VesperRenderer& renderer, const VesperView* view) {
     const VesperView v = known(view, "a view without its size");
     require(v.scene_seconds >= 0 && v.scene_seconds <= 1e9, "the scene's time is 0 to 1e9 s");
     require(v.no_shadows == 0 || v.no_shadows == 1, "VesperView::no_shadows is 0 or 1");
-    Seen seen{frame_of(renderer, v.scene_seconds), {}, v.no_shadows == 0};
+    require(v.no_indirect == 0 || v.no_indirect == 1, "VesperView::no_indirect is 0 or 1");
+    Seen seen{frame_of(renderer, v.scene_seconds), {}, v.no_shadows == 0, v.no_indirect == 0};
     seen.view = view_of(v, renderer.scene.scene, seen.frame);
     return seen;
 }
@@ -96,8 +98,9 @@ VesperResult vesper_renderer_dim(VesperRenderer* renderer, uint32_t node, float 
     return guarded(error, [&] {
         require(renderer, VesperRenderer::kNone);
         require_node(*renderer, node);
-        require(factor >= 0 && factor <= 1e6f, "a lamp is dimmed by a factor of 0 to 1e6");
-        require(renderer->scene.scene.nodes[node].lamp != scene::kNone, "there is no lamp at this node");
+        require(factor >= 0 && factor <= 1e6f, "light is dimmed by a factor of 0 to 1e6");
+        const scene::Node& at = renderer->scene.scene.nodes[node];
+        require(at.lamp != scene::kNone || at.mesh != scene::kNone, "there is no lamp and no mesh at this node");
         renderer->dimming[node] = factor;
     });
 }
@@ -111,7 +114,26 @@ VesperResult vesper_renderer_keep_shadows(VesperRenderer* renderer, const char* 
             cache = std::make_shared<io::CacheFolder>(std::filesystem::absolute(folder));
             cache->make();
         }
+        renderer->cache = cache;
         renderer->engine.keep_maps(std::move(cache));
+    });
+}
+
+VesperResult vesper_renderer_gather_light(VesperRenderer* renderer, VesperProgress progress, void* user,
+                                          VesperError* error) {
+    return guarded(error, [&] {
+        require(renderer, VesperRenderer::kNone);
+        finish(*renderer);
+        take_over_scene(*renderer);
+        const gpu_scene::SceneFrame rest = frame_of(*renderer, 0);
+        const scene::Scene& scene = renderer->scene.scene;
+        std::vector<bool> moving = scene::animated_nodes(scene);
+        for (size_t node = 0; node < rest.moving.size(); ++node) moving[node] = moving[node] || rest.moving[node];
+        auto radiosity =
+            transport::kept_or_gathered(scene, rest.world, moving, {}, renderer->cache.get(),
+                                        [&](double share) { return !progress || progress(share, user) != 0; });
+        if (!radiosity) throw Error("the work on light between surfaces was ended");
+        renderer->engine.set_radiosity(std::make_shared<const transport::Radiosity>(std::move(*radiosity)));
     });
 }
 
@@ -123,7 +145,7 @@ VesperResult vesper_render(VesperRenderer* renderer, const VesperToneSettings* s
         render::RenderSettings how = settings_of(settings, renderer->displays);
         const float passed = seconds_of(seconds);
         const Seen seen = see(*renderer, view);
-        how.shadows = seen.shadows;
+        how.shadows = seen.shadows, how.indirect = seen.indirect;
         finish(*renderer);  // what it left stays should this frame fail
         take_over_scene(*renderer);
         const render::Frame frame = renderer->engine.render(how, seen.view, seen.frame, passed, wanted(to));
@@ -140,7 +162,7 @@ VesperResult vesper_render_image(VesperRenderer* renderer, const VesperToneSetti
         const float passed = seconds_of(seconds);
         const graph::SubmitSemaphores semaphores = semaphores_of(handover);
         const Seen seen = see(*renderer, view);
-        how.shadows = seen.shadows;
+        how.shadows = seen.shadows, how.indirect = seen.indirect;
         require(renderer->device.borrowed(), kBorrowed);
         const render::Outputs to{.display = false, .shown = shown_image(shown, seen.view.extent)};
         take_over_scene(*renderer);

@@ -24,7 +24,7 @@ Renderer::SceneData::SceneData(const gpu::Device& device, const scene::Scene& sc
     tables.texels = std::vector<glm::vec4>();  // the device has them
     if (scene.environment) {
         const photometry::SkyMap map = photometry::make_sky_map(*scene.environment);
-        sky_sharp_side = map.sharp.side;
+        sky_sharp_side = map.sharp.side, sky_on = map.irradiance;
         sky = upload(device, gpu_scene::sky_texels(map));
     }
     if (!scene.retroreflectors.empty()) retro = upload(device, gpu_scene::retro_texels(scene.retroreflectors));
@@ -41,12 +41,18 @@ void Renderer::set_scene(const scene::Scene& scene) {
     frames_.wait();  // frames under way use the old scene
     maps_.reset();
     directional_maps_.reset();
+    indirect_.reset();
     scene_ = std::move(data);
 }
 
 void Renderer::keep_maps(std::shared_ptr<Cache> cache) {
     map_cache_ = std::move(cache);
     if (maps_) maps_->use(map_cache_.get());
+}
+
+void Renderer::set_radiosity(std::shared_ptr<const transport::Radiosity> radiosity) {
+    frames_.wait();
+    indirect_ = radiosity ? std::make_unique<IndirectLight>(std::move(radiosity)) : nullptr;
 }
 
 RenderSettings ldr_baseline(RenderSettings settings) {
@@ -90,11 +96,25 @@ Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const Render
     in.shading.sky = ambient.sky;
     in.shading.retro = texels("retroreflection", scene_->retro);
     in.daylight = {poses.tunnels, ambient.illuminance, in.shading.lambert};
-    in.sky = {texels("sky map", scene_->sky), scene_->sky_sharp_side};
+    in.sky = {texels("sky map", scene_->sky), scene_->sky_sharp_side, in.shading.lambert};
+    if (settings.indirect && indirect_) add_indirect_light(graph, in, poses, ambient, settings.reflections);
     for (const gpu_scene::GlareSource& source : in.luminaires.glare_sources)
         if (source.inside < 1)
             in.chain.scatter.lamps.push_back({source.direction, (1 - source.inside) * source.illuminance});
     return in;
+}
+
+// In place of the light that is the same everywhere.
+void Renderer::add_indirect_light(graph::FrameGraph& graph, FrameInputs& in, const gpu_scene::SceneFrame& poses,
+                                  const gpu_scene::AmbientLight& ambient, uint32_t reflections) {
+    const transport::RadiosityLight light{.factors = poses.dimming,
+                                          .sky = glm::dvec3(ambient.sky),
+                                          .sky_picture = scene_->sky_on ? &*scene_->sky_on : nullptr,
+                                          .reflections = reflections};
+    in.indirect = indirect_->cells(graph, device_, light, [this] { frames_.wait(); });
+    in.shading.ambient = glm::vec3(0);
+    in.daylight.tunnels.clear();
+    in.sky.lambert = 0;
 }
 
 // Maps are drawn while no frame uses them.
@@ -131,7 +151,8 @@ ToneChain Renderer::declare(const FrameContext& frame, const gpu_scene::SceneFra
     blocks = add_merging(frame, surfaces, clusters, blocks, inputs.shading.merge_tolerance);
     graph::Resource scene = add_shading(frame, surfaces, clusters, blocks, inputs.shading);
     scene = add_daylight(frame, surfaces, scene, inputs.daylight);
-    scene = add_sky(frame, surfaces, scene, inputs.sky, inputs.shading.lambert);
+    scene = add_indirect(frame, surfaces, scene, inputs.indirect, inputs.shading.lambert);
+    scene = add_sky(frame, surfaces, scene, inputs.sky);
     scene = add_luminaires(frame, scene, surfaces.surface, inputs.luminaires);
     const ToneChain chain = add_tone_chain(frame, scene, settings, inputs.chain, outputs);
     pending.clusters = add_readback(frame.graph, "cluster report", clusters.report, sizeof(shared::ClusterReport));

@@ -14,6 +14,7 @@
 #include "render/directional_maps.h"
 #include "render/distance_maps.h"
 #include "render/frame_queue.h"
+#include "render/indirect_light.h"
 #include "render/passes/daylight.h"
 #include "render/passes/shade.h"
 #include "render/passes/sky.h"
@@ -25,6 +26,8 @@ struct RenderSettings : ToneChainSettings {
     bool all_lamps = false;                    ///< shade without clusters, for comparison
     bool shadows = true;                       ///< lamps light only what they see
     uint64_t shadow_budget = kNoShadowBudget;  ///< of tiles of distance maps drawn for a frame, see DistanceMaps
+    bool indirect = true;  ///< light of emitting surfaces and of the sky, and reflected light, if the renderer has it
+    uint32_t reflections = 3;  ///< of light, that are counted with it
     ClusterSettings clusters;
     std::vector<gpu_scene::OffscreenLamp>
         offscreen_lamps;  ///< on other screens: scattered in the eye, not drawn; directions in the view frame
@@ -70,6 +73,9 @@ public:
     /// Where maps of what stands still are kept from run to run; null, as at first: nowhere. Pictures do not depend on
     /// it. Throws nothing.
     void keep_maps(std::shared_ptr<Cache> cache);
+    /// What light surfaces of this scene send each other, for RenderSettings::indirect; null, as at first and after
+    /// set_scene(): nothing is known of it.
+    void set_radiosity(std::shared_ptr<const transport::Radiosity> radiosity);
     /// Takes another scene, or the same after a change. The eye goes on.
     void set_scene(const scene::Scene& scene);
 
@@ -84,7 +90,8 @@ public:
     const gpu_scene::GpuScene& scene() const { return scene_->resident; }
     uint64_t device_bytes() const {
         return scene_->resident.bytes() + scene_->table_arena.bytes() + frames_.executor().heap_bytes() +
-               (maps_ ? maps_->report().bytes : 0) + (directional_maps_ ? directional_maps_->bytes() : 0);
+               (maps_ ? maps_->report().bytes : 0) + (directional_maps_ ? directional_maps_->bytes() : 0) +
+               (indirect_ ? indirect_->device_bytes() : 0);
     }
 
 private:
@@ -106,6 +113,7 @@ private:
         TexelBuffer sky, retro;
         uint32_t sky_sharp_side = 0;
         gpu_scene::AmbientLight ambient;
+        std::optional<photometry::Irradiance9> sky_on;  // surfaces, of a sky that is a picture
 
         SceneData(const gpu::Device& device, const scene::Scene& scene);
         TexelBuffer upload(const gpu::Device& device, const std::vector<glm::vec4>& texels);
@@ -119,6 +127,7 @@ private:
         ShadeSettings shading;
         DaylightSettings daylight;
         SkyTexels sky;
+        IndirectCells indirect;
         DirectionalMapsOfFrame directional;
         uint32_t directional_levels = 0;  // drawn for it
         ChainInputs chain;
@@ -131,6 +140,8 @@ private:
 
     void add_maps(graph::FrameGraph& graph, FrameInputs& in, const gpu_scene::SceneFrame& poses,
                   const gpu_scene::View& view, uint64_t budget);
+    void add_indirect_light(graph::FrameGraph& graph, FrameInputs& in, const gpu_scene::SceneFrame& poses,
+                            const gpu_scene::AmbientLight& ambient, uint32_t reflections);
     FrameInputs inputs_of(graph::FrameGraph& graph, const RenderSettings& settings, const gpu_scene::View& view,
                           const gpu_scene::SceneFrame& poses, float seconds);
     ToneChain declare(const FrameContext& frame, const gpu_scene::SceneFrame& poses, const FrameInputs& inputs,
@@ -141,6 +152,7 @@ private:
     std::shared_ptr<Cache> map_cache_;
     std::unique_ptr<DistanceMaps> maps_;  // of scene_; none before a frame has shadows
     std::unique_ptr<DirectionalMaps> directional_maps_;
+    std::unique_ptr<IndirectLight> indirect_;
     FrameQueue frames_;  // waits for its frames, which use the rest
     std::optional<Pending> pending_;
 };

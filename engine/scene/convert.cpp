@@ -68,7 +68,8 @@ void describe_rest(Conversion& conversion) {
     changes.push_back("textures: " + std::to_string(conversion.document.list("images").size()) +
                       " pictures kept as they are, read as reflectance by " +
                       (gamma ? "code^" + decimal(p.transfer.gamma) : "the sRGB curve"));
-    if (p.ambient) changes.push_back("ambient: " + decimal(p.ambient->value) + " lx");
+    if (p.ambient)
+        changes.push_back("ambient: " + decimal(p.ambient->value) + " lx, in pictures without indirect light");
     if (p.sky) changes.push_back("sky: " + decimal(p.sky->value) + " cd/m^2");
 }
 

@@ -19,7 +19,7 @@ protected:
 };
 
 TEST_F(DriveProgram, DrivesRecordsAndReplays) {
-    const std::string size = "--headless --size 96x60 --shadows off ";
+    const std::string size = "--headless --size 96x60 --shadows off --indirect off ";
     ASSERT_EQ(
         run(size +
             "--autopilot --seconds 0.5 --fps 10 --record drive.json --video a%02d.png --log a.csv --probe 0.5,0.7"),
@@ -71,7 +71,7 @@ TEST_F(DriveProgram, RecordingsNameOwnScenes) {
          {"vesper:", "vesper:..", "vesper:rivoli/../../x.gltf", "vesper:/x.gltf", "vesper:rivoli/none.json"}) {
         const char* named = std::string(bad).ends_with("none.json") ? "rivoli/none.json" : "d.json: /scene";
         folder.write("d.json", std::string(R"({"vesper_drive":1,"scene":")") + bad + R"(","events":[{"frame":true}]})");
-        expect_refused("--headless --size 16x10 --shadows off --replay d.json --log l.csv", {named});
+        expect_refused("--headless --size 16x10 --shadows off --indirect off --replay d.json --log l.csv", {named});
     }
     EXPECT_FALSE(exists("l.csv"));
 }
@@ -95,7 +95,7 @@ TEST_F(DriveProgram, RefusesIdleOptions) {
     expect_refused("--headless --record r.json --fps 30", {"--fps", "--video"});
     expect_refused("--headless --record r.json --probe 0.5,0.5", {"--probe", "--log"});
     expect_refused(drive + "--free 1,2,3,0,0", {"--free", "--camera free"});
-    expect_refused(drive + "--shadows off --shadow-budget 9", {"--shadow-budget: ", "--shadows is off"});
+    expect_refused(drive + "--shadows off --indirect off --shadow-budget 9", {"--shadow-budget: ", "--shadows is off"});
     for (const char* probe : {",", "0.5", "0.5,", ",0.5", "0.5,0.5,0.5", "0.5,0.5x", "nan,0", "1.1,0", "0.5;0.5"})
         expect_refused(drive + "--probe '" + probe + "'", {"--probe", "X,Y"});
     EXPECT_FALSE(exists("l.csv") || exists("r.json") || exists("l.csv.part"));
@@ -109,15 +109,15 @@ TEST_F(DriveProgram, RatesAreThoseThatThereAre) {
     const std::string step = R"({"step":{}})", frame = R"(,{"frame":true},)";
     folder.write("d.json", R"({"vesper_drive":1,"scene":"s.gltf","events":[)" + step + frame + step + frame + step +
                                "," + step + "," + step + R"(,{"frame":true}]})");
-    ASSERT_EQ(run("--headless --size 16x10 --shadows off --replay d.json --log l.csv"), 0)
+    ASSERT_EQ(run("--headless --size 16x10 --shadows off --indirect off --replay d.json --log l.csv"), 0)
         << "steps of a program need no pose: " << said;
     EXPECT_EQ(said.find("even rate"), std::string::npos) << said;
     if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) GTEST_SKIP() << "ffmpeg is not here";
-    ASSERT_EQ(run("--headless --size 16x10 --shadows off --replay d.json --video d.mp4"), 0) << said;
+    ASSERT_EQ(run("--headless --size 16x10 --shadows off --indirect off --replay d.json --video d.mp4"), 0) << said;
     EXPECT_NE(said.find("not recorded at an even rate: the film shows them at 60 a second"), std::string::npos) << said;
     folder.write("d.json", R"({"vesper_drive":1,"scene":"s.gltf","time_step_s":0.05,"events":[{"frame":true},)" + step +
                                frame + R"({"frame":true}]})");
-    ASSERT_EQ(run("--headless --size 16x10 --shadows off --replay d.json --video d.mp4"), 0) << said;
+    ASSERT_EQ(run("--headless --size 16x10 --shadows off --indirect off --replay d.json --video d.mp4"), 0) << said;
     EXPECT_NE(said.find("--fps 20 takes frames"), std::string::npos) << "two at one moment: " << said;
 }
 
@@ -135,7 +135,8 @@ TEST_F(DriveProgram, ErrorsAreNotEnds) {
          {std::string("{\"frame\":true},\n") + std::string(4, '\0'), std::string(""), std::string(R"({"st)"),
           std::string(R"({"step":{"steering":0.)"), std::string(R"({"frame":tr)")}) {
         folder.write("d.json", head + end);
-        EXPECT_EQ(run("--headless --size 16x10 --shadows off --replay d.json --log l.csv"), 0) << end << said;
+        EXPECT_EQ(run("--headless --size 16x10 --shadows off --indirect off --replay d.json --log l.csv"), 0)
+            << end << said;
         EXPECT_NE(said.find("breaks off"), std::string::npos) << end;
     }
 }
@@ -226,7 +227,8 @@ TEST_F(DriveProgram, RefusesSettingsThatCannotBeShown) {
         folder.write("d.json",
                      R"({"vesper_drive":1,"scene":"data/rivoli/rivoli.world.json","events":[{"frame":true},)" + step +
                          R"({"set":)" + set + "}," + step + R"({"frame":true}]})");
-        return std::string("--headless --allow-outside data --size 16x10 --shadows off --replay d.json ");
+        return std::string(
+            "--headless --allow-outside data --size 16x10 --shadows off --indirect off --replay d.json ");
     };
     expect_refused(replay(R"({"age":"50","lamp:strete lamp":"0"})") + "--log l.csv",
                    {"d.json: /events/2/set: ", "strete lamp"});
@@ -239,7 +241,8 @@ TEST_F(DriveProgram, RefusesSettingsThatCannotBeShown) {
     const auto begun = [&](const std::string& settings) {
         folder.write("d.json", R"({"vesper_drive":1,"scene":"data/rivoli/rivoli.world.json","settings":)" + settings +
                                    R"(,"events":[)" + step + R"({"frame":true}]})");
-        return std::string("--headless --allow-outside data --size 16x10 --shadows off --replay d.json ");
+        return std::string(
+            "--headless --allow-outside data --size 16x10 --shadows off --indirect off --replay d.json ");
     };
     expect_refused(begun(R"({"age":"50","lamp:strete lamp":"0"})") + "--log l.csv",
                    {"d.json: /settings: ", "strete lamp"});
@@ -254,14 +257,17 @@ TEST_F(DriveProgram, RefusesSettingsThatCannotBeShown) {
         R"({"vesper_drive":1,"scene":"data/rivoli/rivoli.world.json","settings":{"operator":"ldr"},"events":[{"set":{"operator":"ward"}},)" +
             shown + step + R"({"set":{"operator":"ldr"}},)" + step + R"({"set":{"age":"40","operator":"ward"}},)" +
             shown + R"({"set":{"operator":"ldr"}},)" + step + R"({"set":{"age":"50"}}]})");
-    EXPECT_EQ(run("--headless --allow-outside data --size 16x10 --shadows off --replay d.json --video u%d.exr"), 0)
+    EXPECT_EQ(run("--headless --allow-outside data --size 16x10 --shadows off --indirect off --replay d.json --video "
+                  "u%d.exr"),
+              0)
         << said;
     EXPECT_TRUE(exists("u1.exr"));
     folder.write("d.json", R"({"vesper_drive":1,"scene":"data/rivoli/rivoli.world.json","events":[)" + shown +
                                R"({"set":{"operator":"ldr"}},{"set":{"age":"40"}},)" + step + shown +
                                "{\"frame\":true}]}");
-    expect_refused("--headless --allow-outside data --size 16x10 --shadows off --replay d.json --video v%d.exr",
-                   {"d.json: /events/1/set: ", "ldr"});
+    expect_refused(
+        "--headless --allow-outside data --size 16x10 --shadows off --indirect off --replay d.json --video v%d.exr",
+        {"d.json: /events/1/set: ", "ldr"});
     // What is given beside the recording stands in its place.
     EXPECT_EQ(run(replay(R"({"operator":"ldr"})") + "--operator ward --video %d.exr"), 0) << said;
     EXPECT_TRUE(exists("1.exr"));
@@ -275,8 +281,10 @@ TEST_F(DriveProgram, FramesOfARateBeginAfterWhatIsSet) {
         "d.json",
         R"({"vesper_drive":1,"scene":"data/rivoli/rivoli.world.json","events":[{"set":{"operator":"ldr"}},{"frame":true},{"step":{},"pose":[0,0,0,0]},{"frame":true}]})");
     const auto first_row = [&](const std::string& options) {
-        EXPECT_EQ(
-            run("--headless --allow-outside data --size 16x10 --shadows off --replay d.json --log l.csv " + options), 0)
+        EXPECT_EQ(run("--headless --allow-outside data --size 16x10 --shadows off --indirect off --replay d.json --log "
+                      "l.csv " +
+                      options),
+                  0)
             << said;
         const std::string log = read_text(folder / "l.csv");
         const size_t row = log.find('\n') + 1;
@@ -301,7 +309,7 @@ TEST_F(DriveProgram, LogsContactsOfEveryStart) {
     const std::string frame = R"({"frame":true})", restart = R"({"restart":true},)";
     folder.write("d.json", R"({"vesper_drive":1,"scene":"w.json","events":[)" + frame + "," + second + frame + "," +
                                restart + second + frame + "," + restart + second + restart + frame + "]}");
-    ASSERT_EQ(run("--headless --size 16x10 --shadows off --replay d.json --log l.csv"), 0) << said;
+    ASSERT_EQ(run("--headless --size 16x10 --shadows off --indirect off --replay d.json --log l.csv"), 0) << said;
     std::istringstream rows(read_text(folder / "l.csv"));
     std::string row;
     std::vector<int> blows;

@@ -235,7 +235,7 @@ protected:
 
 TEST_F(RoadDriveProgram, ReplaysARunToTheBit) {
     folder.write("run.csv", kRun);
-    const std::string common = "--headless --size 64x40 ";
+    const std::string common = "--headless --size 64x40 --indirect off ";
     ASSERT_EQ(
         run(common + kRoads + " --scenario run.csv --autopilot --seconds 0.5 --fps 10 --record d.json --video a%d.png"),
         0)

@@ -37,26 +37,44 @@ struct MapCacheOfBench : ProgramTest {
 };
 
 TEST_F(MapCacheOfRender, ChangesNoByte) {
-    render("-o off.exr --shadow-cache off --stats");
+    render("-o off.exr --indirect off --shadow-cache off --stats");
     EXPECT_TRUE(printed_has(" 0 taken from the cache"));
-    render("-o cold.exr --shadow-cache maps --stats");
+    render("-o cold.exr --indirect off --shadow-cache maps --stats");
     EXPECT_TRUE(printed_has(" 0 taken from the cache"));
     EXPECT_EQ(said, "");
     const size_t kept = files_in(folder / "maps");
     EXPECT_GT(kept, 0u);
-    render("-o warm.exr --shadow-cache maps --stats");
+    render("-o warm.exr --indirect off --shadow-cache maps --stats");
     EXPECT_TRUE(printed_has(" 0 were drawn anew, " + std::to_string(kept) + " taken from the cache"));
     for (const auto& entry : fs::directory_iterator(folder / "maps")) {
         fs::resize_file(entry.path(), fs::file_size(entry.path()) - 1);
         break;
     }
-    render("-o damaged.exr --shadow-cache maps --stats");
+    render("-o damaged.exr --indirect off --shadow-cache maps --stats");
     EXPECT_TRUE(printed_has(" 1 were drawn anew, " + std::to_string(kept - 1) + " taken from the cache"));
     EXPECT_EQ(files_in(folder / "maps"), kept);
     EXPECT_EQ(said, "");
     const std::string off = read_text(folder / "off.exr");
     for (const char* name : {"cold.exr", "warm.exr", "damaged.exr"})
         EXPECT_TRUE(read_text(folder / name) == off) << name;
+}
+
+// Light between surfaces is two files, or gathered again where one of them is damaged.
+TEST_F(MapCacheOfRender, KeepsLightBetweenSurfaces) {
+    render("-o off.exr --shadows off --shadow-cache off");
+    render("-o cold.exr --shadows off --shadow-cache light");
+    ASSERT_EQ(files_in(folder / "light"), 2u);
+    render("-o warm.exr --shadows off --shadow-cache light");
+    for (const auto& entry : fs::directory_iterator(folder / "light"))
+        fs::resize_file(entry.path(), fs::file_size(entry.path()) - 1);
+    render("-o damaged.exr --shadows off --shadow-cache light");
+    EXPECT_EQ(files_in(folder / "light"), 2u);
+    EXPECT_EQ(said, "");
+    const std::string off = read_text(folder / "off.exr");
+    for (const char* name : {"cold.exr", "warm.exr", "damaged.exr"})
+        EXPECT_TRUE(read_text(folder / name) == off) << name;
+    render("-o without.exr --shadows off --indirect off");
+    EXPECT_FALSE(read_text(folder / "without.exr") == off);
 }
 
 TEST_F(MapCacheOfRender, HasADefaultFolder) {
@@ -85,14 +103,14 @@ TEST_F(MapCacheOfRender, HasADefaultFolder) {
 
 // One note, whatever the number of maps and frames, and the same picture.
 TEST_F(MapCacheOfRender, SaysOnceThatNothingIsKept) {
-    render("-o off.png --frames 3");
+    render("-o off.png --indirect off --frames 3");
     folder.write("file", "");
     // The second: files may not grow beyond 4 KiB, which pictures of this size do not.
     const std::pair<std::string, const char*> ways[]{{"", "file/maps: cannot be written: Not a directory"},
                                                      {"ulimit -f 8;", "maps: cannot be written: File too large"}};
     for (const auto& [limit, reason] : ways) {
         const std::string place = limit.empty() ? "file/maps" : "maps";
-        render("-o a.png --frames 3 --shadow-cache " + place, limit);
+        render("-o a.png --indirect off --frames 3 --shadow-cache " + place, limit);
         EXPECT_TRUE(said.starts_with("note: ")) << said;
         EXPECT_NE(said.find(reason), said.npos) << said;
         EXPECT_EQ(notes(), 1u) << said;
@@ -126,7 +144,7 @@ TEST_F(MapCacheOfDrive, ChangesNoByteAndIsNotRecorded) {
     folder.write("file", "");
     ASSERT_EQ(run(drive + "--video a%d.png --shadow-cache file"), 0) << said;
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
-    EXPECT_NE(said.find("note: distance maps are not kept"), said.npos) << said;
+    EXPECT_NE(said.find("note: shadows and light are not kept"), said.npos) << said;
     expect_refused(drive + "--video a%d.png --shadow-budget -1", {"--shadow-budget", "0 or more, not -1"});
 }
 

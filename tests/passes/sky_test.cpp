@@ -55,7 +55,7 @@ std::vector<glm::vec4> add(PassRig& rig, const Lit& s, const photometry::SkyMap&
     const graph::Resource scene = rig.image(graph, "scene", render::kSceneFormat, s.extent, s.scene);
     const graph::Resource texels = graph.upload("sky", gpu_scene::sky_texels(sky), VK_FORMAT_R32G32B32A32_SFLOAT);
     const graph::Resource wanted =
-        keep<glm::vec4>(graph, render::add_sky(rig.frame(graph, view), g, scene, {texels, sky.sharp.side}, lambert));
+        keep<glm::vec4>(graph, render::add_sky(rig.frame(graph, view), g, scene, {texels, sky.sharp.side, lambert}));
     rig.run(graph);
     return rig.got<glm::vec4>(wanted);
 }
@@ -148,7 +148,7 @@ TEST(Sky, WithoutASkyThereIsNoPass) {
     graph::FrameGraph graph;
     const render::FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
     const graph::Resource scene = graph.transient("scene", graph::image_shape(render::kSceneFormat, {8, 8}));
-    EXPECT_EQ(render::add_sky(frame, {}, scene, {}, 1), scene);
+    EXPECT_EQ(render::add_sky(frame, {}, scene, {}), scene);
     EXPECT_TRUE(graph.passes().empty());
 }
 

@@ -357,7 +357,8 @@ void vesper_renderer_destroy(VesperRenderer* renderer);
 /** Sets the transform of a node, with its children, for all later frames: node frame to world, m. */
 VesperResult vesper_renderer_place(VesperRenderer* renderer, uint32_t node, const float node_to_world[16],
                                    VesperError* error);
-/** Scales the intensity of the lamp at a node for all later frames; 0 switches it off. The node must have a lamp. */
+/** Scales the intensity of the lamp at a node, and the luminance that its mesh emits, for all later frames; 0 switches
+ * them off. The node must have one of them. */
 VesperResult vesper_renderer_dim(VesperRenderer* renderer, uint32_t node, float factor, VesperError* error);
 
 /** Keeps distance maps (shadow maps) of what stands still in a folder, which is made, for renderers of later runs.
@@ -365,6 +366,18 @@ VesperResult vesper_renderer_dim(VesperRenderer* renderer, uint32_t node, float 
  * default. Pictures are the same with and without, also where a disk is full. VESPER_FAILED: nothing can be written
  * there. */
 VesperResult vesper_renderer_keep_shadows(VesperRenderer* renderer, const char* folder, VesperError* error);
+
+/** Told how much is done, 0 to 1; returns 0 to end the work. */
+typedef int32_t (*VesperProgress)(double share, void* user);
+
+/** Gathers the light that surfaces at rest get from emitting surfaces and from the sky, and by way of each other, for
+ * all later frames (radiosity; in place of the scene's ambient illuminance). Nodes that were placed, or are animated,
+ * get it but neither hide nor send any. It takes up to minutes on all processors, and much less where
+ * vesper_renderer_keep_shadows names a folder that has it. Lamps and meshes may be dimmed afterwards; after any other
+ * change of the scene frames go without it until it is gathered again. `progress`: null: nobody is told; called from
+ * this thread with `user`. VESPER_FAILED: it ended the work. */
+VesperResult vesper_renderer_gather_light(VesperRenderer* renderer, VesperProgress progress, void* user,
+                                          VesperError* error);
 
 /** Position and angles of the eye, and size of the picture. */
 typedef struct VesperView {
@@ -382,6 +395,7 @@ typedef struct VesperView {
                            * off-axis screen; all 0: vertical_fov, symmetric */
     double scene_seconds; /**< time of the scene's animations, s */
     int32_t no_shadows;   /**< 1: lamps shine through everything */
+    int32_t no_indirect;  /**< 1: without the light that was gathered */
 } VesperView;
 
 /** Renders into arrays. `seconds`: time since the last frame, for the adaptation of the eye. */

@@ -13,8 +13,8 @@ constexpr gpu::Shader kSky{"sky.comp", sky_comp};
 
 }  // namespace
 
-graph::Resource add_sky(const FrameContext& frame, const GBuffer& surfaces, graph::Resource scene, const SkyTexels& sky,
-                        float lambert) {
+graph::Resource add_sky(const FrameContext& frame, const GBuffer& surfaces, graph::Resource scene,
+                        const SkyTexels& sky) {
     if (!sky.texels) return scene;
     const gpu_scene::View& view = frame.view;
     const PixelGroups groups = pixel_groups(frame.kernels.device());
@@ -25,7 +25,7 @@ graph::Resource add_sky(const FrameContext& frame, const GBuffer& surfaces, grap
                                .right = world_from_view[0],
                                .up = world_from_view[1],
                                .back = world_from_view[2],
-                               .lambert = lambert,
+                               .lambert = sky.lambert,
                                .sharp_side = sky.sharp_side};
     frame.graph.dispatch("sky", frame.kernels.get(kSky, {groups.width, groups.height, groups.rows}),
                          {load(surfaces.reflectance), load(surfaces.surface), update(scene), sample(sky.texels)}, push,

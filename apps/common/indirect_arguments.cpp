@@ -1,0 +1,45 @@
+#include "indirect_arguments.h"
+
+#include "progress.h"
+#include "shadow_arguments.h"
+#include "transport/kept_radiosity.h"
+
+namespace vesper::apps {
+
+void add_indirect_options(Command command, IndirectArguments& a) {
+    command
+        .add_option(
+            "--indirect", a.indirect,
+            "cached: emitting surfaces and the sky light what stands still, and so does reflected light; off: a "
+            "constant stands for them")
+        .check(one_of({"cached", "off"}))
+        .shows_default();
+    command.add_option("--reflections", a.reflections, "Reflections of light that are counted")
+        .check(range(0u, 100u))
+        .shows_default();
+}
+
+void set_indirect(const IndirectArguments& a, render::RenderSettings& settings) {
+    settings.indirect = a.indirect != "off", settings.reflections = a.reflections;
+}
+
+std::shared_ptr<const transport::Radiosity> gathered(const scene::Scene& scene, std::span<const glm::dmat4> world,
+                                                     const std::vector<bool>& moving, Cache* cache) {
+    constexpr unsigned kSteps = 200;
+    std::optional<Progress> progress;  // none where it is kept
+    unsigned steps = 0;
+    std::string problem;
+    auto radiosity = transport::kept_or_gathered(
+        scene, world, moving, {}, cache,
+        [&](double share) {
+            if (!progress) progress.emplace("light between surfaces", kSteps);
+            for (; steps < unsigned(share * kSteps); ++steps) progress->step();
+            return true;
+        },
+        &problem);
+    for (; progress && steps < kSteps; ++steps) progress->step();
+    print_cache_note(problem);
+    return std::make_shared<const transport::Radiosity>(std::move(*radiosity));
+}
+
+}  // namespace vesper::apps

@@ -1,0 +1,28 @@
+// Light by way of surfaces, as commands take it. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "command_line.h"
+
+#include "base/cache.h"
+#include "render/renderer.h"
+#include "transport/radiosity.h"
+
+namespace vesper::apps {
+
+struct IndirectArguments {
+    std::string indirect = "cached";
+    uint32_t reflections = 3;
+};
+/// --indirect and --reflections.
+void add_indirect_options(Command, IndirectArguments&);
+void set_indirect(const IndirectArguments&, render::RenderSettings&);
+
+/// What surfaces at rest of a scene send each other: from the cache (null: none), or gathered, which it then keeps.
+/// Shows its progress, and says if the cache fails.
+std::shared_ptr<const transport::Radiosity> gathered(const scene::Scene&, std::span<const glm::dmat4> world,
+                                                     const std::vector<bool>& moving, Cache* cache);
+
+}  // namespace vesper::apps

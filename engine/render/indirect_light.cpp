@@ -1,0 +1,26 @@
+#include "render/indirect_light.h"
+
+#include "gpu_scene/irradiance_cells.h"
+
+namespace vesper::render {
+
+IndirectCells IndirectLight::cells(graph::FrameGraph& graph, const gpu::Device& device,
+                                   const transport::RadiosityLight& light, const std::function<void()>& wait) {
+    if (radiosity_->cells() == 0) return {};
+    Lit lit{{light.factors.begin(), light.factors.end()}, light.sky, light.reflections};
+    if (lit != lit_) {
+        const gpu_scene::IrradianceCells table =
+            gpu_scene::irradiance_cells(*radiosity_, radiosity_->solve(light).other);
+        wait();
+        lit_.reset(), texels_ = {};
+        arena_.emplace(device);
+        const auto bytes = std::as_bytes(std::span(table.texels));
+        texels_ = gpu_scene::upload_buffer(device, *arena_, bytes, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+        bytes_ = bytes.size(), log2_places_ = table.log2_places;
+        lit_ = std::move(lit);
+    }
+    return {graph.external("irradiance cells", texels_.get(), bytes_, VK_FORMAT_R32G32B32A32_UINT), log2_places_,
+            radiosity_->grid};
+}
+
+}  // namespace vesper::render

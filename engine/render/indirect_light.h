@@ -1,0 +1,41 @@
+// The light that surfaces at rest send each other, from frame to frame. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "gpu_scene/gpu_scene.h"
+#include "graph/frame_graph.h"
+#include "render/passes/indirect.h"
+#include "transport/radiosity.h"
+
+namespace vesper::render {
+
+/// Holds what one frame is lit with, and solves anew when lamps, emission or the sky have changed since.
+class IndirectLight {
+public:
+    explicit IndirectLight(std::shared_ptr<const transport::Radiosity> radiosity) : radiosity_(std::move(radiosity)) {}
+
+    /// `wait` is called before anything that a frame may use is replaced. Throws Error.
+    IndirectCells cells(graph::FrameGraph& graph, const gpu::Device& device, const transport::RadiosityLight& light,
+                        const std::function<void()>& wait);
+    uint64_t device_bytes() const { return bytes_; }
+
+private:
+    struct Lit {  // by what the cells are lit
+        std::vector<float> factors;
+        glm::dvec3 sky{0};
+        uint32_t reflections = 0;
+        bool operator==(const Lit&) const = default;
+    };
+
+    std::shared_ptr<const transport::Radiosity> radiosity_;
+    std::optional<Lit> lit_;
+    std::optional<gpu::Arena> arena_;
+    gpu::OwnedBuffer texels_;
+    uint64_t bytes_ = 0;
+    uint32_t log2_places_ = 1;
+};
+
+}  // namespace vesper::render

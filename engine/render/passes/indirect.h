@@ -1,0 +1,20 @@
+// Light of emitting surfaces and of the sky, and reflected light. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "render/passes/gbuffer.h"
+#include "transport/cell_grid.h"
+
+namespace vesper::render {
+
+/// Illuminance of surfaces on the device.
+struct IndirectCells {
+    graph::Resource texels;    ///< rgba32ui, as shared/indirect.h says; none: there is no such light
+    uint32_t log2_places = 1;  ///< of the table
+    transport::CellGrid grid;
+};
+
+/// Adds that light to shaded luminance, in place: E rho lambert. Without cells returns `scene`.
+graph::Resource add_indirect(const FrameContext& frame, const GBuffer& surfaces, graph::Resource scene,
+                             const IndirectCells& cells, float lambert);
+
+}  // namespace vesper::render

@@ -1,0 +1,145 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_KHR_shader_subgroup_vote : require
+
+// Light of emitting surfaces, of the sky, and reflected light: adds E rho lambert, E between the cells of surfaces that face the same
+// side.
+
+#include "normal.glsl"
+#include "sheen.glsl"
+#include "shared/indirect.h"
+#include "shared/shade.h"
+
+layout(local_size_x_id = 0, local_size_y_id = 1) in;
+layout(constant_id = 2) const uint kRows = 1u;  // pixels of a column that an invocation does
+
+layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
+layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
+layout(binding = 2, rgba32f) uniform image2D scene_image;
+layout(binding = 3) uniform usamplerBuffer cells;
+layout(push_constant, scalar) uniform Push { IndirectPush push; };
+
+uvec4 find(uint number) {
+    const uint mask = (1u << push.log2_places) - 1u;
+    uint place = (number * kCellHash) >> (32u - push.log2_places);
+    uvec4 cell = texelFetch(cells, int(place));
+    for (uint i = 0u; i < mask && cell.x != number && cell.x != kNoCell; ++i) {
+        place = (place + 1u) & mask;
+        cell = texelFetch(cells, int(place));
+    }
+    return cell;
+}
+
+// Of a cube, and a side of it; cells of air begin after those of surfaces.
+uint number_of(vec3 cube, vec3 cubes, uint side) {
+    const bool there = all(greaterThanEqual(cube, vec3(0.0))) && all(lessThan(cube, cubes));
+    const uvec3 c = uvec3(cube), count = uvec3(cubes);
+    return there ? ((c.z * count.y + c.y) * count.x + c.x) * kCellSides + side : kNoCell;
+}
+
+vec3 light_of(uvec4 cell) { return kCellUnit * vec3(unpackHalf2x16(cell.y), unpackHalf2x16(cell.z).x); }
+
+// The cells of the cube that a point is in, or nearest to, and of those beside it, across the side that its surface faces. They are the
+// same for all points of a part of a cube.
+struct Columns {
+    ivec4 of;          // the part, and the side
+    vec3 light[4];     // lx
+    float height[4];   // in cubes
+    uint walls[4];     // bits of hidden ones around; kNoCell: there is no cell
+};
+
+Columns columns_of(ivec4 of) {
+    Columns columns;
+    columns.of = of;
+    const uint axis = uint(of.w) >> 1u;
+    [[unroll]] for (uint k = 0u; k < 4u; ++k) {
+        const float u = float(k & 1u), v = float(k >> 1u);
+        const vec3 cube = vec3(of.xyz) + (axis == 0u ? vec3(0.0, u, v) : axis == 1u ? vec3(v, 0.0, u) : vec3(u, v, 0.0));
+        const uvec4 cell = find(number_of(cube, push.cubes, uint(of.w)));
+        const float height = uintBitsToFloat(cell.w), layer = axis == 0u ? cube.x : axis == 1u ? cube.y : cube.z;
+        columns.light[k] = light_of(cell);
+        columns.height[k] = layer + 0.5 + ((of.w & 1) != 0 ? -height : height);
+        columns.walls[k] = cell.x != kNoCell ? cell.z >> 16u : kNoCell;
+    }
+    return columns;
+}
+
+// Of light and its weight, the sum over the columns.
+vec4 on_surfaces(Columns columns, vec3 at) {
+    const uint axis = uint(columns.of.w) >> 1u;
+    const vec3 share = fract(at - 0.5);
+    const vec2 across = axis == 0u ? share.yz : axis == 1u ? share.zx : share.xy;
+    const float height = axis == 0u ? at.x : axis == 1u ? at.y : at.z;
+    // The column of the point itself says which of the others it sees.
+    const ivec2 own = ivec2(greaterThanEqual(across, vec2(0.5)));
+    uint hidden = columns.walls[0];
+    [[unroll]] for (uint k = 1u; k < 4u; ++k) hidden = own == ivec2(k & 1u, k >> 1u) ? columns.walls[k] : hidden;
+    hidden = hidden == kNoCell ? 0u : hidden;
+    vec4 sum = vec4(0.0);
+    [[unroll]] for (uint k = 0u; k < 4u; ++k) {
+        const ivec2 other = ivec2(k & 1u, k >> 1u) - own;
+        const int number = 3 * (other.y + 1) + other.x + 1;
+        const bool seen = other == ivec2(0) || (hidden >> uint(number > 4 ? number - 1 : number) & 1u) == 0u;
+        const float linear = ((k & 1u) != 0u ? across.x : 1.0 - across.x) * (k >> 1u != 0u ? across.y : 1.0 - across.y);
+        const float layer = max(1.0 - abs(height - columns.height[k]) / kSameSurface, kElsewhere);
+        sum += seen && columns.walls[k] != kNoCell ? (linear * layer + kLeastWeight) * vec4(columns.light[k], 1.0) : vec4(0.0);
+    }
+    return sum;
+}
+
+// The same over eight cubes of air, of each the sides that the normal goes to by the squares of its components.
+vec4 in_air(vec3 at, vec3 normal) {
+    const vec3 air = at / float(kAirCubes) - 0.5, corner = floor(air), share = air - corner;
+    const vec3 parts = normal * normal / dot(normal, normal), cubes = ceil(push.cubes / float(kAirCubes));
+    const uint begins = uint(push.cubes.x) * uint(push.cubes.y) * uint(push.cubes.z) * kCellSides;
+    vec4 sum = vec4(0.0);
+    for (uint k = 0u; k < 24u; ++k) {
+        const uint axis = k >> 3u;
+        const vec3 offset = vec3(k & 1u, k >> 1u & 1u, k >> 2u & 1u), linear = mix(1.0 - share, share, offset);
+        const float component = axis == 0u ? normal.x : axis == 1u ? normal.y : normal.z;
+        const uint number = number_of(corner + offset, cubes, 2u * axis + (component < 0.0 ? 1u : 0u));
+        const uvec4 cell = find(number == kNoCell ? kNoCell : begins + number);
+        const float part = axis == 0u ? parts.x : axis == 1u ? parts.y : parts.z;
+        const float weight = part * (linear.x * linear.y * linear.z + kLeastWeight);
+        sum += cell.x == kNoCell ? vec4(0.0) : weight * vec4(light_of(cell), 1.0);
+    }
+    return sum;
+}
+
+void main() {
+    const uvec2 first = gl_GlobalInvocationID.xy * uvec2(1u, kRows);
+    Columns columns;
+    columns.of = ivec4(-1);
+    // Loops of one turn are there for CPU devices, which leave them when no lane takes them and would run both sides of an if.
+    for (uint r = 0u; r < kRows; ++r) {
+        const uvec2 pixel = first + uvec2(0u, r);
+        const bool inside = all(lessThan(pixel, push.size));
+        const vec4 surface = imageLoad(surface_image, ivec2(pixel));
+        const vec4 reflectance = imageLoad(reflectance_image, ivec2(pixel));
+        const bool drawn = inside && surface.z > 0.0;
+        const vec3 position = vec3(push.ray_scale * (vec2(pixel) + 0.5) + push.ray_offset, -1.0) * (drawn ? surface.z : 1.0);
+        const vec3 n = decode_normal(drawn ? surface.xy : vec2(0.0));
+        const vec3 at = push.eye + push.x_axis * position.x + push.y_axis * position.y + push.z_axis * position.z;
+        const vec3 normal = push.x_axis * n.x + push.y_axis * n.y + push.z_axis * n.z;
+        const vec3 a = abs(normal);
+        const uint axis = a.x >= a.y && a.x >= a.z ? 0u : a.y >= a.z ? 1u : 2u;
+        const bvec3 along = bvec3(axis == 0u, axis == 1u, axis == 2u);
+        const bool backwards = (axis == 0u ? normal.x : axis == 1u ? normal.y : normal.z) < 0.0;
+        const ivec4 of = ivec4(mix(floor(at - 0.5), floor(at), along), 2u * axis + (backwards ? 1u : 0u));
+        const bool any_elsewhere = subgroupAny(drawn && of != columns.of);
+        for (uint i = 0u; i < (any_elsewhere ? 1u : 0u); ++i) columns = columns_of(of);
+        vec4 found = on_surfaces(columns, at);
+        const bool alone = drawn && found.w < 2.0 * kElsewhere, any_alone = subgroupAny(alone);
+        for (uint i = 0u; i < (any_alone ? 1u : 0u); ++i) {
+            const vec4 air = in_air(at, normal);
+            found = alone && air.w > 0.0 ? air : found;
+        }
+        const vec3 illuminance = found.w > 0.0 ? found.rgb / found.w : vec3(0.0);
+        const vec4 was = imageLoad(scene_image, ivec2(pixel));
+        const vec3 light = illuminance * reflectance.rgb *
+                           (push.lambert * (reflectance.a <= kRoadKind ? road_in_diffuse(-surface.w, -dot(n, normalize(position))) : 1.0));
+        if (drawn) imageStore(scene_image, ivec2(pixel), vec4(was.rgb + light, 1.0));
+    }
+}

@@ -1,0 +1,40 @@
+// Illuminance of surfaces, cell by cell, as transport/radiosity.h solves for it. SPDX-License-Identifier: MIT
+#ifndef VESPER_SHARED_INDIRECT_H
+#define VESPER_SHARED_INDIRECT_H
+#include "types.h"
+SHARED_BEGIN
+
+// Cells lie in a table of rgba32ui texels, by a hash of their number and, where that is taken, the next free one after it
+// (Knuth 1973, linear probing); the last is followed by the first. x: the number, y and z: red and green, and blue, as
+// halves of kCellUnit lx, and in the upper half of z a bit for each cell around that a wall hides, by rows from (-1, -1) to
+// (1, 1) across the side; w: the height of their surfaces over the middle of the cube, along the side, in cubes, a float.
+// A cell whose surface is within kNearBorder of a neighbouring cube stands for that too, if there is no cell: for points
+// beyond the border by rounding or a slope.
+const uint kNoCell = 0xffffffffu;  // x of an empty place
+const uint kCellHash = 2654435769u;  // times the number; its upper bits are the place
+const float kCellUnit = 16.0f;       // lx
+const uint kCellSides = 6u;          // of a cube: +x, -x, +y, -y, +z, -z
+const uint kAirCubes = 4u;           // along each axis of one of air
+
+// In cubes, how far a surface is from the height of a cell.
+const float kNearBorder = 0.25f;   // of a cube
+const float kSameSurface = 0.75f;  // from there on it is another surface
+const float kElsewhere = 1e-3f;    // weight of such
+const float kLeastWeight = 1e-7f;  // of any cell
+
+struct IndirectPush {
+    uvec2 size;         // px
+    vec2 ray_scale;     // as in ClusterGrid
+    vec2 ray_offset;
+    vec3 x_axis;        // from the view frame to cubes
+    vec3 y_axis;
+    vec3 z_axis;
+    vec3 eye;
+    vec3 cubes;         // along each axis, at most 2^24
+    uint log2_places;   // of the table, at least 1
+    float lambert;      // as in ShadePush
+};
+SHARED_SIZE(IndirectPush, 92)
+
+SHARED_END
+#endif

@@ -1,0 +1,106 @@
+// The reference of light from cells: what it is where that is known, and the lookup on the host.
+// SPDX-License-Identifier: MIT
+#include "passes/indirect_reference.h"
+
+#include <algorithm>
+#include <functional>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "support/made_cells.h"
+#include "support/noise.h"
+
+namespace vesper::test::indirect_reference_test {
+namespace {
+
+using glm::dvec3;
+
+const transport::CellGrid kGrid{.origin = {-4, 50, 9}, .size = 0.5, .count = {12, 9, 10}};
+
+reference::CellList listed(const MadeCells& made) {
+    std::vector<reference::LitCell> cells;
+    for (const auto& [number, cell] : made.cells) cells.push_back({number, dvec3(cell.light), double(cell.height)});
+    return {made.grid, cells};
+}
+
+TEST(IndirectReference, AFloorOfOneValueHasIt) {
+    MadeCells made{kGrid, {}};
+    for (int x = 0; x < 12; ++x)
+        for (int z = 0; z < 10; ++z) made.add({x, 3, z}, 2, 0.1, {3, 4, 5});
+    const reference::CellList cells = listed(made);
+    for (const dvec3 place : {dvec3(0.1, 3.2, 0.2), dvec3(6, 3.7, 5), dvec3(11.9, 3.9, 9.9)}) {
+        const dvec3 light = reference::illuminance_on_side(cells, place, {0, 1, 0}, 2);
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(light[c], 3 + c, 1e-12);
+    }
+    EXPECT_EQ(reference::illuminance_on_side(cells, {6, 3.5, 5}, {0, -1, 0}, 3), dvec3(0));
+    EXPECT_EQ(reference::illuminance_on_side(cells, {6, 5.5, 5}, {0, 1, 0}, 2), dvec3(0));
+    EXPECT_EQ(reference::illuminance_on_side(cells, {-2, 3.5, 5}, {0, 1, 0}, 2), dvec3(0));
+}
+
+// A quarter of the way from one cell to the next, which is 0.3 cubes higher: weights 3 to 1 * 0.6.
+TEST(IndirectReference, HeightsAndDistancesAreWeights) {
+    MadeCells made{kGrid, {}};
+    made.add({4, 3, 4}, 2, 0, glm::vec3(1)), made.add({5, 3, 4}, 2, 0.15, glm::vec3(2));
+    const double found = reference::illuminance_on_side(listed(made), {4.75, 3.5, 4.5}, {0, 1, 0}, 2).x;
+    EXPECT_NEAR(found, (0.75 + 2 * 0.25 * 0.6) / (0.75 + 0.25 * 0.6), 1e-6);  // least weights are 1e-7
+}
+
+TEST(IndirectReference, OfTheAirSidesCountByTheSquaresOfTheNormal) {
+    MadeCells made{kGrid, {}};
+    for (uint32_t side = 0; side < 6; ++side) made.add_air({1, 1, 1}, side, glm::vec3(std::exp2(float(side))));
+    const reference::CellList cells = listed(made);
+    const dvec3 normal = dvec3(1, -2, 2) / 3.0;  // +x, -y, +z
+    EXPECT_NEAR(reference::illuminance_on_side(cells, {6.5, 5.2, 7}, normal, 3).x, (1 + 4 * 8 + 4 * 16) / 9.0, 1e-12);
+}
+
+TEST(IndirectReference, APixelSendsWhatItsSurfaceReflects) {
+    MadeCells made{{.origin = {-10.5, -3, -10.5}, .size = 1, .count = {21, 2, 21}}, {}};
+    for (int x = 0; x < 21; ++x)
+        for (int z = 0; z < 21; ++z) made.add({x, 0, z}, 2, 0, {10, 20, 40});
+    const reference::CellList cells = listed(made);
+    const gpu_scene::View view = gpu_scene::View::symmetric({8, 8}, 1, glm::dmat4(1));
+    // Below the eye, 2.5 m at a depth of 6 m: pixel (x, y) with a slope of -2.5 / 6.
+    const glm::dvec2 pixel(4, (-2.5 / 6 - double(view.ray_offset().y)) / double(view.ray_scale().y));
+    reference::SurfaceTexel texel{{0.5, 0.25, 1, 0}, {reference::octahedral_encode({0, 1, 0}), 6, 1}, dvec3(0)};
+    const dvec3 found = reference::add_indirect(cells, texel, {1, 2, 3}, pixel, view, 1 / std::numbers::pi);
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(found[c], 1 + c + (c == 0 ? 5 : c == 1 ? 5 : 40) / std::numbers::pi, 1e-6) << c;
+    texel.reflectance.w = double(shared::kRoadKind), texel.surface.w = -0.5;
+    const dvec3 road = reference::add_indirect(cells, texel, dvec3(0), pixel, view, 1 / std::numbers::pi);
+    EXPECT_NEAR(road.x, 5 / std::numbers::pi * reference::road_in_diffuse(0.5, 2.5 / 6.5), 1e-6);
+    texel.surface.z = 0;
+    EXPECT_EQ(reference::add_indirect(cells, texel, {1, 2, 3}, pixel, view, 1), dvec3(1, 2, 3)) << "sky";
+}
+
+// Cells at random heights, gaps among them; points in the grid and beside it. (Beyond it along their normal the host
+// still finds cells near its border, which no cell of the table stands for.)
+TEST(IndirectReference, IsTheLookupOfTheHost) {
+    Noise random(5);
+    MadeCells made{kGrid, {}};
+    const auto below = [&](int count) { return double(int(random.unit() * float(count))); };
+    for (int i = 0; i < 1500; ++i)
+        made.add({below(12), below(9), below(10)}, uint32_t(below(6)), 0.5 * (double(random.unit()) - 0.5),
+                 {random.unit(), random.unit(), random.unit()});
+    for (int i = 0; i < 20; ++i)
+        made.add_air({below(3), below(3), below(3)}, uint32_t(below(6)), glm::vec3(random.unit()));
+    const reference::CellList cells = listed(made);
+    const transport::Radiosity radiosity = made.radiosity();
+    const std::vector<glm::vec3> light = made.light();
+    size_t lit = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        const dvec3 place = dvec3(random.unit(), random.unit(), random.unit()) * dvec3(14, 11, 12) - 1.0;
+        const dvec3 normal = glm::normalize(dvec3(random.normal(), random.normal(), random.normal()));
+        const uint32_t along = reference::sides_of(normal)[0] / 2;
+        if (!(place[int(along)] >= 0 && place[int(along)] < kGrid.count[int(along)])) continue;
+        const dvec3 want = radiosity.at(light, kGrid.origin + kGrid.size * place, normal);
+        const dvec3 found = reference::illuminance_on_side(cells, place, normal, reference::sides_of(normal)[0]);
+        for (int c = 0; c < 3; ++c) ASSERT_NEAR(found[c], want[c], 1e-6) << i;  // weights are floats there
+        lit += want != dvec3(0);
+    }
+    EXPECT_GT(lit, 10'000u);
+}
+
+}  // namespace
+}  // namespace vesper::test::indirect_reference_test

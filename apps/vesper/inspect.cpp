@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "command_line.h"
 
@@ -46,7 +47,8 @@ Kind kind_of(const std::string& file) {
 }
 
 void run(const InspectArguments& a) {
-    const Budget budget("inspecting " + one_line(a.file));
+    std::optional<Budget> budget;
+    if (!a.balance) budget.emplace("inspecting " + one_line(a.file));  // that takes the time it takes
     io::announce_read(a.file);
     io::announce_write("--json", a.json);
     if (!a.picture.empty() && !a.picture.ends_with(".png"))
@@ -61,7 +63,9 @@ void run(const InspectArguments& a) {
     only(a.contours, Kind::Picture, "--contours is for pictures (.exr, .hdr)");
     only(!a.lamp.empty(), Kind::Scene, "--lamp is for scenes (.gltf, .glb)");
     only(!a.points.empty(), Kind::Scene, "--at is for scenes (.gltf, .glb)");
-    if (!a.lamp.empty() && !a.points.empty()) throw Error("--at and --lamp are two reports: ask for one of them");
+    only(a.balance, Kind::Scene, "--balance is for scenes (.gltf, .glb)");
+    if (int(!a.lamp.empty()) + int(!a.points.empty()) + int(a.balance) > 1)
+        throw Error("--at, --lamp and --balance are reports of their own: ask for one of them");
     if (a.points.empty() && (!a.normal.empty() || a.paths > 0))
         throw Error("--normal and --paths have a meaning only beside --at");
     if (a.lamp.empty() && (a.lamp_number > 1 || !a.device.empty()))
@@ -71,7 +75,10 @@ void run(const InspectArguments& a) {
     Inspection found;
     switch (kind) {
         case Kind::Scene:
-            found = !a.points.empty() ? inspect_light(a) : a.lamp.empty() ? inspect_scene(a) : inspect_lamp_map(a);
+            found = a.balance           ? inspect_balance(a)
+                    : !a.points.empty() ? inspect_light(a)
+                    : a.lamp.empty()    ? inspect_scene(a)
+                                        : inspect_lamp_map(a);
             break;
         case Kind::Distribution:
             found = inspect_distribution(a);
@@ -112,6 +119,8 @@ void add_inspect(apps::Command program) {
         .add_option("--paths", a->paths,
                     "With --at: of rays to a point (default: 16384); the error falls with the root")
         .check(apps::between(16, 1e8));
+    command.add_flag("--balance", a->balance,
+                     "Scenes: luminous flux that lamps and surfaces emit, and where it goes; takes a minute or so");
     command.add_option("--device", a->device, "With --lamp: part of a name, cpu, or an index of vesper devices");
     command.add_option("--probe", a->probes, "Pictures: X,Y from the top left, px; may be repeated");
     command.add_option("--layer", a->layer, apps::kLayerHelp);
@@ -126,6 +135,7 @@ void add_inspect(apps::Command program) {
         "Examples:\n  vesper inspect night.gltf\n  vesper inspect data/road/luminaire.ldt -o luminaire.png\n"
         "  vesper inspect night.gltf --lamp \"street lamp\" -o map.png\n"
         "  vesper inspect night.gltf --at 8.5,0.15,-60 --at 10,3,-60 --normal -1,0,0\n"
+        "  vesper inspect night.gltf --balance\n"
         "  vesper inspect night.exr --probe 840,700 -o luminance.png\n");
     command.callback([a] { run(*a); });
 }

@@ -16,6 +16,7 @@ struct InspectArguments {
     uint32_t paths = 0;        ///< to a point; 0: the standard number
     double low = 0, high = 0;  ///< ends of the colour scale; 0: found
     bool contours = false;
+    bool balance = false;  ///< of luminous flux
 };
 
 /// A report to print, and the same for programs.
@@ -26,6 +27,7 @@ struct Inspection {
 
 Inspection inspect_scene(const InspectArguments&);
 Inspection inspect_light(const InspectArguments&);         ///< at points of a scene
+Inspection inspect_balance(const InspectArguments&);       ///< of a scene's luminous flux
 Inspection inspect_lamp_map(const InspectArguments&);      ///< of a scene; writes the picture if one is wanted
 Inspection inspect_distribution(const InspectArguments&);  ///< writes the picture if one is wanted
 Inspection inspect_table(const InspectArguments&);         ///< an r-table

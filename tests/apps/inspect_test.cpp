@@ -176,6 +176,16 @@ TEST_F(Inspect, LightByItsOrigin) {
     EXPECT_NEAR(wall["illuminance_lx"]["lamps"].get<double>(), 0, 1e-9) << "beyond the cone, and behind";
 }
 
+// Lamps over a floor: what surfaces absorb and the sky gets is what they emit. 5 %: noise of some cells.
+TEST_F(Inspect, TheBalanceOfAScene) {
+    folder.write("a.gltf", LampOverPlate().file.text());
+    ASSERT_EQ(inspect("a.gltf --balance --json a.json"), 0) << said;
+    EXPECT_TRUE(prints("emitted by lamps")) << printed;
+    const auto flux = json("a.json")["flux_lm"];
+    EXPECT_GT(flux["lamps"], 0);
+    EXPECT_NEAR(flux["found"].get<double>() / flux["emitted"].get<double>(), 1, 0.05) << flux;
+}
+
 TEST_F(Inspect, RefusesPointsThatAreNone) {
     folder.write("a.gltf", LampOverPlate().file.text());
     const auto refuses = [&](const std::string& arguments, const std::string& reason) {
@@ -188,7 +198,9 @@ TEST_F(Inspect, RefusesPointsThatAreNone) {
     refuses("a.gltf --normal 0,1,0", "only beside --at");
     refuses("a.gltf --paths 100", "only beside --at");
     refuses("a.gltf --at 0,0,0 --paths 1", "--paths");
-    refuses("a.gltf --at 0,0,0 --lamp spot", "two reports");
+    refuses("a.gltf --at 0,0,0 --lamp spot", "ask for one of them");
+    refuses("a.gltf --at 0,0,0 --balance", "ask for one of them");
+    refuses(kData + "road/luminaire.ldt --balance", "--balance is for scenes");
     refuses("a.gltf --at 0,0,0 -o a.png", "-o a.png");
     refuses(kData + "road/luminaire.ldt --at 0,0,0", "--at is for scenes");
 }

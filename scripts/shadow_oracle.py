@@ -1,4 +1,4 @@
-"""Direct light and visibility of lamps in pictures of vesper, against rays through all triangles of the scene.
+"""Direct light and visibility of lamps, or all light, in pictures of vesper, against rays through all triangles.
 
 It reads the scene by itself, finds with Embree what each of some random pixels sees and which lamps that place sees, and
 compares the light with vesper's. The pictures are of a grey copy of the scene: all surfaces matt, of one reflectance, dark by
@@ -11,6 +11,16 @@ themselves, no ambient light, so that a pixel holds lx. Lamps of less than the t
   pairs            of a pixel and a lamp, of lamps that have a colour channel of a picture for themselves
   near an edge     rays to places up to so many texels of the lamp's map around it disagree, or it is in a penumbra
   Radiance         the same light by rtrace, of all lamps at any illuminance; for some of the pixels
+
+With --indirect POINTS it compares all light instead: luminance of random matt pixels in pictures of the scene itself,
+with light between surfaces and with --indirect off, against lamps, emitting surfaces, an even sky and reflections along
+random paths of its own. Vesper's reflectance of a pixel (from a picture in even light) counts on both sides, so that
+filters of textures do not. Bodies that move hide and send light here, as they stand at time 0: best without any.
+
+  error of paths   standard error of the traced luminance: a part of each difference
+  light / traced   sums of luminances; "all other": without what lamps give directly
+  by surface       the same for materials, sides, and parts by brightness
+  Radiance         -ab 1 and -ab 4 at --radiance pixels of each camera, with mean reflectances and emissions; 5 s each
 """
 
 import argparse
@@ -41,6 +51,7 @@ EXAMPLES = """examples:
   scripts/shadow-oracle night.gltf --camera driver --size 1680x1050
   scripts/shadow-oracle --opening-samples 64 --lamps 0        against lamps of the size of their openings
   scripts/shadow-oracle --radiance 500                        with Radiance as a second witness
+  scripts/shadow-oracle night.gltf --indirect 100             light between surfaces, 100 pixels of each camera
   scripts/shadow-oracle --self-test                           closed forms; no device and no vesper needed"""
 
 
@@ -79,7 +90,7 @@ class Oracle:
         self.render_seconds = 0.0
         scene.grey_copy(folder / "grey.gltf")
         self.radiance = None
-        if arguments.radiance > 0:
+        if arguments.radiance > 0 and not arguments.indirect:
             import shadow_oracle_radiance
             self.radiance = shadow_oracle_radiance.Radiance(scene, folder)
 
@@ -87,9 +98,17 @@ class Oracle:
         """RGB of vesper's picture as illuminance, lx."""
         began, made = time.perf_counter(), self.folder / "picture.exr"
         run(self.a.vesper, "render", self.folder / scene, "--camera", camera, "--size", f"{self.a.size[0]}x{self.a.size[1]}", "--shadows", shadows,
-            "--glare", "none", "--threshold", self.a.threshold, *self.a.render_option, "-o", made)
+            "--glare", "none", "--threshold", self.a.threshold, "--indirect", "off", *self.a.render_option, "-o", made)
         self.render_seconds += time.perf_counter() - began
         return read_exr(made) * (np.pi / GREY)
+
+    def luminance(self, camera, scene, indirect):
+        """RGB of vesper's picture of a scene, cd/m^2."""
+        made = self.folder / "picture.exr"
+        run(self.a.vesper, "render", scene, "--camera", camera, "--size", f"{self.a.size[0]}x{self.a.size[1]}",
+            "--glare", "none", "--threshold", self.a.threshold, "--indirect", indirect, *self.a.render_option,
+            "-o", made)
+        return read_exr(made)
 
     def check_triangles(self, table):
         told = run(self.a.vesper, "inspect", self.a.scene)
@@ -239,6 +258,14 @@ def parse():
     parser.add_argument("--opening-samples", type=int, default=0, metavar="N", help="rays to points on a disc of the opening's area; 0: lamps are points (%(default)s)")
     parser.add_argument("--contact", type=float, default=0.016, metavar="M", help="for a second comparison: nothing nearer to a surface hides a lamp, m; 0: no such rows (%(default)s)")
     parser.add_argument("--radiance", type=int, default=0, metavar="N", help="pixels for which Radiance computes the light, too (%(default)s)")
+    parser.add_argument("--indirect", type=int, nargs="?", const=100, default=0, metavar="POINTS",
+                        help="compare all light at so many pixels of each camera instead (without a number: %(const)s)")
+    parser.add_argument("--paths", type=int, default=8192,
+                        help="of --indirect for a pixel, at most; 256 at least (%(default)s)")
+    parser.add_argument("--save", type=Path, metavar="FILE.npz", help="what --indirect found for each pixel")
+    parser.add_argument("--shadow-cache", metavar="DIR|off",
+                        help="folder that keeps vesper's shadows and light between surfaces for later runs (off, so "
+                             "that seconds are those of a first run; with --indirect a folder of this run)")
     parser.add_argument("--threshold", type=float, default=0.001, help="illuminance below which a lamp counts as dark, lx (%(default)s)")
     parser.add_argument("--seed", type=int, default=1, help="of the choice of pixels and lamps (%(default)s)")
     parser.add_argument("--render-option", action="append", default=[], metavar="WORD", help="a further word for vesper render, as --render-option=--all-lamps")
@@ -252,17 +279,19 @@ def parse():
     a.size = tuple(map(int, size.groups()))
     if a.points < 1 or a.pairs < 1 or not a.threshold > 0:
         parser.error("--points, --pairs and --threshold must be positive")
-    if min(a.lamps, a.opening_samples, a.radiance, a.contact) < 0:
-        parser.error("--lamps, --opening-samples, --radiance and --contact must not be negative")
+    if min(a.lamps, a.opening_samples, a.radiance, a.contact, a.indirect) < 0:
+        parser.error("--lamps, --opening-samples, --radiance, --contact and --indirect must not be negative")
+    if a.paths < 256:
+        parser.error("--paths must be 256 or more")
     return a
 
 
 def main():
     a = parse()
-    os.environ["VESPER_SHADOW_CACHE"] = "off"  # seconds are those of a first run
     try:
         with tempfile.TemporaryDirectory(prefix="vesper-oracle-") as folder:
             folder = Path(folder)
+            os.environ["VESPER_SHADOW_CACHE"] = a.shadow_cache or (str(folder / "cache") if a.indirect else "off")
             if a.self_test:
                 import shadow_oracle_test
                 return shadow_oracle_test.main(folder)
@@ -275,11 +304,15 @@ def main():
             a.camera = a.camera or scene.camera_names()
             for camera in a.camera:
                 scene.camera(camera)
-            oracle, table = Oracle(a, scene, folder), Table(a.camera)
+            oracle, table = Oracle(a, scene, folder), Table(a.camera + ["all"] * (a.indirect > 0))
             oracle.check_triangles(table)
-            for camera in a.camera:
-                oracle.compare(table, camera)
-            table.print()
+            if a.indirect:
+                import shadow_oracle_indirect
+                shadow_oracle_indirect.compare(oracle, table)
+            else:
+                for camera in a.camera:
+                    oracle.compare(table, camera)
+                table.print()
             for line in oracle.broken:
                 print(f"BROKEN: {line}")
             return 1 if oracle.broken else 0

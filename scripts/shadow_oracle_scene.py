@@ -18,7 +18,7 @@ LUMINANCE = np.array([0.212639, 0.715169, 0.072192])
 COMPONENTS = {5120: np.int8, 5121: np.uint8, 5122: np.int16, 5123: np.uint16, 5125: np.uint32, 5126: np.float32}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 READ = {"KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_unlit", "KHR_texture_transform", "KHR_mesh_quantization"}
-LARGEST_FIXTURE = 20  # m
+FARTHEST_ASIDE, FARTHEST_UP = 20, 50  # m, of a fixture from its lamp
 GREY = 0.5            # reflectance of every surface of a grey copy
 
 
@@ -67,8 +67,9 @@ def matrix_of(node):
 class Scene:
     """Triangles, lamps and cameras of a file in the world at time 0, m, in double precision.
 
-    corners, normals (n, 3, 3), uv (n, 3, 2), opacity (n, 3); material, order (of the node, parents first), front (1, or -1
-    where the node is mirrored) of each triangle; lamps: a structured array; fixtures: [first, last) order of each lamp."""
+    corners, normals (n, 3, 3), uv (n, 3, 2), colour (n, 3, 4: factors on the base colour and opacity); material, order
+    (of the node, parents first), front (1, or -1 where the node is mirrored) of each triangle; lamps: a structured
+    array; fixtures: [first, last) order of each lamp."""
 
     def __init__(self, path):
         self.path = Path(path)
@@ -82,6 +83,7 @@ class Scene:
             if "skin" in node or "weights" in node:
                 raise BadInput(f"{self.path}: nodes[{i}]: skins and morph targets: the oracle does not read them")
         self.buffers, self.accessors, self.pictures = {}, {}, {}
+        self.block = j.get("extras", {}).get("vesper", {}) if isinstance(j.get("extras", {}), dict) else {}
         try:
             self.read_nodes()
             self.read_triangles()
@@ -200,19 +202,23 @@ class Scene:
         uv = self.accessor(attributes[name]).astype(float)[index] if name in attributes else np.zeros((len(index), 3, 2))
         s, c = np.sin(info["rotation"]), np.cos(info["rotation"])
         uv = (uv * info["scale"]) @ np.array([[c, s], [-s, c]]).T + info["offset"]
-        opacity = np.ones((len(index), 3))
-        if "COLOR_0" in attributes and self.accessor(attributes["COLOR_0"]).shape[1] == 4:
-            opacity = self.accessor(attributes["COLOR_0"])[:, 3].astype(float)[index]
-        return corners, normals, uv, opacity, material
+        colour = np.ones((len(index), 3, 4))
+        if "COLOR_0" in attributes:
+            stated = self.accessor(attributes["COLOR_0"]).astype(float)
+            colour[..., :stated.shape[1]] = np.clip(stated, 0, 1)[index]
+        return corners, normals, uv, colour, material
 
     def texture_info(self, material):
-        source = self.json["materials"][material].get("pbrMetallicRoughness", {}).get("baseColorTexture", {}) if material >= 0 else {}
+        """How the textures of a material lie: as its base colour, else its luminance picture, else what it emits."""
+        m = self.json["materials"][material] if material >= 0 else {}
+        picture = next((use for use in self.block.get("luminous", []) if use["material"] == material), None)
+        source = m.get("pbrMetallicRoughness", {}).get("baseColorTexture") or picture or m.get("emissiveTexture", {})
         more = source.get("extensions", {}).get("KHR_texture_transform", {})
         return {"set": more.get("texCoord", source.get("texCoord", 0)), "rotation": more.get("rotation", 0),
                 "scale": np.array(more.get("scale", [1, 1]), float), "offset": np.array(more.get("offset", [0, 0]), float)}
 
     def read_triangles(self):
-        meshes, parts, self.part_centres = {}, [], {}
+        meshes, parts, self.part_boxes = {}, [], {}
         for i in self.shown:
             mesh = self.json["nodes"][i].get("mesh", -1)
             if mesh < 0:
@@ -222,17 +228,19 @@ class Scene:
             m = self.world[i]
             cofactor = np.stack([np.cross(m[1, :3], m[2, :3]), np.cross(m[2, :3], m[0, :3]), np.cross(m[0, :3], m[1, :3])])
             front = -1 if np.linalg.det(m[:3, :3]) < 0 else 1
-            for corners, normals, uv, opacity, material in meshes[mesh]:
+            for corners, normals, uv, colour, material in meshes[mesh]:
                 n = len(corners)
                 if n == 0:
                     continue
-                parts.append((corners @ m[:3, :3].T + m[:3, 3], front * (normals @ cofactor.T), uv, opacity,
+                parts.append((corners @ m[:3, :3].T + m[:3, 3], front * (normals @ cofactor.T), uv, colour,
                               np.full(n, material), np.full(n, self.order[i]), np.full(n, front)))
-                middle = (corners.reshape(-1, 3).min(0) + corners.reshape(-1, 3).max(0)) / 2
-                self.part_centres.setdefault(i, []).append(m[:3, :3] @ middle + m[:3, 3])
+                low, high = corners.reshape(-1, 3).min(0), corners.reshape(-1, 3).max(0)
+                box = np.array([np.where([k & 1, k & 2, k & 4], high, low) for k in range(8)])
+                self.part_boxes.setdefault(i, []).append(box @ m[:3, :3].T + m[:3, 3])
         if not parts:
             raise BadInput(f"{self.path}: nodes: no node shows a triangle")
-        self.corners, self.normals, self.uv, self.opacity, self.material, self.node_order, self.front = (np.concatenate(p) for p in zip(*parts))
+        (self.corners, self.normals, self.uv, self.colour, self.material, self.node_order,
+         self.front) = (np.concatenate(p) for p in zip(*parts))
 
     # Materials: whether a triangle is masked, and its texture's opacity
 
@@ -261,14 +269,19 @@ class Scene:
         except OSError as error:
             raise BadInput(f"{self.path}: images[{index}]: {error}") from None
 
+    def sampler(self, texture):
+        t = self.json["textures"][texture]
+        return self.json["samplers"][t["sampler"]] if "sampler" in t else {}
+
     def alpha_of(self, texture, uv):
         """Opacity of a texture at coordinates, 0 to 1: its full size, filtered as its sampler says."""
-        t = self.json["textures"][texture]
         if texture not in self.pictures:
-            self.pictures[texture] = np.asarray(self.image(t["source"]))[..., 3] / 255
-        alpha = self.pictures[texture]
-        sampler = self.json["samplers"][t["sampler"]] if "sampler" in t else {}
-        size = np.array(alpha.shape[::-1])
+            self.pictures[texture] = np.asarray(self.image(self.json["textures"][texture]["source"]))[..., 3] / 255
+        return self.filtered(self.pictures[texture], self.sampler(texture), uv)
+
+    def filtered(self, picture, sampler, uv):
+        """Values of a picture (rows, columns, or these and channels) at coordinates."""
+        size = np.array(picture.shape[1::-1])
         wraps = sampler.get("wrapS", 10497), sampler.get("wrapT", 10497)
 
         def texel(at):
@@ -282,13 +295,13 @@ class Scene:
                     placed.append(np.where(i < n, i, 2 * n - 1 - i))
                 else:
                     placed.append(i % n)
-            return alpha[placed[1], placed[0]]
+            return picture[placed[1], placed[0]]
 
         if sampler.get("magFilter") == 9728:
             return texel(np.floor(uv * size))
         at = uv * size - 0.5
         low = np.floor(at)
-        share = at - low
+        share = (at - low).reshape(len(at), 2, *[1] * (picture.ndim - 2))
         row = [texel(low + [0, j]) * (1 - share[:, 0]) + texel(low + [1, j]) * share[:, 0] for j in (0, 1)]
         return row[0] * (1 - share[:, 1]) + row[1] * share[:, 1]
 
@@ -302,7 +315,7 @@ class Scene:
             here = np.flatnonzero(material == m)
             t = triangle[here]
             weights = np.stack([1 - u[here] - v[here], u[here], v[here]], axis=1)
-            alpha = self.base_alpha[m] * (self.opacity[t] * weights).sum(1)
+            alpha = self.base_alpha[m] * (self.colour[t, :, 3] * weights).sum(1)
             if self.alpha_picture[m] >= 0:
                 alpha = alpha * self.alpha_of(self.alpha_picture[m], (self.uv[t] * weights[..., None]).sum(1))
             gone[here] = alpha < self.cutoff[m]
@@ -313,9 +326,8 @@ class Scene:
     def read_lamps(self):
         j = self.json
         lights = j.get("extensions", {}).get("KHR_lights_punctual", {}).get("lights", [])
-        block = j.get("extras", {}).get("vesper", {}) if isinstance(j.get("extras", {}), dict) else {}
-        lobes = {lobe["light"]: lobe["exponent"] for lobe in block.get("lobes", [])}
-        openings = {o["light"]: o for o in block.get("openings", []) if "light" in o}
+        lobes = {lobe["light"]: lobe["exponent"] for lobe in self.block.get("lobes", [])}
+        openings = {o["light"]: o for o in self.block.get("openings", []) if "light" in o}
         has_mesh = np.zeros(len(self.parent), bool)
         for i in reversed(self.shown):
             has_mesh[i] |= "mesh" in j["nodes"][i]
@@ -328,12 +340,14 @@ class Scene:
                 continue
             index = use["light"]
             light = lights[index]
-            intensity = light.get("intensity", 1.0) * float(LUMINANCE @ np.array(light.get("color", [1, 1, 1]), float))
+            colour = np.array(light.get("color", [1, 1, 1]), float)
+            intensity = light.get("intensity", 1.0) * float(LUMINANCE @ colour)
             if light["type"] == "directional" or not intensity > 0:
                 continue
             m = self.world[i]
             lamp = {"node": i, "light": index, "place": m[:3, 3], "axis": -m[:3, 2] / np.linalg.norm(m[:3, 2]),
-                    "right": m[:3, 0] / np.linalg.norm(m[:3, 0]), "intensity": intensity, "slope": 0.0, "offset": 1.0, "exponent": -1.0,
+                    "right": m[:3, 0] / np.linalg.norm(m[:3, 0]), "intensity": intensity,
+                    "colour": colour / (LUMINANCE @ colour), "slope": 0.0, "offset": 1.0, "exponent": -1.0,
                     "outer": np.pi, "area": 0.0}
             if index in lobes:
                 lamp["exponent"], lamp["outer"] = lobes[index], np.pi / 2
@@ -355,14 +369,17 @@ class Scene:
     def fixture(self, node, has_mesh):
         """[first, last) order of the nodes that never hide a lamp of this node."""
         place = self.world[node][:3, 3]
+        stated = {entry["node"]: entry["fixture"] for entry in self.block.get("fixtures", [])}
+        if node in stated:
+            return (0, 0) if stated[node] == "none" else (self.order[stated[node]], self.end[stated[node]])
         while node >= 0 and not has_mesh[node]:
             node = self.parent[node]
         if node < 0:
             return 0, 0
         first, last = self.order[node], self.end[node]
-        centres = [c for i in self.shown[first:last] for c in self.part_centres.get(i, [])]
-        small = all(np.linalg.norm(c - place) < LARGEST_FIXTURE for c in centres)
-        return (first, last) if small else (0, 0)
+        corners = np.concatenate([box for i in self.shown[first:last] for box in self.part_boxes.get(i, [])]) - place
+        aside, up = np.hypot(corners[:, 0], corners[:, 2]), np.abs(corners[:, 1])
+        return (first, last) if aside.max() < FARTHEST_ASIDE and up.max() < FARTHEST_UP else (0, 0)
 
     # Cameras
 
@@ -391,14 +408,37 @@ class Scene:
 
     # Grey copies
 
-    def grey_copy(self, target, colours=None):
-        """Writes the scene as a self-contained .gltf whose surfaces are all matt, of reflectance GREY, dark by themselves and
-        without ambient light or sky, so that a picture of it holds lx * GREY / pi. Masks stay. `colours`: of lamps, by their
-        number; the intensity in cd stays, so that only the channel tells which lamp gave the light."""
+    def embedded(self):
+        """The JSON with its buffers in it."""
         j = copy.deepcopy(self.json)
         for i, buffer in enumerate(j.get("buffers", [])):
             self.view(next(k for k, v in enumerate(j["bufferViews"]) if v["buffer"] == i))
             buffer["uri"] = "data:application/octet-stream;base64," + base64.b64encode(self.buffers[i]).decode()
+        return j
+
+    def even_copy(self, target):
+        """Writes the scene with its materials, dark by themselves, in even light of pi lx alone, so that a picture
+        without indirect light holds the reflectance of matt surfaces."""
+        j = self.embedded()
+        for i, image in enumerate(j.get("images", [])):
+            if "uri" in image and not image["uri"].startswith("data:"):
+                image["uri"] = "data:;base64," + base64.b64encode(self.fetch(image["uri"])).decode()
+        for m in j.get("materials", []):
+            for key in ("emissiveFactor", "emissiveTexture"):
+                m.pop(key, None)
+        for node in j["nodes"]:
+            node.get("extensions", {}).pop("KHR_lights_punctual", None)
+        j["extensions"]["KHR_lights_punctual"]["lights"] = []
+        kept = {key: self.block[key] for key in ("version", "transfer") if key in self.block}
+        more = {"ambient": {"illuminance_lx": np.pi}, "sky": {"luminance_cd_m2": 0}}
+        j["extras"] = {"vesper": {"version": 1} | kept | more}
+        target.write_text(json.dumps(j))
+
+    def grey_copy(self, target, colours=None):
+        """Writes the scene as a self-contained .gltf whose surfaces are all matt, of reflectance GREY, dark by themselves and
+        without ambient light or sky, so that a picture of it holds lx * GREY / pi. Masks stay. `colours`: of lamps, by their
+        number; the intensity in cd stays, so that only the channel tells which lamp gave the light."""
+        j = self.embedded()
         textures, images = j.get("textures", []), j.get("images", [])
         kept_images, kept_textures = [], []
         for i, m in enumerate(j.get("materials", [])):

@@ -8,6 +8,7 @@ import struct
 import numpy as np
 from PIL import Image
 
+import shadow_oracle_light_test
 import shadow_oracle_radiance
 import shadow_oracle_rays as tracing
 from shadow_oracle_scene import LUMINANCE, BadInput, Scene
@@ -249,5 +250,6 @@ def main(folder):
     check_motion(checks, folder, noise)
     check_opening(checks, folder, noise)
     check_radiance(checks, folder, noise)
+    shadow_oracle_light_test.main(checks, Made, folder, noise)
     check_refusals(checks, folder)
     return 1 if checks.failed else 0

@@ -65,8 +65,6 @@ std::shared_ptr<Cache> shadow_cache(const std::string& asked) {
     return folder == kOff ? nullptr : std::make_shared<io::CacheFolder>(folder);
 }
 
-void print_note(const render::MapReport& report) { print_cache_note(report.note); }
-
 void print_cache_note(const std::string& problem) {
     if (!problem.empty()) print_note("shadows and light are not kept for later runs (--shadow-cache): " + problem);
 }

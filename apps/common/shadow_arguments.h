@@ -26,6 +26,5 @@ void set_shadows(const ShadowArguments&, render::RenderSettings&);
 std::shared_ptr<Cache> shadow_cache(const std::string& asked);
 /// Says on standard error why nothing is kept any more, if there is a reason.
 void print_cache_note(const std::string& problem);
-void print_note(const render::MapReport&);
 
 }  // namespace vesper::apps

@@ -71,7 +71,7 @@ public:
         std::vector<graph::Timing> timings;
         for (const gpu_scene::View& view : views) {
             last_ = renderer_.render(plan_.render, view, moment, float(step / double(views.size())), {});
-            apps::print_note(last_.maps);
+            apps::print_cache_note(last_.maps.note);
             const graph::HostTimes& times = last_.host_times;
             const double parts[]{times.declare, times.plan, times.record, times.submit, times.wait};
             for (size_t i = 0; i < std::size(parts); ++i) host[1 + i] += parts[i];

@@ -232,7 +232,7 @@ void run_headless(const DriveArguments& a) {
         const gpu_scene::SceneFrame rest = session.moment();
         session.set_radiosity(apps::gathered(session.scenery().scene(), rest.world, rest.moving, cache.get()));
     }
-    session.on_maps = [](const render::MapReport& report) { apps::print_note(report); };
+    session.on_maps = [](const render::MapReport& report) { apps::print_cache_note(report.note); };
     Playback playback(std::move(drive.events), a.settings);
     outlet.open(playback.frames());
     session.on_contact = [&](const traffic::Contact& contact) { outlet.add(contact); };

@@ -270,7 +270,7 @@ void run(RenderArguments& arguments) {
             renderer.render(arguments.settings, view, moment, step,
                             {.display = outputs.display, .scene = outputs.scene || (last && wants_statistics)});
         milliseconds.push_back(frame.milliseconds);
-        apps::print_note(frame.maps);
+        apps::print_cache_note(frame.maps.note);
         if (const std::string note = apps::photometry_note(loaded, arguments.scene); index == 0 && !note.empty())
             apps::print_note(note);
         vision::GlareReport glare;

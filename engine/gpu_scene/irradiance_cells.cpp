@@ -20,9 +20,9 @@ std::optional<uint32_t> stands_for(const transport::Radiosity& radiosity, size_t
     const uint32_t number = radiosity.numbers[i], side = grid.side(number);
     const double height = double(radiosity.heights[i]) / grid.size;
     if (grid.is_air(number) || std::abs(height) < 0.5 - double(shared::kNearBorder)) return std::nullopt;
-    glm::dvec3 cube = glm::floor(grid.place(grid.middle(number)));
-    cube[int(side / 2)] += (height > 0) == (side % 2 == 0) ? 1 : -1;
-    const std::optional<uint32_t> other = grid.cell(cube, side);
+    const glm::dvec3 cube = glm::floor(grid.place(grid.middle(number)));
+    const std::optional<uint32_t> other =
+        grid.cell(cube + (height > 0 ? 1.0 : -1.0) * transport::direction_of(side), side);
     return other && !radiosity.find(*other) ? other : std::nullopt;
 }
 

@@ -10,6 +10,12 @@ uint32_t side_of(glm::dvec3 direction) {
     return uint32_t(2 * axis + (direction[axis] < 0 ? 1 : 0));
 }
 
+glm::dvec3 direction_of(uint32_t side) {
+    glm::dvec3 direction(0);
+    direction[int(side / 2)] = side % 2 ? -1 : 1;
+    return direction;
+}
+
 double along(glm::dvec3 v, uint32_t side) { return side % 2 ? -v[int(side / 2)] : v[int(side / 2)]; }
 
 CellGrid CellGrid::around(glm::dvec3 low, glm::dvec3 high, double least) {

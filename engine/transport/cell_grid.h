@@ -12,6 +12,7 @@ namespace vesper::transport {
 constexpr uint32_t kSides = 6;
 /// The one that a direction goes to most; of equal ones the first axis.
 uint32_t side_of(glm::dvec3 direction);
+glm::dvec3 direction_of(uint32_t side);  ///< unit length
 /// Of a vector, the component to a side.
 double along(glm::dvec3 v, uint32_t side);
 

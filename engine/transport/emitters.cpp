@@ -141,4 +141,11 @@ double EmitterChoice::probability(size_t emitter) const {
     return group * e.luminance * e.area / emitters_.groups()[number].power;
 }
 
+double EmitterChoice::density(size_t emitter, glm::dvec3 to) const {
+    const Emitters::Emitter& e = emitters_.list()[emitter];
+    const double distance2 = glm::dot(to, to);
+    const double leaving = std::max(std::abs(glm::dot(e.outwards, to)) / std::sqrt(distance2), kLeastLeaving);
+    return probability(emitter) / e.area * distance2 / leaving;
+}
+
 }  // namespace vesper::transport

@@ -52,6 +52,9 @@ private:
     std::vector<double> powers_up_to_;
 };
 
+/// The least cosine at an emitter that counts: it is seen from its edge.
+constexpr double kLeastLeaving = 1e-9;
+
 /// How often each emitter is looked at from a point: groups in proportion to about the illuminance that they give if
 /// they are seen, their emitters by power.
 class EmitterChoice {
@@ -65,6 +68,8 @@ public:
     /// `share` from 0 to 1, which is used up: what is left of it is from 0 to 1 again.
     size_t choose(double& share) const;
     double probability(size_t emitter) const;
+    /// Of directions `to` a place on an emitter, which is how far away (m): looks in a direction, 1/sr.
+    double density(size_t emitter, glm::dvec3 to) const;
 
 private:
     const Emitters& emitters_;

@@ -232,10 +232,8 @@ struct Gathering {
     void add_air(std::map<uint32_t, Cell>& cells, glm::dvec3 ground, glm::dvec3 up, double open, Random& random) const {
         const glm::dvec3 point = ground + std::min(random.next() * kAirHeight, 0.9 * open) * up;
         for (uint32_t side = 0; side < kSides; ++side) {
-            glm::dvec3 outwards(0);
-            outwards[int(side / 2)] = side % 2 ? -1 : 1;
             const glm::dvec3 cube = grid.place(point) / double(CellGrid::kAir);
-            add_place(cells, grid.air_cell(cube, side), {point, outwards, {}, scene::kNone, 1, 0}, false);
+            add_place(cells, grid.air_cell(cube, side), {point, direction_of(side), {}, scene::kNone, 1, 0}, false);
         }
     }
 
@@ -305,11 +303,7 @@ struct Gathering {
 
     // Of the direction to a place on an emitter: the density of looks and rays together, 1/sr.
     double density(const Start& start, size_t number, glm::dvec3 to, double cosine) const {
-        const Emitters::Emitter& e = emitters.list()[number];
-        const double distance2 = glm::dot(to, to);
-        const double leaving = std::max(std::abs(glm::dot(e.outwards, to)) / std::sqrt(distance2), 1e-9);
-        return start.looks * start.choice.probability(number) / e.area * distance2 / leaving +
-               start.rays * cosine / std::numbers::pi;
+        return start.looks * start.choice.density(number, to) + start.rays * cosine / std::numbers::pi;
     }
 
     // At an emitter by chance: which, and its light, lx.
@@ -431,9 +425,7 @@ struct Gathering {
 
     // A quarter of a cube before a surface, so that what is carved or laid on it hides nothing.
     glm::dvec3 before(uint32_t number, glm::dvec3 point) const {
-        const uint32_t side = grid.side(number);
-        point[int(side / 2)] += (side % 2 ? -1 : 1) * 0.25 * grid.size;
-        return point;
+        return point + 0.25 * grid.size * direction_of(grid.side(number));
     }
 
     // Whether something stands between the places of a cell: a wall is between half of the pairs at least, a post is
@@ -462,10 +454,8 @@ struct Gathering {
                 split[i] = !grid.is_air(result.numbers[i]) && is_split(*cells[i], result.numbers[i]);
         });
         const auto point = [&](uint32_t i) {
-            const uint32_t number = result.numbers[i], side = grid.side(number);
-            glm::dvec3 surface = grid.middle(number);
-            surface[int(side / 2)] += (side % 2 ? -1 : 1) * double(result.heights[i]);
-            return before(number, surface);
+            const uint32_t number = result.numbers[i];
+            return before(number, grid.middle(number) + double(result.heights[i]) * direction_of(grid.side(number)));
         };
         result.connect(
             [&](uint32_t a, uint32_t b) { return !split[a] && !split[b] && !rays.blocked(point(a), point(b)); });

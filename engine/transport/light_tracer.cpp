@@ -14,7 +14,6 @@ namespace vesper::transport {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kLeastLeaving = 1e-9;  // cosine: an emitter that is seen from its edge
 
 // Sums over paths of what each origin gives, and of its square.
 struct Sums {
@@ -65,12 +64,8 @@ struct LightTracer::Way {
 // Of the density of paths to a place on an emitter, the share of those that go by chance, distributed as cosines (the
 // balance heuristic).
 double LightTracer::cosine_share(const Way& way, size_t number, glm::dvec3 to) const {
-    const Emitters::Emitter& e = emitters_.list()[number];
-    const double distance2 = glm::dot(to, to), distance = std::sqrt(distance2);
-    const double leaving = std::max(std::abs(glm::dot(e.outwards, to)) / distance, kLeastLeaving);
-    const double density = way.choice->probability(number) / e.area * distance2 / leaving;  // 1/sr
-    const double cosine = glm::dot(way.normal, to) / distance;
-    return cosine / kPi / (density + cosine / kPi);
+    const double cosine = glm::dot(way.normal, to) / glm::length(to);
+    return cosine / kPi / (way.choice->density(number, to) + cosine / kPi);
 }
 
 // By the emitter and a place on it: luminance over the density of the direction, divided by pi, RGB cd/m^2. The density

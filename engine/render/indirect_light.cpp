@@ -7,7 +7,8 @@ namespace vesper::render {
 IndirectCells IndirectLight::cells(graph::FrameGraph& graph, const gpu::Device& device,
                                    const transport::RadiosityLight& light, const std::function<void()>& wait) {
     if (radiosity_->cells() == 0) return {};
-    Lit lit{{light.factors.begin(), light.factors.end()}, light.sky, light.reflections};
+    Lit lit{std::vector<float>(sources_.size(), 1), light.sky, light.reflections};
+    for (size_t i = 0; i < sources_.size() && !light.factors.empty(); ++i) lit.factors[i] = light.factors[sources_[i]];
     if (lit != lit_) {
         const gpu_scene::IrradianceCells table =
             gpu_scene::irradiance_cells(*radiosity_, radiosity_->solve(light).other);

@@ -15,7 +15,8 @@ namespace vesper::render {
 /// Holds what one frame is lit with, and solves anew when lamps, emission or the sky have changed since.
 class IndirectLight {
 public:
-    explicit IndirectLight(std::shared_ptr<const transport::Radiosity> radiosity) : radiosity_(std::move(radiosity)) {}
+    explicit IndirectLight(std::shared_ptr<const transport::Radiosity> radiosity)
+        : radiosity_(std::move(radiosity)), sources_(radiosity_->source_nodes()) {}
 
     /// `wait` is called before anything that a frame may use is replaced. Throws Error.
     IndirectCells cells(graph::FrameGraph& graph, const gpu::Device& device, const transport::RadiosityLight& light,
@@ -23,14 +24,15 @@ public:
     uint64_t device_bytes() const { return bytes_; }
 
 private:
-    struct Lit {  // by what the cells are lit
-        std::vector<float> factors;
+    struct Lit {                     // by what the cells are lit
+        std::vector<float> factors;  // of sources_
         glm::dvec3 sky{0};
         uint32_t reflections = 0;
         bool operator==(const Lit&) const = default;
     };
 
     std::shared_ptr<const transport::Radiosity> radiosity_;
+    std::vector<uint32_t> sources_;  // nodes: others, such as lamps that move, may be dimmed without effect
     std::optional<Lit> lit_;
     std::optional<gpu::Arena> arena_;
     gpu::OwnedBuffer texels_;

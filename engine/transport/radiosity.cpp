@@ -63,8 +63,8 @@ void Radiosity::connect(const std::function<bool(uint32_t, uint32_t)>& sees) {
         for (size_t i = begin; i < end; ++i) {
             const uint32_t side = grid.side(numbers[i]);
             const Axes axes = axes_of(side);
-            glm::dvec3 middle = grid.place(grid.middle(numbers[i]));
-            middle[axes.along] += (side % 2 ? -1 : 1) * double(heights[i]) / grid.size;
+            const glm::dvec3 middle =
+                grid.place(grid.middle(numbers[i])) + double(heights[i]) / grid.size * direction_of(side);
             for (size_t k = 0; k < kBeside; ++k) {
                 uint32_t& other = beside[i * kBeside + k] = uint32_t(i);
                 if (grid.is_air(numbers[i])) continue;
@@ -79,6 +79,19 @@ void Radiosity::connect(const std::function<bool(uint32_t, uint32_t)>& sees) {
             }
         }
     });
+}
+
+std::vector<uint32_t> Radiosity::source_nodes() const {
+    std::vector<bool> gives;
+    for (const Source& source : sources) {
+        const uint32_t node = source.node & ~kLamp;
+        if (node >= gives.size()) gives.resize(node + size_t{1});
+        gives[node] = true;
+    }
+    std::vector<uint32_t> nodes;
+    for (uint32_t node = 0; node < gives.size(); ++node)
+        if (gives[node]) nodes.push_back(node);
+    return nodes;
 }
 
 Radiosity::Solution Radiosity::solve(const RadiosityLight& light) const {

@@ -59,6 +59,7 @@ struct Radiosity {
     void connect(const std::function<bool(uint32_t, uint32_t)>& sees);
 
     size_t cells() const { return numbers.size(); }
+    std::vector<uint32_t> source_nodes() const;  ///< whose light any cell gets, ascending
     std::optional<uint32_t> find(uint32_t number) const;
     uint64_t bytes() const;
 

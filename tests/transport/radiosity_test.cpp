@@ -256,6 +256,19 @@ TEST(Radiosity, LightIsLinearInFactors) {
 }
 
 // One panel, then the other, then none; lamps have factors of their own.
+// In a room by a lamp and a plate; walls are nodes 0 to 5, and a second lamp moves.
+TEST(Radiosity, KnowsTheNodesWhoseLightAnyCellGets) {
+    scene::Scene scene;
+    add_room(scene, add_material(scene, 0.5f), vec3(2));
+    add_lamp(scene, 100, {0, 0, 0});
+    add_lamp(scene, 100, {1, 0, 0});
+    add_rectangle(scene, add_material(scene, 0, 10), {-1, 1, 1}, {2, 0, 0}, {0, 0, -2});
+    std::vector<bool> moving(scene.nodes.size());
+    moving[7] = true;
+    EXPECT_EQ(gathered(scene, {}, moving).source_nodes(), (std::vector<uint32_t>{6, 8}));
+    EXPECT_TRUE(Radiosity().source_nodes().empty());
+}
+
 TEST(Radiosity, ANodeThatIsOffGivesNothing) {
     const scene::Scene scene = lit_room();
     const Radiosity radiosity = gathered(scene);

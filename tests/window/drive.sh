@@ -79,7 +79,7 @@ sized() { [[ $(xdotool getwindowgeometry "$window") == *"Geometry: $1"* ]]; }
 same() { [[ $(compare -metric AE "$1" "$2" null: 2>&1) == 0 ]]; }
 
 VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT \
-    "$program" "$world" --allow-outside . --shadows off --size 240x150 --window 240x150 --device cpu --record drive.json >said.txt 2>&1 &
+    "$program" "$world" --allow-outside . --shadows off --indirect off --size 240x150 --window 240x150 --device cpu --record drive.json >said.txt 2>&1 &
 drive=$!
 started+=("$drive")
 until_true "a window" find_window
@@ -160,7 +160,7 @@ refused "$program" "$world" --fullscreen 7
 refused "$program" "$world" --device cpu --size 64x64 --display hdr10
 
 # A replay in a window: options given beside it win over what was recorded, and Backspace brings back all of the start.
-"$program" --replay drive.json --shadows off --operator grave --size 64x40 --window 240x150 --device cpu >said.txt 2>&1 &
+"$program" --replay drive.json --shadows off --indirect off --operator grave --size 64x40 --window 240x150 --device cpu >said.txt 2>&1 &
 drive=$!
 started+=("$drive")
 until_true "a window" find_window
@@ -175,7 +175,7 @@ quit "the replay"
 
 # In a window of 840 x 525 every panel is whole: none touches an edge of it. Escape gives the keyboard back to the drive, then closes
 # the panels, then ends the program.
-"$program" "$world" --shadows off --size 84x53 --window 840x525 --device cpu >said.txt 2>&1 &
+"$program" "$world" --shadows off --indirect off --size 84x53 --window 840x525 --device cpu >said.txt 2>&1 &
 drive=$!
 started+=("$drive")
 until_true "a window" find_window
@@ -214,7 +214,7 @@ kill -0 "$drive" || fail "Escape has ended the program before its panels"
 quit "vesper-drive by Escape" Escape
 
 # A device that is lost while driving is opened anew; the drive, and its recording, go on.
-LD_PRELOAD=$lose LOSE_DEVICE_AT=60 "$program" "$world" --shadows off --size 64x40 --window 240x150 --device cpu --record lost.json --log lost.csv >said.txt 2>&1 &
+LD_PRELOAD=$lose LOSE_DEVICE_AT=60 "$program" "$world" --shadows off --indirect off --size 64x40 --window 240x150 --device cpu --record lost.json --log lost.csv >said.txt 2>&1 &
 drive=$!
 started+=("$drive")
 until_true "a window" find_window
@@ -231,7 +231,7 @@ grep -q 'another way' said.txt && fail "the replay of the lost device drives ano
 # A disk that takes no more ends the recording, with a message, and not the drive; what was recorded until then can be replayed.
 (
     trap '' XFSZ
-    exec "$program" "$world" --shadows off --size 64x40 --window 240x150 --device cpu --record full.json >said.txt 2>&1
+    exec "$program" "$world" --shadows off --indirect off --size 64x40 --window 240x150 --device cpu --record full.json >said.txt 2>&1
 ) &
 drive=$!
 started+=("$drive")

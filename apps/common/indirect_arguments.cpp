@@ -17,10 +17,16 @@ void add_indirect_options(Command command, IndirectArguments& a) {
     command.add_option("--reflections", a.reflections, "Reflections of light that are counted")
         .check(range(0u, 100u))
         .shows_default();
+    command
+        .add_option("--moving-reflections", a.moving,
+                    "on: road and walls reflect light of lamps that move, such as headlamps, once: an estimate")
+        .check(one_of({"on", "off"}))
+        .shows_default();
 }
 
 void set_indirect(const IndirectArguments& a, render::RenderSettings& settings) {
     settings.indirect = a.indirect != "off", settings.reflections = a.reflections;
+    settings.moving_reflections = a.moving == "on";
 }
 
 std::shared_ptr<const transport::Radiosity> gathered(const scene::Scene& scene, std::span<const glm::dmat4> world,

@@ -13,10 +13,10 @@
 namespace vesper::apps {
 
 struct IndirectArguments {
-    std::string indirect = "cached";
+    std::string indirect = "cached", moving = "off";
     uint32_t reflections = 3;
 };
-/// --indirect and --reflections.
+/// --indirect, --reflections and --moving-reflections.
 void add_indirect_options(Command, IndirectArguments&);
 void set_indirect(const IndirectArguments&, render::RenderSettings&);
 

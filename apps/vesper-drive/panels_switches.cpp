@@ -105,6 +105,9 @@ void Instruments::draw_switches(const FrameState& now, std::vector<Change>& chan
         if (ImGui::Checkbox("shadows of lamps (F10)", &shadows)) to.change("shadows", shadows ? "on" : "off");
         bool indirect = render.indirect;
         if (ImGui::Checkbox("light between surfaces", &indirect)) to.change("indirect", indirect ? "cached" : "off");
+        bool moving = render.moving_reflections;
+        if (ImGui::Checkbox("reflections of lamps that move", &moving))
+            to.change("moving-reflections", moving ? "on" : "off");
         ImGui::PopItemWidth();
     }
     ImGui::End();

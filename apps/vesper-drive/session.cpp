@@ -85,7 +85,13 @@ void Session::set_radiosity(std::shared_ptr<const transport::Radiosity> radiosit
     renderer_->set_radiosity(radiosity_);
 }
 
-void Session::begin_frame() { eye_step_ = rendered_ ? double(world_->steps() - *rendered_) * options_.time_step : 0; }
+void Session::begin_frame(const gpu_scene::SceneFrame& moment) {
+    eye_step_ = rendered_ ? double(world_->steps() - *rendered_) * options_.time_step : 0;
+    if (lamp_reflections_ || !settings_.render().moving_reflections) return;
+    lamp_reflections_ =
+        std::make_shared<const transport::LampReflections>(scenery_.scene(), moment.world, moment.moving);
+    renderer_->set_lamp_reflections(lamp_reflections_);
+}
 
 void Session::end_frame(const shared::EyeState& eye) {
     rendered_ = world_->steps();
@@ -94,8 +100,9 @@ void Session::end_frame(const shared::EyeState& eye) {
 }
 
 render::Frame Session::render(const gpu_scene::View& view, render::Outputs outputs) {
-    begin_frame();
-    render::Frame frame = renderer_->render(frame_settings(), view, moment(), float(eye_step_), outputs);
+    const gpu_scene::SceneFrame now = moment();
+    begin_frame(now);
+    render::Frame frame = renderer_->render(frame_settings(), view, now, float(eye_step_), outputs);
     end_frame(frame.eye);
     if (on_maps) on_maps(frame.maps);
     return frame;
@@ -103,9 +110,10 @@ render::Frame Session::render(const gpu_scene::View& view, render::Outputs outpu
 
 ChannelMosaic Session::render(const Channels& channels, render::Outputs outputs) {
     if (!wall_) wall_ = std::make_unique<ChannelRenderer>(*device_);
-    begin_frame();
+    const gpu_scene::SceneFrame now = moment();
+    begin_frame(now);
     ChannelMosaic wall =
-        wall_->render(*renderer_, channels, frame_settings(), view({1, 1}), moment(), float(eye_step_), outputs);
+        wall_->render(*renderer_, channels, frame_settings(), view({1, 1}), now, float(eye_step_), outputs);
     end_frame(wall.shown.eye);
     for (const render::Frame& channel : wall.channels)
         if (on_maps) on_maps(channel.maps);
@@ -120,6 +128,7 @@ void Session::use(gpu::Device& device) {
     renderer_ = std::make_unique<render::Renderer>(device, scenery_.scene());
     renderer_->keep_maps(map_cache_);
     renderer_->set_radiosity(radiosity_);
+    renderer_->set_lamp_reflections(lamp_reflections_);
     if (rendered_) renderer_->set_eye(eye_);
     if (!had_wall) return;
     wall_ = std::make_unique<ChannelRenderer>(device);

@@ -102,7 +102,7 @@ public:
 private:
     DriveStart start() const;
     render::RenderSettings frame_settings() const;
-    void begin_frame();
+    void begin_frame(const gpu_scene::SceneFrame& moment);
     void end_frame(const shared::EyeState&);
 
     DriveStart options_;
@@ -120,6 +120,7 @@ private:
     uint64_t shadow_budget_ = render::kNoShadowBudget;
     std::shared_ptr<Cache> map_cache_;
     std::shared_ptr<const transport::Radiosity> radiosity_;
+    std::shared_ptr<const transport::LampReflections> lamp_reflections_;  // made when first asked for
     std::unique_ptr<DriveRecorder> recorder_;
 };
 

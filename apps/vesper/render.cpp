@@ -252,6 +252,9 @@ void run(RenderArguments& arguments) {
     renderer.keep_maps(cache);
     if (arguments.settings.indirect)
         renderer.set_radiosity(apps::gathered(scene, moment.world, scene::animated_nodes(scene), cache.get()));
+    if (arguments.settings.moving_reflections)
+        renderer.set_lamp_reflections(
+            std::make_shared<const transport::LampReflections>(scene, moment.world, scene::animated_nodes(scene)));
     apps::Progress progress("rendering", arguments.frames);
     std::vector<double> milliseconds;
     std::optional<io::GrowingFile> log, sources;

@@ -43,14 +43,19 @@ gpu_scene::View view_of(const VesperView& v, const scene::Scene& scene, const gp
 struct Seen {
     gpu_scene::SceneFrame frame;
     gpu_scene::View view;
-    bool shadows, indirect;
+    bool shadows, indirect, moving_reflections;
 };
+void apply(const Seen& seen, render::RenderSettings& how) {
+    how.shadows = seen.shadows, how.indirect = seen.indirect, how.moving_reflections = seen.moving_reflections;
+}
 Seen see(const VesperRenderer& renderer, const VesperView* view) {
     const VesperView v = known(view, "a view without its size");
     require(v.scene_seconds >= 0 && v.scene_seconds <= 1e9, "the scene's time is 0 to 1e9 s");
     require(v.no_shadows == 0 || v.no_shadows == 1, "VesperView::no_shadows is 0 or 1");
     require(v.no_indirect == 0 || v.no_indirect == 1, "VesperView::no_indirect is 0 or 1");
-    Seen seen{frame_of(renderer, v.scene_seconds), {}, v.no_shadows == 0, v.no_indirect == 0};
+    require(v.moving_reflections == 0 || v.moving_reflections == 1, "VesperView::moving_reflections is 0 or 1");
+    Seen seen{
+        frame_of(renderer, v.scene_seconds), {}, v.no_shadows == 0, v.no_indirect == 0, v.moving_reflections == 1};
     seen.view = view_of(v, renderer.scene.scene, seen.frame);
     return seen;
 }
@@ -60,12 +65,28 @@ Seen see(const VesperRenderer& renderer, const VesperView* view) {
 void take_over_scene(VesperRenderer& renderer) {
     if (renderer.version == renderer.scene.version) return;
     renderer.engine.set_scene(renderer.scene.scene);
+    renderer.lamp_reflections = false;
     const auto is_gone = [&](const auto& of_node) {
         return of_node.first < renderer.scene.gone.size() && renderer.scene.gone[of_node.first];
     };
     std::erase_if(renderer.places, is_gone);
     std::erase_if(renderer.dimming, is_gone);
     renderer.version = renderer.scene.version;
+}
+
+// What is placed, and what animations move.
+std::vector<bool> all_moving(const scene::Scene& scene, const gpu_scene::SceneFrame& frame) {
+    std::vector<bool> moving = scene::animated_nodes(scene);
+    for (size_t node = 0; node < frame.moving.size(); ++node) moving[node] = moving[node] || frame.moving[node];
+    return moving;
+}
+
+void find_lamp_reflections(VesperRenderer& renderer, const Seen& seen) {
+    if (!seen.moving_reflections || renderer.lamp_reflections) return;
+    const scene::Scene& scene = renderer.scene.scene;
+    renderer.engine.set_lamp_reflections(
+        std::make_shared<const transport::LampReflections>(scene, seen.frame.world, all_moving(scene, seen.frame)));
+    renderer.lamp_reflections = true;
 }
 
 void require_node(const VesperRenderer& renderer, uint32_t node) {
@@ -127,8 +148,8 @@ VesperResult vesper_renderer_gather_light(VesperRenderer* renderer, VesperProgre
         take_over_scene(*renderer);
         const gpu_scene::SceneFrame rest = frame_of(*renderer, 0);
         const scene::Scene& scene = renderer->scene.scene;
-        std::vector<bool> moving = scene::animated_nodes(scene);
-        for (size_t node = 0; node < rest.moving.size(); ++node) moving[node] = moving[node] || rest.moving[node];
+        const std::vector<bool> moving = all_moving(scene, rest);
+        renderer->engine.set_lamp_reflections(nullptr), renderer->lamp_reflections = false;
         auto radiosity =
             transport::kept_or_gathered(scene, rest.world, moving, {}, renderer->cache.get(),
                                         [&](double share) { return !progress || progress(share, user) != 0; });
@@ -145,9 +166,10 @@ VesperResult vesper_render(VesperRenderer* renderer, const VesperToneSettings* s
         render::RenderSettings how = settings_of(settings, renderer->displays);
         const float passed = seconds_of(seconds);
         const Seen seen = see(*renderer, view);
-        how.shadows = seen.shadows, how.indirect = seen.indirect;
+        apply(seen, how);
         finish(*renderer);  // what it left stays should this frame fail
         take_over_scene(*renderer);
+        find_lamp_reflections(*renderer, seen);
         const render::Frame frame = renderer->engine.render(how, seen.view, seen.frame, passed, wanted(to));
         give(frame, to);
     });
@@ -162,10 +184,11 @@ VesperResult vesper_render_image(VesperRenderer* renderer, const VesperToneSetti
         const float passed = seconds_of(seconds);
         const graph::SubmitSemaphores semaphores = semaphores_of(handover);
         const Seen seen = see(*renderer, view);
-        how.shadows = seen.shadows, how.indirect = seen.indirect;
+        apply(seen, how);
         require(renderer->device.borrowed(), kBorrowed);
         const render::Outputs to{.display = false, .shown = shown_image(shown, seen.view.extent)};
         take_over_scene(*renderer);
+        find_lamp_reflections(*renderer, seen);
         submit_frame(*renderer, how, seen.view, seen.frame, passed, to, semaphores);
     });
 }

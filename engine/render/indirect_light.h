@@ -8,6 +8,7 @@
 #include "gpu_scene/gpu_scene.h"
 #include "graph/frame_graph.h"
 #include "render/passes/indirect.h"
+#include "render/passes/moving_light.h"
 #include "transport/radiosity.h"
 
 namespace vesper::render {
@@ -21,7 +22,11 @@ public:
     /// `wait` is called before anything that a frame may use is replaced. Throws Error.
     IndirectCells cells(graph::FrameGraph& graph, const gpu::Device& device, const transport::RadiosityLight& light,
                         const std::function<void()>& wait);
-    uint64_t device_bytes() const { return bytes_; }
+    /// The bodies that hide it, and `patches`, as a view sees them. Throws Error.
+    MovingLight moving(graph::FrameGraph& graph, const gpu::Device& device,
+                       std::span<const transport::LitPatch> patches, const gpu_scene::SceneFrame& poses,
+                       const gpu_scene::View& view);
+    uint64_t device_bytes() const { return bytes_ + volume_bytes_; }
 
 private:
     struct Lit {                     // by what the cells are lit
@@ -38,6 +43,9 @@ private:
     gpu::OwnedBuffer texels_;
     uint64_t bytes_ = 0;
     uint32_t log2_places_ = 1;
+    std::optional<gpu::Arena> volume_arena_;
+    gpu::OwnedBuffer volumes_;
+    uint64_t volume_bytes_ = 0;
 };
 
 }  // namespace vesper::render

@@ -42,6 +42,7 @@ void Renderer::set_scene(const scene::Scene& scene) {
     maps_.reset();
     directional_maps_.reset();
     indirect_.reset();
+    lamp_reflections_.reset();
     scene_ = std::move(data);
 }
 
@@ -97,7 +98,7 @@ Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const Render
     in.shading.retro = texels("retroreflection", scene_->retro);
     in.daylight = {poses.tunnels, ambient.illuminance, in.shading.lambert};
     in.sky = {texels("sky map", scene_->sky), scene_->sky_sharp_side, in.shading.lambert};
-    if (settings.indirect && indirect_) add_indirect_light(graph, in, poses, ambient, settings.reflections);
+    if (settings.indirect && indirect_) add_indirect_light(graph, in, settings, view, poses, ambient);
     for (const gpu_scene::GlareSource& source : in.luminaires.glare_sources)
         if (source.inside < 1)
             in.chain.scatter.lamps.push_back({source.direction, (1 - source.inside) * source.illuminance});
@@ -105,13 +106,18 @@ Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const Render
 }
 
 // In place of the light that is the same everywhere.
-void Renderer::add_indirect_light(graph::FrameGraph& graph, FrameInputs& in, const gpu_scene::SceneFrame& poses,
-                                  const gpu_scene::AmbientLight& ambient, uint32_t reflections) {
+void Renderer::add_indirect_light(graph::FrameGraph& graph, FrameInputs& in, const RenderSettings& settings,
+                                  const gpu_scene::View& view, const gpu_scene::SceneFrame& poses,
+                                  const gpu_scene::AmbientLight& ambient) {
     const transport::RadiosityLight light{.factors = poses.dimming,
                                           .sky = glm::dvec3(ambient.sky),
                                           .sky_picture = scene_->sky_on ? &*scene_->sky_on : nullptr,
-                                          .reflections = reflections};
+                                          .reflections = settings.reflections};
     in.indirect = indirect_->cells(graph, device_, light, [this] { frames_.wait(); });
+    std::vector<transport::LitPatch> patches;
+    if (settings.moving_reflections && lamp_reflections_)
+        patches = lamp_reflections_->patches(poses.world, poses.dimming, gpu_scene::eye_of(view));
+    if (in.indirect.texels) in.moving = indirect_->moving(graph, device_, patches, poses, view);
     in.shading.ambient = glm::vec3(0);
     in.daylight.tunnels.clear();
     in.sky.lambert = 0;
@@ -151,7 +157,8 @@ ToneChain Renderer::declare(const FrameContext& frame, const gpu_scene::SceneFra
     blocks = add_merging(frame, surfaces, clusters, blocks, inputs.shading.merge_tolerance);
     graph::Resource scene = add_shading(frame, surfaces, clusters, blocks, inputs.shading);
     scene = add_daylight(frame, surfaces, scene, inputs.daylight);
-    scene = add_indirect(frame, surfaces, scene, inputs.indirect, inputs.shading.lambert);
+    const graph::Resource moving = add_moving_light(frame, surfaces, inputs.moving);
+    scene = add_indirect(frame, surfaces, scene, inputs.indirect, moving, inputs.shading.lambert);
     scene = add_sky(frame, surfaces, scene, inputs.sky);
     scene = add_luminaires(frame, scene, surfaces.surface, inputs.luminaires);
     const ToneChain chain = add_tone_chain(frame, scene, settings, inputs.chain, outputs);

@@ -27,7 +27,8 @@ struct RenderSettings : ToneChainSettings {
     bool shadows = true;                       ///< lamps light only what they see
     uint64_t shadow_budget = kNoShadowBudget;  ///< of tiles of distance maps drawn for a frame, see DistanceMaps
     bool indirect = true;  ///< light of emitting surfaces and of the sky, and reflected light, if the renderer has it
-    uint32_t reflections = 3;  ///< of light, that are counted with it
+    uint32_t reflections = 3;         ///< of light, that are counted with it
+    bool moving_reflections = false;  ///< with it, the first reflection of lamps that move, if the renderer has them
     ClusterSettings clusters;
     std::vector<gpu_scene::OffscreenLamp>
         offscreen_lamps;  ///< on other screens: scattered in the eye, not drawn; directions in the view frame
@@ -76,6 +77,11 @@ public:
     /// What light surfaces of this scene send each other, for RenderSettings::indirect; null, as at first and after
     /// set_scene(): nothing is known of it.
     void set_radiosity(std::shared_ptr<const transport::Radiosity> radiosity);
+    /// What surfaces of this scene reflect of lamps that move, for RenderSettings::moving_reflections; null, as at
+    /// first and after set_scene(): nothing is known of it.
+    void set_lamp_reflections(std::shared_ptr<const transport::LampReflections> reflections) {
+        lamp_reflections_ = std::move(reflections);
+    }
     /// Takes another scene, or the same after a change. The eye goes on.
     void set_scene(const scene::Scene& scene);
 
@@ -128,6 +134,7 @@ private:
         DaylightSettings daylight;
         SkyTexels sky;
         IndirectCells indirect;
+        MovingLight moving;
         DirectionalMapsOfFrame directional;
         uint32_t directional_levels = 0;  // drawn for it
         ChainInputs chain;
@@ -140,8 +147,9 @@ private:
 
     void add_maps(graph::FrameGraph& graph, FrameInputs& in, const gpu_scene::SceneFrame& poses,
                   const gpu_scene::View& view, uint64_t budget);
-    void add_indirect_light(graph::FrameGraph& graph, FrameInputs& in, const gpu_scene::SceneFrame& poses,
-                            const gpu_scene::AmbientLight& ambient, uint32_t reflections);
+    void add_indirect_light(graph::FrameGraph& graph, FrameInputs& in, const RenderSettings& settings,
+                            const gpu_scene::View& view, const gpu_scene::SceneFrame& poses,
+                            const gpu_scene::AmbientLight& ambient);
     FrameInputs inputs_of(graph::FrameGraph& graph, const RenderSettings& settings, const gpu_scene::View& view,
                           const gpu_scene::SceneFrame& poses, float seconds);
     ToneChain declare(const FrameContext& frame, const gpu_scene::SceneFrame& poses, const FrameInputs& inputs,
@@ -153,6 +161,7 @@ private:
     std::unique_ptr<DistanceMaps> maps_;  // of scene_; none before a frame has shadows
     std::unique_ptr<DirectionalMaps> directional_maps_;
     std::unique_ptr<IndirectLight> indirect_;
+    std::shared_ptr<const transport::LampReflections> lamp_reflections_;
     FrameQueue frames_;  // waits for its frames, which use the rest
     std::optional<Pending> pending_;
 };

@@ -16,6 +16,13 @@ glm::dvec2 cone_ramp(const Lamp& lamp) {
     return {slope, 1 - slope * std::cos(inner)};
 }
 
+glm::dmat3 lamp_frame(const glm::dmat4& node_to_world) {
+    const auto unit = [](glm::dvec3 v) { return v / std::max(glm::length(v), 1e-300); };
+    const glm::dvec3 x(node_to_world[0]), back = unit(glm::dvec3(node_to_world[2])),
+                                          right = unit(x - glm::dot(x, back) * back);
+    return {right, glm::cross(back, right), back};
+}
+
 double luminous_intensity(const Lamp& lamp, std::span<const photometry::Distribution> distributions,
                           glm::dvec3 direction) {
     const double length = glm::length(direction);

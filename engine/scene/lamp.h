@@ -13,6 +13,10 @@ namespace vesper::scene {
 double luminous_intensity(const Lamp& lamp, std::span<const photometry::Distribution> distributions,
                           glm::dvec3 direction);
 
+/// Directions of a lamp's frame to the world, from where its node is: at right angles, whatever the scale; the axis is
+/// kept, then the direction to the right.
+glm::dmat3 lamp_frame(const glm::dmat4& node_to_world);
+
 /// Luminous flux of a lamp, lm: its intensity integrated over all directions. Not of Measured: see distribution.h.
 double luminous_flux(const Lamp& lamp);
 

@@ -509,7 +509,9 @@ std::vector<glm::dmat4> without_moving(std::span<const glm::dmat4> world, const 
 std::optional<Radiosity> gather_radiosity(const scene::Scene& scene, std::span<const glm::dmat4> world,
                                           const std::vector<bool>& moving, const RadiositySettings& settings,
                                           const std::function<bool(double)>& progress) {
-    return Gathering(scene, world, moving, settings).run(progress);
+    std::optional<Radiosity> radiosity = Gathering(scene, world, moving, settings).run(progress);
+    if (radiosity) radiosity->bodies = moving_bodies(scene, moving);
+    return radiosity;
 }
 
 }  // namespace vesper::transport

@@ -4,13 +4,14 @@
 #include <cstring>
 #include <string_view>
 
+#include "scene/placement.h"
 #include "scene/reflectance.h"
 
 namespace vesper::transport {
 namespace {
 
 // To be raised whenever the same scene gives other cells.
-constexpr uint64_t kRadiosityVersion = 1;
+constexpr uint64_t kRadiosityVersion = 2;
 
 void add_use(Digest& digest, const scene::TextureUse& use) {
     digest.add_value(use.image), digest.add_value(use.wrap_u), digest.add_value(use.wrap_v);
@@ -69,6 +70,7 @@ template <class Radiosity, class Take>
 void each_list(Radiosity& r, Take take) {
     take(r.numbers), take(r.heights), take(r.areas), take(r.normals), take(r.reflectances), take(r.sky);
     take(r.first_source), take(r.sources), take(r.met), take(r.beside), take(r.walls);
+    take(r.bodies.bodies), take(r.bodies.volumes), take(r.bodies.hidden);
 }
 
 struct Header {
@@ -76,9 +78,9 @@ struct Header {
     double size = 0;
     glm::uvec3 count{0};
     uint32_t rays = 0;
-    std::array<uint64_t, 11> sizes{};  // of the lists
+    std::array<uint64_t, 14> sizes{};  // of the lists
 };
-static_assert(sizeof(Header) == 136, "without padding");
+static_assert(sizeof(Header) == 160, "without padding");
 
 Digest::Value key_of_lists(const Digest::Value& key) {
     Digest digest;
@@ -111,7 +113,12 @@ Digest::Value radiosity_key(const scene::Scene& scene, std::span<const glm::dmat
     for (size_t node = 0; node < world.size(); ++node) {
         const bool moves = !moving.empty() && moving[node];
         digest.add_value(moves);
-        if (!moves) digest.add_value(world[node]);
+        const uint32_t parent = scene.nodes[node].parent;
+        // What moves counts by its shape only.
+        if (!moves)
+            digest.add_value(world[node]);
+        else if (parent != scene::kNone && moving[parent])
+            digest.add_value(scene::local_transform(scene.nodes[node]));
     }
     return digest.value();
 }

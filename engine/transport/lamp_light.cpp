@@ -9,12 +9,6 @@
 #include "transport/reach.h"
 
 namespace vesper::transport {
-namespace {
-
-glm::dvec3 unit(glm::dvec3 v) { return v / std::max(glm::length(v), 1e-300); }
-
-}  // namespace
-
 LampLight::LampLight(const scene::Scene& scene, std::span<const glm::dmat4> world, const rays::RayCaster& rays)
     : scene_(scene), rays_(rays) {
     const std::vector<uint32_t> nodes = scene::nodes_with_lamps(scene);
@@ -22,14 +16,10 @@ LampLight::LampLight(const scene::Scene& scene, std::span<const glm::dmat4> worl
     for (size_t i = 0; i < nodes.size(); ++i) {
         const scene::Lamp& lamp = scene.lamps[scene.nodes[nodes[i]].lamp];
         const glm::dmat4& at = world[nodes[i]];
-        // A frame at right angles, whatever the scale: the axis is kept, then the direction to the right.
-        const glm::dvec3 back = unit(glm::dvec3(at[2])),
-                         right = unit(glm::dvec3(at[0]) - glm::dot(glm::dvec3(at[0]), back) * back);
         double largest = double(lamp.intensity);
         if (lamp.kind == scene::Lamp::Kind::Measured)
             largest *= photometry::largest_intensity(scene.distributions[lamp.distribution]);
-        lamps_.push_back({nodes[i], &lamp, glm::dvec3(at[3]),
-                          glm::transpose(glm::dmat3(right, glm::cross(back, right), back)), largest,
+        lamps_.push_back({nodes[i], &lamp, glm::dvec3(at[3]), glm::transpose(scene::lamp_frame(at)), largest,
                           std::move(fixtures[i])});
     }
 }

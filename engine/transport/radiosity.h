@@ -11,6 +11,7 @@
 #include "photometry/environment.h"
 #include "scene/scene.h"
 #include "transport/cell_grid.h"
+#include "transport/moving_bodies.h"
 
 namespace vesper::transport {
 
@@ -54,6 +55,7 @@ struct Radiosity {
     uint32_t rays = 0;             ///< of each
     std::vector<uint32_t> beside;  ///< of each the kBeside cells of the same surface around it, or itself
     std::vector<uint8_t> walls;    ///< of each bits of those around it that it does not see; empty: it sees all
+    MovingBodies bodies;           ///< that hide light of the cells
 
     /// Finds `beside` and `walls`, from the rest and from what `sees` says of two cells, by several threads.
     void connect(const std::function<bool(uint32_t, uint32_t)>& sees);
@@ -97,9 +99,10 @@ struct RadiositySettings {
     uint64_t most_cells = 600'000;  ///< roughly: cells are larger where there would be more
 };
 
-/// For a scene with its nodes at `world`. Those that are `moving` (per node; empty: none) neither get light nor hide or
-/// send any. `progress` is called with shares from 0 to 1, from this thread; where it returns false the work ends and
-/// the result is empty. On all processors; the same scene gives the same result.
+/// For a scene with its nodes at `world`. Those that are `moving` (per node; empty: none) neither get light nor
+/// send any; what they hide is found for them alone (Radiosity::bodies). `progress` is called with shares from 0 to 1,
+/// from this thread; where it returns false the work ends and the result is empty. On all processors; the same scene
+/// gives the same result.
 std::optional<Radiosity> gather_radiosity(const scene::Scene& scene, std::span<const glm::dmat4> world,
                                           const std::vector<bool>& moving, const RadiositySettings& settings,
                                           const std::function<bool(double)>& progress = {});

@@ -14,11 +14,13 @@
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(constant_id = 2) const uint kRows = 1u;  // pixels of a column that an invocation does
+layout(constant_id = 3) const uint kMoving = 0u;  // whether there is light of what moves
 
 layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 2, rgba32f) uniform image2D scene_image;
 layout(binding = 3) uniform usamplerBuffer cells;
+layout(binding = 4, rgba16f) readonly uniform image2D moving_light_image;
 layout(push_constant, scalar) uniform Push { IndirectPush push; };
 
 uvec4 find(uint number) {
@@ -136,7 +138,11 @@ void main() {
             const vec4 air = in_air(at, normal);
             found = alone && air.w > 0.0 ? air : found;
         }
-        const vec3 illuminance = found.w > 0.0 ? found.rgb / found.w : vec3(0.0);
+        vec3 illuminance = found.w > 0.0 ? found.rgb / found.w : vec3(0.0);
+        if (kMoving != 0u) {
+            const vec4 moving = imageLoad(moving_light_image, ivec2(pixel));
+            illuminance = illuminance * moving.a + moving.rgb;
+        }
         const vec4 was = imageLoad(scene_image, ivec2(pixel));
         const vec3 light = illuminance * reflectance.rgb *
                            (push.lambert * (reflectance.a <= kRoadKind ? road_in_diffuse(-surface.w, -dot(n, normalize(position))) : 1.0));

@@ -76,7 +76,7 @@ std::vector<glm::vec4> add(PassRig& rig, const Lit& s, const MadeCells& made, co
     const graph::Resource texels = graph.upload("cells", table.texels, VK_FORMAT_R32G32B32A32_UINT);
     const graph::Resource wanted = keep<glm::vec4>(
         graph,
-        render::add_indirect(rig.frame(graph, view), g, scene, {texels, table.log2_places, made.grid}, kLambert));
+        render::add_indirect(rig.frame(graph, view), g, scene, {texels, table.log2_places, made.grid}, {}, kLambert));
     rig.run(graph);
     return rig.got<glm::vec4>(wanted);
 }
@@ -193,10 +193,39 @@ TEST(Indirect, FindsCellsBehindOthers) {
     const graph::Resource texels = graph.upload("cells", full, VK_FORMAT_R32G32B32A32_UINT);
     const graph::Resource wanted =
         keep<glm::vec4>(graph, render::add_indirect(rig.frame(graph, ground.view), g, scene,
-                                                    {texels, table.log2_places, ground.made.grid}, kLambert));
+                                                    {texels, table.log2_places, ground.made.grid}, {}, kLambert));
     rig.run(graph);
     const auto got = rig.got<glm::vec4>(wanted);  // before the rig runs another
     EXPECT_EQ(got, add(rig, ground.s, ground.made, ground.view));
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// E open + that of the image, in each pixel.
+TEST(Indirect, AddsWhatMoves) {
+    PassRig rig;
+    const Ground ground;
+    std::vector<glm::vec4> moving;
+    for (size_t i = 0; i < ground.s.surface.size(); ++i)
+        moving.emplace_back(float(i), 2.0f * float(i), 0.5f * float(i), float(i % 9) / 8);
+    const auto without = add(rig, ground.s, ground.made, ground.view);
+    graph::FrameGraph graph;
+    const gpu_scene::IrradianceCells table = gpu_scene::irradiance_cells(ground.made.radiosity(), ground.made.light());
+    const render::GBuffer g = upload(graph, ground.s);
+    const graph::Resource scene = rig.image(graph, "scene", render::kSceneFormat, ground.s.extent, ground.s.scene);
+    const graph::Resource texels = graph.upload("cells", table.texels, VK_FORMAT_R32G32B32A32_UINT);
+    const graph::Resource image =
+        rig.image(graph, "moving", VK_FORMAT_R16G16B16A16_SFLOAT, ground.s.extent, to_halves(moving));
+    const graph::Resource wanted =
+        keep<glm::vec4>(graph, render::add_indirect(rig.frame(graph, ground.view), g, scene,
+                                                    {texels, table.log2_places, ground.made.grid}, image, kLambert));
+    rig.run(graph);
+    const auto got = rig.got<glm::vec4>(wanted);
+    for (size_t i = 0; i < got.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double want = double(without[i][c]) * double(moving[i].a) +
+                                double(kLambert) * double(ground.s.reflectance[i][c]) * double(moving[i][c]);
+            EXPECT_NEAR(double(got[i][c]), want, 1e-6 * want + 1e-6) << i;
+        }
     EXPECT_EQ(rig.complaints(), "");
 }
 
@@ -244,7 +273,7 @@ TEST(Indirect, WithoutCellsThereIsNoPass) {
     graph::FrameGraph graph;
     const render::FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
     const graph::Resource scene = graph.transient("scene", graph::image_shape(render::kSceneFormat, {8, 8}));
-    EXPECT_EQ(render::add_indirect(frame, {}, scene, {}, 1), scene);
+    EXPECT_EQ(render::add_indirect(frame, {}, scene, {}, {}, 1), scene);
     EXPECT_TRUE(graph.passes().empty());
 }
 

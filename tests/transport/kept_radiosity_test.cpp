@@ -66,6 +66,32 @@ TEST(KeptRadiosity, IsTheSame) {
     EXPECT_TRUE(gathers) << "what is not whole counts as none";
 }
 
+TEST(KeptRadiosity, HasBodiesThatMove) {
+    Shelf shelf;
+    bool gathers = false;
+    scene::Scene scene = room();
+    const size_t first = scene.nodes.size();
+    add_box(scene, 0, glm::vec3(0.5f), {0, -1, 0});
+    for (size_t node = first + 1; node < scene.nodes.size(); ++node) scene.nodes[node].parent = uint32_t(first);
+    std::vector<bool> moving(scene.nodes.size(), false);
+    for (size_t node = first; node < moving.size(); ++node) moving[node] = true;
+    const auto gathered = found(shelf, scene, gathers, moving), kept = found(shelf, scene, gathers, moving);
+    EXPECT_FALSE(gathers);
+    ASSERT_TRUE(gathered && kept);
+    ASSERT_EQ(kept->bodies.bodies.size(), 1u);
+    EXPECT_EQ(kept->bodies.bodies[0].node, first);
+    ASSERT_EQ(kept->bodies.volumes.size(), 1u);
+    EXPECT_EQ(kept->bodies.volumes[0].low, gathered->bodies.volumes[0].low);
+    EXPECT_EQ(kept->bodies.volumes[0].count, gathered->bodies.volumes[0].count);
+    EXPECT_EQ(kept->bodies.hidden, gathered->bodies.hidden);
+    scene.nodes[first].translation.x = 1;
+    found(shelf, scene, gathers, moving);
+    EXPECT_FALSE(gathers) << "where it stands does not matter";
+    scene.nodes[first + 1].translation.x = 1;
+    found(shelf, scene, gathers, moving);
+    EXPECT_TRUE(gathers) << "it has another shape";
+}
+
 TEST(KeptRadiosity, BelongsToOneScene) {
     Shelf shelf;
     bool gathers = false;

@@ -396,6 +396,8 @@ typedef struct VesperView {
     double scene_seconds; /**< time of the scene's animations, s */
     int32_t no_shadows;   /**< 1: lamps shine through everything */
     int32_t no_indirect;  /**< 1: without the light that was gathered */
+    int32_t moving_reflections; /**< 1: and with an estimate of what surfaces reflect once of lamps that move; the first
+                                 * time, and after gathering, the frame takes longer */
 } VesperView;
 
 /** Renders into arrays. `seconds`: time since the last frame, for the adaptation of the eye. */

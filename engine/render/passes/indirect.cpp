@@ -14,7 +14,7 @@ constexpr gpu::Shader kIndirect{"indirect.comp", indirect_comp};
 }  // namespace
 
 graph::Resource add_indirect(const FrameContext& frame, const GBuffer& surfaces, graph::Resource scene,
-                             const IndirectCells& cells, float lambert) {
+                             const IndirectCells& cells, graph::Resource moving_light, float lambert) {
     if (!cells.texels) return scene;
     const gpu_scene::View& view = frame.view;
     const PixelGroups groups = pixel_groups(frame.kernels.device());
@@ -30,8 +30,11 @@ graph::Resource add_indirect(const FrameContext& frame, const GBuffer& surfaces,
                                     .cubes = glm::vec3(cells.grid.count),
                                     .log2_places = cells.log2_places,
                                     .lambert = lambert};
-    frame.graph.dispatch("indirect", frame.kernels.get(kIndirect, {groups.width, groups.height, groups.rows}),
-                         {load(surfaces.reflectance), load(surfaces.surface), update(scene), sample(cells.texels)},
+    // Where nothing moves the image is not looked at; any of its format will do.
+    const uint32_t moving = moving_light ? 1 : 0;
+    frame.graph.dispatch("indirect", frame.kernels.get(kIndirect, {groups.width, groups.height, groups.rows, moving}),
+                         {load(surfaces.reflectance), load(surfaces.surface), update(scene), sample(cells.texels),
+                          load(moving ? moving_light : surfaces.reflectance)},
                          push, cover(view.extent, groups));
     return scene;
 }

@@ -13,8 +13,9 @@ struct IndirectCells {
     transport::CellGrid grid;
 };
 
-/// Adds that light to shaded luminance, in place: E rho lambert. Without cells returns `scene`.
+/// Adds that light, and that of what moves (add_moving_light), to shaded luminance, in place: E rho lambert. Without
+/// cells returns `scene`.
 graph::Resource add_indirect(const FrameContext& frame, const GBuffer& surfaces, graph::Resource scene,
-                             const IndirectCells& cells, float lambert);
+                             const IndirectCells& cells, graph::Resource moving_light, float lambert);
 
 }  // namespace vesper::render

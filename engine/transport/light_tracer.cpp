@@ -100,6 +100,17 @@ glm::dvec3 LightTracer::sky(glm::dvec3 direction) const {
     return double(scene_.sky_luminance) * glm::dvec3(scene_.sky_colour);
 }
 
+// lx, on a place that reflects it.
+glm::dvec3 LightTracer::light_of_lamps(const SurfacePoint& surface, uint32_t node, const TraceSettings& settings,
+                                       Random& random) const {
+    if (settings.lamp_looks == 0) return lamps_.illuminance(surface.position, surface.normal, settings.threshold, node);
+    std::vector<LampLight::Share> shares;
+    lamps_.sample(surface.position, surface.normal, node, settings.lamp_looks, random, shares);
+    glm::dvec3 sum(0);
+    for (const LampLight::Share& share : shares) sum += share.lux;
+    return sum;
+}
+
 Illuminance LightTracer::at(glm::dvec3 point, glm::dvec3 normal, const TraceSettings& settings) const {
     Random random(settings.seed);
     const Lattice first_directions(random);
@@ -130,7 +141,7 @@ Illuminance LightTracer::at(glm::dvec3 point, glm::dvec3 normal, const TraceSett
             const double most = std::max({kept.x, kept.y, kept.z});
             if (most <= 0 || reflections == settings.most_reflections) break;
             way = {surface.position, surface.normal, &by_power_};
-            glm::dvec3 sent = lamps_.illuminance(surface.position, surface.normal, settings.threshold, hit->node) / kPi;
+            glm::dvec3 sent = light_of_lamps(surface, hit->node, settings, random) / kPi;
             if (by_power_.any()) {
                 const double first = random.next();
                 sent += look_at_emitter(way, {first, random.next()});

@@ -35,7 +35,8 @@ struct TraceSettings {
     uint32_t paths = 16'384;
     uint32_t most_reflections = 32;  ///< light that is reflected more often counts as absorbed
     double threshold = 1e-3;         ///< illuminance below which a lamp counts as dark, lx
-    uint64_t seed = 1;               ///< the same gives the same result
+    uint32_t lamp_looks = 0;  ///< at lamps from each place that reflects, by chance and without threshold; 0: at all
+    uint64_t seed = 1;        ///< the same gives the same result
 };
 
 /// Light in a scene whose surfaces are matt (SurfacePoint): from a point paths go in directions distributed as cosines,
@@ -60,6 +61,8 @@ private:
     struct Way;
     double cosine_share(const Way& way, size_t number, glm::dvec3 to) const;
     glm::dvec3 look_at_emitter(const Way& way, glm::dvec2 chance) const;
+    glm::dvec3 light_of_lamps(const SurfacePoint& surface, uint32_t node, const TraceSettings& settings,
+                              Random& random) const;
     double weight_of_hit(const Way& way, const rays::Hit& hit, const SurfacePoint& surface) const;
 
     const scene::Scene& scene_;

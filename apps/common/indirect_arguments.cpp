@@ -6,13 +6,16 @@
 
 namespace vesper::apps {
 
-void add_indirect_options(Command command, IndirectArguments& a) {
+void add_indirect_options(Command command, IndirectArguments& a, bool exact) {
+    const std::string help =
+        "cached: emitting surfaces and the sky light what stands still, and so does reflected light; off: a constant "
+        "stands for them";
+    std::vector<std::string> words{"cached", "off"};
+    if (exact) words.emplace_back("exact");
     command
-        .add_option(
-            "--indirect", a.indirect,
-            "cached: emitting surfaces and the sky light what stands still, and so does reflected light; off: a "
-            "constant stands for them")
-        .check(one_of({"cached", "off"}))
+        .add_option("--indirect", a.indirect,
+                    help + (exact ? "; exact: they are traced for each pixel of each frame (slow)" : ""))
+        .check(one_of(words))
         .shows_default();
     command.add_option("--reflections", a.reflections, "Reflections of light that are counted")
         .check(range(0u, 100u))

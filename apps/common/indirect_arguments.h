@@ -16,8 +16,8 @@ struct IndirectArguments {
     std::string indirect = "cached", moving = "off";
     uint32_t reflections = 3;
 };
-/// --indirect, --reflections and --moving-reflections.
-void add_indirect_options(Command, IndirectArguments&);
+/// --indirect, --reflections and --moving-reflections. `exact`: whether light may be traced for each pixel, too.
+void add_indirect_options(Command, IndirectArguments&, bool exact = false);
 void set_indirect(const IndirectArguments&, render::RenderSettings&);
 
 /// What surfaces at rest of a scene send each other: from the cache (null: none), or gathered, which it then keeps.

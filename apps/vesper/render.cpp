@@ -25,17 +25,23 @@
 #include "statistics.h"
 #include "tone_arguments.h"
 #include "tone_log.h"
+#include "traced_light.h"
 
 namespace vesper::commands {
 namespace {
 
 using apps::format, apps::print;
 
+constexpr unsigned kPathsOfPixel = 16, kMostPathsOfPixel = 1u << 20;
+
 struct RenderArguments {
     std::string scene, camera, size = "1680x1050", device, lambert = "physical";
     apps::ToneArguments tone;
     apps::ShadowArguments shadows;
     apps::IndirectArguments indirect;
+    unsigned paths = kPathsOfPixel;
+    bool traces = false;  // light for each pixel
+    transport::TraceSettings tracing;
     apps::GlareArguments glare;
     std::vector<std::string> outputs;
     std::string statistics_file, log_file, replay_file, sources_file;
@@ -136,6 +142,18 @@ void write_outputs(const RenderArguments& arguments, const gpu::Device& device, 
     }
 }
 
+// Of --indirect exact. All reflections count there unless a number is given.
+void check_paths(RenderArguments& a) {
+    const apps::Command& command = a.tone.eye.command;
+    a.traces = a.indirect.indirect == "exact";
+    if (!a.traces && command.count("--paths") > 0) throw Error("--paths has a meaning only beside --indirect exact");
+    if (a.traces && a.settings.tone_operator == render::Operator::Ldr)
+        throw Error("--indirect exact has no meaning with the ldr operator, which shows the light of lamps alone");
+    a.tracing.paths = a.paths, a.tracing.lamp_looks = kLampLooks;
+    if (command.count("--reflections") > 0) a.tracing.most_reflections = a.indirect.reflections;
+    a.tracing.threshold = HUGE_VAL;  // light of lamps directly is the device's
+}
+
 // Everything that can be wrong with the arguments alone, and what follows from them.
 void check_arguments(RenderArguments& arguments) {
     render::RenderSettings& settings = arguments.settings;
@@ -144,6 +162,7 @@ void check_arguments(RenderArguments& arguments) {
     settings.paper_lambert = arguments.lambert == "paper";
     apps::set_shadows(arguments.shadows, settings);
     apps::set_indirect(arguments.indirect, settings);
+    check_paths(arguments);
     io::announce_read(arguments.scene);
     io::announce_read(arguments.replay_file);
     io::announce_read(arguments.glare.lamps);
@@ -216,6 +235,22 @@ std::vector<FrameTime> moments_of(const RenderArguments& arguments) {
     return moments;
 }
 
+// Of all frames; where light is traced also within a frame.
+class FrameProgress {
+public:
+    explicit FrameProgress(const RenderArguments& a)
+        : steps_(a.traces ? 100 : 1),
+          bar_(a.traces ? "tracing light, " + std::to_string(a.paths) + " paths a pixel" : "rendering",
+               a.frames * steps_) {}
+    void at(unsigned frame, double share) {
+        for (; done_ < frame * steps_ + unsigned(share * steps_); ++done_) bar_.step();
+    }
+
+private:
+    unsigned steps_, done_ = 0;
+    apps::Progress bar_;
+};
+
 void run(RenderArguments& arguments) {
     const VkExtent2D extent = apps::parse_size(arguments.size);
     check_arguments(arguments);
@@ -250,12 +285,12 @@ void run(RenderArguments& arguments) {
     render::Renderer renderer(device, scene);
     const std::shared_ptr<Cache> cache = apps::shadow_cache(arguments.shadows.cache);
     renderer.keep_maps(cache);
-    if (arguments.settings.indirect)
+    if (arguments.settings.indirect && !arguments.traces)
         renderer.set_radiosity(apps::gathered(scene, moment.world, scene::animated_nodes(scene), cache.get()));
     if (arguments.settings.moving_reflections)
         renderer.set_lamp_reflections(
             std::make_shared<const transport::LampReflections>(scene, moment.world, scene::animated_nodes(scene)));
-    apps::Progress progress("rendering", arguments.frames);
+    FrameProgress progress(arguments);
     std::vector<double> milliseconds;
     std::optional<io::GrowingFile> log, sources;
     const auto begin = [](std::optional<io::GrowingFile>& grows, const std::string& file, const std::string& heading) {
@@ -269,6 +304,10 @@ void run(RenderArguments& arguments) {
         moment.world = scene::world_transforms(scene, seconds);
         const gpu_scene::View view = gpu_scene::camera_view(scene, moment, arguments.camera, extent);
         const bool last = index + 1 == arguments.frames;
+        if (arguments.traces)
+            renderer.set_illuminance(
+                other_light(traced_light(device, scene, renderer.scene(), moment, view, arguments.tracing,
+                                         [&](double share) { progress.at(index, share); })));
         const render::Frame frame =
             renderer.render(arguments.settings, view, moment, step,
                             {.display = outputs.display, .scene = outputs.scene || (last && wants_statistics)});
@@ -296,7 +335,7 @@ void run(RenderArguments& arguments) {
                 apps::write_text(arguments.statistics_file,
                                  apps::json_of(apps::luminance_statistics(frame.scene)) + "\n");
         }
-        progress.step();
+        progress.at(index, 1);
     }
     if (log) log->complete();
     if (sources) sources->complete();
@@ -353,13 +392,21 @@ void add_render(apps::Command program) {
     apps::add_glare_options(command, a->glare);
     command.help_group("Light");
     apps::add_shadow_options(command, a->shadows);
-    apps::add_indirect_options(command, a->indirect);
+    apps::add_indirect_options(command, a->indirect, true);
+    command
+        .add_option(
+            "--paths", a->paths,
+            "With --indirect exact: of rays from each pixel; noise, with 16 some 45 % of that light, falls with "
+            "their root")
+        .check(apps::range(1u, kMostPathsOfPixel))
+        .shows_default();
     command.add_flag("--all-lamps,--all-lights", a->settings.all_lamps,
                      "Shade every lamp above the threshold in every pixel (slow, for comparison)");
     command.help_group();
     command.footer(
         "Examples:\n  vesper render night.gltf --camera driver --stats -o night.png\n"
         "  vesper render night.gltf --camera driver -o night.exr\n"
+        "  vesper render night.gltf --camera driver --size 640x400 --indirect exact --paths 64 -o exact.png\n"
         "  mkdir drive && vesper render night.gltf --camera driver --frames 300 --dt 0.0333 -o drive/%04d.png\n");
     command.callback([a, command] {
         a->options = apps::options_of(

@@ -1,7 +1,9 @@
 #include "render/renderer.h"
 
+#include <string>
 #include <utility>
 
+#include "base/error.h"
 #include "gpu_scene/retro.h"
 #include "gpu_scene/sky.h"
 #include "render/passes/luminaires.h"
@@ -43,6 +45,7 @@ void Renderer::set_scene(const scene::Scene& scene) {
     directional_maps_.reset();
     indirect_.reset();
     lamp_reflections_.reset();
+    illuminance_.clear();
     scene_ = std::move(data);
 }
 
@@ -98,7 +101,7 @@ Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const Render
     in.shading.retro = texels("retroreflection", scene_->retro);
     in.daylight = {poses.tunnels, ambient.illuminance, in.shading.lambert};
     in.sky = {texels("sky map", scene_->sky), scene_->sky_sharp_side, in.shading.lambert};
-    if (settings.indirect && indirect_) add_indirect_light(graph, in, settings, view, poses, ambient);
+    if (settings.indirect) add_indirect_light(graph, in, settings, view, poses, ambient);
     for (const gpu_scene::GlareSource& source : in.luminaires.glare_sources)
         if (source.inside < 1)
             in.chain.scatter.lamps.push_back({source.direction, (1 - source.inside) * source.illuminance});
@@ -109,18 +112,35 @@ Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const Render
 void Renderer::add_indirect_light(graph::FrameGraph& graph, FrameInputs& in, const RenderSettings& settings,
                                   const gpu_scene::View& view, const gpu_scene::SceneFrame& poses,
                                   const gpu_scene::AmbientLight& ambient) {
-    const transport::RadiosityLight light{.factors = poses.dimming,
-                                          .sky = glm::dvec3(ambient.sky),
-                                          .sky_picture = scene_->sky_on ? &*scene_->sky_on : nullptr,
-                                          .reflections = settings.reflections};
-    in.indirect = indirect_->cells(graph, device_, light, [this] { frames_.wait(); });
-    std::vector<transport::LitPatch> patches;
-    if (settings.moving_reflections && lamp_reflections_)
-        patches = lamp_reflections_->patches(poses.world, poses.dimming, gpu_scene::eye_of(view));
-    if (in.indirect.texels) in.moving = indirect_->moving(graph, device_, patches, poses, view);
+    if (!illuminance_.empty()) {
+        in.illuminance = illuminance_image(graph, view.extent);
+    } else if (indirect_) {
+        const transport::RadiosityLight light{.factors = poses.dimming,
+                                              .sky = glm::dvec3(ambient.sky),
+                                              .sky_picture = scene_->sky_on ? &*scene_->sky_on : nullptr,
+                                              .reflections = settings.reflections};
+        in.indirect = indirect_->cells(graph, device_, light, [this] { frames_.wait(); });
+        std::vector<transport::LitPatch> patches;
+        if (settings.moving_reflections && lamp_reflections_)
+            patches = lamp_reflections_->patches(poses.world, poses.dimming, gpu_scene::eye_of(view));
+        if (in.indirect.texels) in.moving = indirect_->moving(graph, device_, patches, poses, view);
+    } else {
+        return;
+    }
     in.shading.ambient = glm::vec3(0);
     in.daylight.tunnels.clear();
     in.sky.lambert = 0;
+}
+
+graph::Resource Renderer::illuminance_image(graph::FrameGraph& graph, VkExtent2D extent) const {
+    if (illuminance_.size() != uint64_t(extent.width) * extent.height)
+        throw Error("illuminance of " + std::to_string(illuminance_.size()) + " pixels for a frame of " +
+                    std::to_string(extent.width) + " x " + std::to_string(extent.height) + " px");
+    const graph::Resource from = graph.upload("illuminance of pixels", illuminance_);
+    const graph::Resource to =
+        graph.transient("illuminance", graph::image_shape(VK_FORMAT_R32G32B32A32_SFLOAT, extent));
+    graph.copy("bring illuminance", from, to);
+    return to;
 }
 
 // Maps are drawn while no frame uses them.
@@ -159,6 +179,7 @@ ToneChain Renderer::declare(const FrameContext& frame, const gpu_scene::SceneFra
     scene = add_daylight(frame, surfaces, scene, inputs.daylight);
     const graph::Resource moving = add_moving_light(frame, surfaces, inputs.moving);
     scene = add_indirect(frame, surfaces, scene, inputs.indirect, moving, inputs.shading.lambert);
+    scene = add_illuminance(frame, surfaces, scene, inputs.illuminance, inputs.shading.lambert);
     scene = add_sky(frame, surfaces, scene, inputs.sky);
     scene = add_luminaires(frame, scene, surfaces.surface, inputs.luminaires);
     const ToneChain chain = add_tone_chain(frame, scene, settings, inputs.chain, outputs);

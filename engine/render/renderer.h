@@ -82,6 +82,9 @@ public:
     void set_lamp_reflections(std::shared_ptr<const transport::LampReflections> reflections) {
         lamp_reflections_ = std::move(reflections);
     }
+    /// That light of each pixel in frames to come, RGB lx, for RenderSettings::indirect: in place of what is known by
+    /// set_radiosity(), as long as it is set. Empty, as at first and after set_scene(): it is not known.
+    void set_illuminance(std::vector<glm::vec4> illuminance) { illuminance_ = std::move(illuminance); }
     /// Takes another scene, or the same after a change. The eye goes on.
     void set_scene(const scene::Scene& scene);
 
@@ -135,6 +138,7 @@ private:
         SkyTexels sky;
         IndirectCells indirect;
         MovingLight moving;
+        graph::Resource illuminance;  // or that
         DirectionalMapsOfFrame directional;
         uint32_t directional_levels = 0;  // drawn for it
         ChainInputs chain;
@@ -150,6 +154,7 @@ private:
     void add_indirect_light(graph::FrameGraph& graph, FrameInputs& in, const RenderSettings& settings,
                             const gpu_scene::View& view, const gpu_scene::SceneFrame& poses,
                             const gpu_scene::AmbientLight& ambient);
+    graph::Resource illuminance_image(graph::FrameGraph& graph, VkExtent2D extent) const;
     FrameInputs inputs_of(graph::FrameGraph& graph, const RenderSettings& settings, const gpu_scene::View& view,
                           const gpu_scene::SceneFrame& poses, float seconds);
     ToneChain declare(const FrameContext& frame, const gpu_scene::SceneFrame& poses, const FrameInputs& inputs,
@@ -162,7 +167,8 @@ private:
     std::unique_ptr<DirectionalMaps> directional_maps_;
     std::unique_ptr<IndirectLight> indirect_;
     std::shared_ptr<const transport::LampReflections> lamp_reflections_;
-    FrameQueue frames_;  // waits for its frames, which use the rest
+    std::vector<glm::vec4> illuminance_;  // pixels
+    FrameQueue frames_;                   // waits for its frames, which use the rest
     std::optional<Pending> pending_;
 };
 

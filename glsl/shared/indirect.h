@@ -36,5 +36,14 @@ struct IndirectPush {
 };
 SHARED_SIZE(IndirectPush, 92)
 
+// Of illuminance that is known for each pixel.
+struct IlluminancePush {
+    uvec2 size;       // px
+    vec2 ray_scale;   // as in ClusterGrid
+    vec2 ray_offset;
+    float lambert;    // as in ShadePush
+};
+SHARED_SIZE(IlluminancePush, 28)
+
 SHARED_END
 #endif

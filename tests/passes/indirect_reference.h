@@ -148,4 +148,11 @@ inline dvec3 add_indirect(const CellList& cells, const SurfaceTexel& texel, dvec
                             illuminance_on_side(cells, at.place, at.normal, sides_of(at.normal)[0]), lambert);
 }
 
+/// The same of illuminance that is known for the pixel, lx.
+inline dvec3 add_illuminance(const SurfaceTexel& texel, dvec3 luminance, dvec3 illuminance, glm::dvec2 pixel_centre,
+                             const gpu_scene::View& view, double lambert) {
+    if (!(texel.surface.z > 0)) return luminance;
+    return luminance + sent(texel, pixel_centre, view, illuminance, lambert);
+}
+
 }  // namespace vesper::reference

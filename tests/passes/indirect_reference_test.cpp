@@ -74,6 +74,17 @@ TEST(IndirectReference, APixelSendsWhatItsSurfaceReflects) {
     EXPECT_EQ(reference::add_indirect(cells, texel, {1, 2, 3}, pixel, view, 1), dvec3(1, 2, 3)) << "sky";
 }
 
+TEST(IndirectReference, OfKnownIlluminanceAPixelSendsRhoEOverPi) {
+    const gpu_scene::View view = gpu_scene::View::symmetric({8, 8}, 1, glm::dmat4(1));
+    reference::SurfaceTexel texel{{0.5, 0.25, 1, 0}, {reference::octahedral_encode({0, 0, 1}), 6, 1}, dvec3(0)};
+    const dvec3 found = reference::add_illuminance(texel, {1, 2, 3}, {10, 20, 40}, {4, 4}, view, 1 / std::numbers::pi);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], 1 + c + (c < 2 ? 5 : 40) / std::numbers::pi, 1e-12) << c;
+    texel.reflectance.w = double(shared::kRoadKind), texel.surface.w = -0.5;  // a road, seen from above
+    EXPECT_NEAR(reference::add_illuminance(texel, dvec3(0), {10, 20, 40}, {4, 4}, view, 1).x, 2.5, 1e-12);
+    texel.surface.z = 0;
+    EXPECT_EQ(reference::add_illuminance(texel, {1, 2, 3}, {10, 20, 40}, {4, 4}, view, 1), dvec3(1, 2, 3)) << "sky";
+}
+
 // Cells at random heights, gaps among them; points in the grid and beside it. (Beyond it along their normal the host
 // still finds cells near its border, which no cell of the table stands for.)
 TEST(IndirectReference, IsTheLookupOfTheHost) {

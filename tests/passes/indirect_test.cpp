@@ -277,5 +277,72 @@ TEST(Indirect, WithoutCellsThereIsNoPass) {
     EXPECT_TRUE(graph.passes().empty());
 }
 
+std::vector<glm::vec4> add_known(PassRig& rig, const Lit& s, const std::vector<glm::vec4>& lux,
+                                 const gpu_scene::View& view) {
+    graph::FrameGraph graph;
+    const render::GBuffer g = upload(graph, s);
+    const graph::Resource scene = rig.image(graph, "scene", render::kSceneFormat, s.extent, s.scene),
+                          known = rig.image(graph, "lux", VK_FORMAT_R32G32B32A32_SFLOAT, s.extent, lux);
+    const graph::Resource wanted =
+        keep<glm::vec4>(graph, render::add_illuminance(rig.frame(graph, view), g, scene, known, kLambert));
+    rig.run(graph);
+    return rig.got<glm::vec4>(wanted);
+}
+
+std::vector<glm::vec4> illuminance(VkExtent2D extent, uint32_t seed) {
+    Noise random(seed);
+    std::vector<glm::vec4> lux;
+    for (uint32_t i = 0; i < extent.width * extent.height; ++i)
+        lux.emplace_back(1e3f * random.unit(), random.unit(), 1e-3f * random.unit(), 7);
+    return lux;
+}
+
+// A product of four factors, and of road surfaces a smooth step of the angle of sight: 2e-6.
+TEST(Indirect, MatchesTheReferenceOfKnownIlluminance) {
+    PassRig rig;
+    for (const VkExtent2D extent : {VkExtent2D{1, 1}, {7, 5}, {33, 9}, {97, 61}}) {
+        SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
+        const gpu_scene::View view = looking(extent, {1, 2, -3});
+        const Lit s = noise(extent, extent.width);
+        const std::vector<glm::vec4> lux = illuminance(extent, extent.height);
+        expect_light("illuminance", extent, add_known(rig, s, lux, view), {2e-6, 1e-6}, [&](size_t i) {
+            return reference::Shaded{reference::add_illuminance(s.texel(i), dvec3(s.scene[i]), dvec3(lux[i]),
+                                                                glm::dvec2(s.pixel(i)) + 0.5, view, double(kLambert)),
+                                     dvec3(0)};
+        });
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Indirect, KnownIlluminanceThatIsNotFiniteStaysInItsPixel) {
+    PassRig rig;
+    const VkExtent2D extent{41, 17};
+    const gpu_scene::View view = looking(extent, {0, 0, 4});
+    const Lit clean = noise(extent, 4);
+    const std::vector<glm::vec4> clean_lux = illuminance(extent, 5);
+    Lit s = clean;
+    std::vector<glm::vec4> lux = clean_lux;
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
+    for (size_t i = 3; i < s.scene.size(); i += 7) {
+        lux[i] = glm::vec4(i % 2 ? kNan : kInf);
+        if (i % 3 == 0) s.surface[i] = {kNan, kInf, i % 2 ? kNan : kInf, kNan}, s.reflectance[i] = glm::vec4(kNan);
+    }
+    const auto got = add_known(rig, s, lux, view), want = add_known(rig, clean, clean_lux, view);
+    for (size_t i = 0; i < got.size(); ++i)
+        if (i % 7 != 3) {
+            EXPECT_EQ(got[i], want[i]) << "pixel " << i;
+        }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Indirect, WithoutIlluminanceThereIsNoPass) {
+    PassRig rig;
+    graph::FrameGraph graph;
+    const render::FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
+    const graph::Resource scene = graph.transient("scene", graph::image_shape(render::kSceneFormat, {8, 8}));
+    EXPECT_EQ(render::add_illuminance(frame, {}, scene, {}, 1), scene);
+    EXPECT_TRUE(graph.passes().empty());
+}
+
 }  // namespace
 }  // namespace vesper::test::indirect_test

@@ -1,6 +1,7 @@
 #include "render/passes/indirect.h"
 
 #include "render/pixel_groups.h"
+#include "shaders/indirect/illuminance.comp.inc"
 #include "shaders/indirect/indirect.comp.inc"
 #include "shared/indirect.h"
 
@@ -10,6 +11,7 @@ namespace {
 using graph::load, graph::sample, graph::update;
 
 constexpr gpu::Shader kIndirect{"indirect.comp", indirect_comp};
+constexpr gpu::Shader kIlluminance{"illuminance.comp", illuminance_comp};
 
 }  // namespace
 
@@ -36,6 +38,21 @@ graph::Resource add_indirect(const FrameContext& frame, const GBuffer& surfaces,
                          {load(surfaces.reflectance), load(surfaces.surface), update(scene), sample(cells.texels),
                           load(moving ? moving_light : surfaces.reflectance)},
                          push, cover(view.extent, groups));
+    return scene;
+}
+
+graph::Resource add_illuminance(const FrameContext& frame, const GBuffer& surfaces, graph::Resource scene,
+                                graph::Resource illuminance, float lambert) {
+    if (!illuminance) return scene;
+    const gpu_scene::View& view = frame.view;
+    const PixelGroups groups = pixel_groups(frame.kernels.device());
+    const shared::IlluminancePush push{.size = {view.extent.width, view.extent.height},
+                                       .ray_scale = view.ray_scale(),
+                                       .ray_offset = view.ray_offset(),
+                                       .lambert = lambert};
+    frame.graph.dispatch("illuminance", frame.kernels.get(kIlluminance, {groups.width, groups.height, groups.rows}),
+                         {load(surfaces.reflectance), load(surfaces.surface), update(scene), load(illuminance)}, push,
+                         cover(view.extent, groups));
     return scene;
 }
 

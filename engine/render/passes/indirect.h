@@ -18,4 +18,9 @@ struct IndirectCells {
 graph::Resource add_indirect(const FrameContext& frame, const GBuffer& surfaces, graph::Resource scene,
                              const IndirectCells& cells, graph::Resource moving_light, float lambert);
 
+/// The same light where it is known for each pixel: an image of its illuminance, rgba32f, RGB lx. Without one returns
+/// `scene`.
+graph::Resource add_illuminance(const FrameContext& frame, const GBuffer& surfaces, graph::Resource scene,
+                                graph::Resource illuminance, float lambert);
+
 }  // namespace vesper::render

@@ -48,28 +48,35 @@ Kind kind_of(const std::string& file) {
 
 void run(const InspectArguments& a) {
     std::optional<Budget> budget;
-    if (!a.balance) budget.emplace("inspecting " + one_line(a.file));  // that takes the time it takes
+    if (!a.balance && a.light.empty()) budget.emplace("inspecting " + one_line(a.file));  // these take their time
     io::announce_read(a.file);
     io::announce_write("--json", a.json);
     if (!a.picture.empty() && !a.picture.ends_with(".png"))
         throw Error("-o " + a.picture + ": a .png file is expected");
     io::announce_write("-o", a.picture);
+    if (!a.light.empty()) announce_light_picture(a);
     const Kind kind = kind_of(a.file);
     const auto only = [&](bool given, Kind wanted, const char* what) {
         if (given && kind != wanted) throw Error(what);
     };
     only(!a.probes.empty(), Kind::Picture, "--probe is for pictures (.exr, .hdr)");
-    only(a.low > 0 || a.high > 0, Kind::Picture, "--low and --high are for pictures (.exr, .hdr)");
+    only((a.low > 0 || a.high > 0) && a.light.empty(), Kind::Picture,
+         "--low and --high are for pictures (.exr, .hdr) and --light");
     only(a.contours, Kind::Picture, "--contours is for pictures (.exr, .hdr)");
     only(!a.lamp.empty(), Kind::Scene, "--lamp is for scenes (.gltf, .glb)");
     only(!a.points.empty(), Kind::Scene, "--at is for scenes (.gltf, .glb)");
+    only(!a.light.empty(), Kind::Scene, "--light is for scenes (.gltf, .glb)");
     only(a.balance, Kind::Scene, "--balance is for scenes (.gltf, .glb)");
-    if (int(!a.lamp.empty()) + int(!a.points.empty()) + int(a.balance) > 1)
-        throw Error("--at, --lamp and --balance are reports of their own: ask for one of them");
-    if (a.points.empty() && (!a.normal.empty() || a.paths > 0))
-        throw Error("--normal and --paths have a meaning only beside --at");
-    if (a.lamp.empty() && (a.lamp_number > 1 || !a.device.empty()))
-        throw Error("--lamp-number and --device have a meaning only beside --lamp");
+    if (int(!a.lamp.empty()) + int(!a.points.empty()) + int(!a.light.empty()) + int(a.balance) > 1)
+        throw Error("--at, --light, --lamp and --balance are reports of their own: ask for one of them");
+    if (a.points.empty() && !a.normal.empty()) throw Error("--normal has a meaning only beside --at");
+    if (a.points.empty() && a.light.empty() && a.paths > 0)
+        throw Error("--paths has a meaning only beside --at and --light");
+    if (a.light.empty() && (!a.camera.empty() || !a.size.empty()))
+        throw Error("--camera and --size have a meaning only beside --light");
+    if (a.lamp.empty() && a.lamp_number > 1) throw Error("--lamp-number has a meaning only beside --lamp");
+    if (a.lamp.empty() && a.light.empty() && !a.device.empty())
+        throw Error("--device has a meaning only beside --lamp and --light");
     if (!a.picture.empty() && ((kind == Kind::Scene && a.lamp.empty()) || kind == Kind::Table))
         throw Error("-o " + a.picture + ": there is a picture of lamps and of pictures only (of a scene: with --lamp)");
     Inspection found;
@@ -77,6 +84,7 @@ void run(const InspectArguments& a) {
         case Kind::Scene:
             found = a.balance           ? inspect_balance(a)
                     : !a.points.empty() ? inspect_light(a)
+                    : !a.light.empty()  ? inspect_light_picture(a)
                     : a.lamp.empty()    ? inspect_scene(a)
                                         : inspect_lamp_map(a);
             break;
@@ -115,18 +123,25 @@ void add_inspect(apps::Command program) {
     command.add_option("--at", a->points,
                        "Scenes: X,Y,Z, m: the light on a surface there, by its origin; may be repeated");
     command.add_option("--normal", a->normal, "With --at: X,Y,Z, where the surface faces (default: 0,1,0, up)");
+    command.add_option("--light", a->light,
+                       "Scenes: light on the surfaces that --camera sees, by its origin, lx: PREFIX.exr, with a layer "
+                       "for each, and PREFIX-lamps.png and so on in false colours; takes some minutes");
+    command.add_option("--camera,-c", a->camera, "With --light: name of a camera of the scene (default: the first)");
+    command.add_option("--size,-s", a->size, "With --light: WIDTHxHEIGHT, px (default: 640x400)");
     command
         .add_option("--paths", a->paths,
-                    "With --at: of rays to a point (default: 16384); the error falls with the root")
+                    "With --at: of rays to a point (default: 16384); with --light: of each pixel (32); the error falls "
+                    "with the root")
         .check(apps::between(16, 1e8));
     command.add_flag("--balance", a->balance,
                      "Scenes: luminous flux that lamps and surfaces emit, and where it goes; takes a minute or so");
-    command.add_option("--device", a->device, "With --lamp: part of a name, cpu, or an index of vesper devices");
+    command.add_option("--device", a->device,
+                       "With --lamp and --light: part of a name, cpu, or an index of vesper devices");
     command.add_option("--probe", a->probes, "Pictures: X,Y from the top left, px; may be repeated");
     command.add_option("--layer", a->layer, apps::kLayerHelp);
-    command.add_option("--low", a->low, "Pictures: lower end of the colour scale, cd/m^2")
+    command.add_option("--low", a->low, "Pictures: lower end of the colour scale, cd/m^2; with --light, lx")
         .check(apps::between(1e-30, 1e30));
-    command.add_option("--high", a->high, "Pictures: upper end of the colour scale, cd/m^2")
+    command.add_option("--high", a->high, "Pictures: upper end of the colour scale, cd/m^2; with --light, lx")
         .check(apps::between(1e-30, 1e30));
     command.add_flag("--contours", a->contours,
                      "Pictures: lines at the luminances of the classes M6 to M1 of EN 13201-2");
@@ -135,6 +150,7 @@ void add_inspect(apps::Command program) {
         "Examples:\n  vesper inspect night.gltf\n  vesper inspect data/road/luminaire.ldt -o luminaire.png\n"
         "  vesper inspect night.gltf --lamp \"street lamp\" -o map.png\n"
         "  vesper inspect night.gltf --at 8.5,0.15,-60 --at 10,3,-60 --normal -1,0,0\n"
+        "  vesper inspect night.gltf --light light --camera driver --paths 256\n"
         "  vesper inspect night.gltf --balance\n"
         "  vesper inspect night.exr --probe 840,700 -o luminance.png\n");
     command.callback([a] { run(*a); });

@@ -13,7 +13,9 @@ struct InspectArguments {
     uint32_t lamp_number = 1;  ///< of those that `lamp` names, from 1
     std::vector<std::string> probes, points;
     std::string normal;        ///< of the surfaces at the points; empty: up
-    uint32_t paths = 0;        ///< to a point; 0: the standard number
+    uint32_t paths = 0;        ///< to a point or from a pixel; 0: the standard number
+    std::string light;         ///< what files of a picture's light begin with
+    std::string camera, size;  ///< of that picture; empty: the first, the standard size
     double low = 0, high = 0;  ///< ends of the colour scale; 0: found
     bool contours = false;
     bool balance = false;  ///< of luminous flux
@@ -26,11 +28,13 @@ struct Inspection {
 };
 
 Inspection inspect_scene(const InspectArguments&);
-Inspection inspect_light(const InspectArguments&);         ///< at points of a scene
-Inspection inspect_balance(const InspectArguments&);       ///< of a scene's luminous flux
-Inspection inspect_lamp_map(const InspectArguments&);      ///< of a scene; writes the picture if one is wanted
-Inspection inspect_distribution(const InspectArguments&);  ///< writes the picture if one is wanted
-Inspection inspect_table(const InspectArguments&);         ///< an r-table
-Inspection inspect_picture(const InspectArguments&);       ///< writes the picture if one is wanted
+Inspection inspect_light(const InspectArguments&);          ///< at points of a scene
+void announce_light_picture(const InspectArguments&);       ///< of the files that the next one writes (FileGate)
+Inspection inspect_light_picture(const InspectArguments&);  ///< of what a camera sees; writes the pictures
+Inspection inspect_balance(const InspectArguments&);        ///< of a scene's luminous flux
+Inspection inspect_lamp_map(const InspectArguments&);       ///< of a scene; writes the picture if one is wanted
+Inspection inspect_distribution(const InspectArguments&);   ///< writes the picture if one is wanted
+Inspection inspect_table(const InspectArguments&);          ///< an r-table
+Inspection inspect_picture(const InspectArguments&);        ///< writes the picture if one is wanted
 
 }  // namespace vesper::commands

@@ -149,6 +149,8 @@ void check_paths(RenderArguments& a) {
     if (!a.traces && command.count("--paths") > 0) throw Error("--paths has a meaning only beside --indirect exact");
     if (a.traces && a.settings.tone_operator == render::Operator::Ldr)
         throw Error("--indirect exact has no meaning with the ldr operator, which shows the light of lamps alone");
+    if (a.traces && a.settings.moving_reflections)
+        throw Error("--moving-reflections has no meaning with --indirect exact, which traces light of all lamps");
     a.tracing.paths = a.paths, a.tracing.lamp_looks = kLampLooks;
     if (command.count("--reflections") > 0) a.tracing.most_reflections = a.indirect.reflections;
     a.tracing.threshold = HUGE_VAL;  // light of lamps directly is the device's

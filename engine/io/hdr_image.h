@@ -53,4 +53,13 @@ HdrImage decode_hdr_image(std::span<const uint8_t> bytes, const std::string& nam
 /// only when complete. Throws Error.
 void write_exr(const std::filesystem::path& file, const HdrImage&);
 
+/// Pictures of one size in one file, 3 values per pixel: channels NAME.R, NAME.G and NAME.B, without a name R, G and B.
+struct ExrLayerPixels {
+    std::string name;
+    std::span<const float> rgb;
+};
+/// Writes them as write_exr does, without whiteLuminance: what they hold is for the header to say.
+void write_exr_layers(const std::filesystem::path& file, uint32_t width, uint32_t height,
+                      std::span<const ExrLayerPixels> layers, const Header& header);
+
 }  // namespace vesper::io

@@ -20,11 +20,15 @@ HdrImage decode_exr(std::span<const uint8_t> bytes, const std::string& name, con
 HdrImage decode_radiance(std::span<const uint8_t> bytes, const HdrLimits&);
 
 struct ExrPixels {
+    const float* values;  ///< R, G, B of the first pixel
+    size_t stride;        ///< from pixel to pixel
+    std::string layer;    ///< empty: none
+};
+struct ExrPicture {
     uint32_t width, height;
-    const float* values;     ///< R, G, B of the first pixel
-    size_t stride;           ///< from pixel to pixel
+    std::vector<ExrPixels> layers;
     double white_luminance;  ///< cd/m^2 of (1, 1, 1); 0: unknown
 };
-void encode_exr(const std::filesystem::path& file, const ExrPixels&, const Header&);
+void encode_exr(const std::filesystem::path& file, const ExrPicture&, const Header&);
 
 }  // namespace vesper::io::hdr

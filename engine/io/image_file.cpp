@@ -167,7 +167,7 @@ void write_png_10bit(const std::filesystem::path& file, uint32_t width, uint32_t
 
 namespace hdr {
 
-void encode_exr(const std::filesystem::path& file, const ExrPixels& picture, const Header& header) {
+void encode_exr(const std::filesystem::path& file, const ExrPicture& picture, const Header& header) {
     MemoryStream stream(file.string());
     try {
         Imf::Header exr(static_cast<int>(picture.width), static_cast<int>(picture.height));
@@ -176,14 +176,15 @@ void encode_exr(const std::filesystem::path& file, const ExrPixels& picture, con
         if (picture.white_luminance > 0) Imf::addWhiteLuminance(exr, static_cast<float>(picture.white_luminance));
         for (const auto& [name, text] : header) exr.insert(name, Imf::StringAttribute(text));
         Imf::FrameBuffer pixels;
-        const char* names[] = {"R", "G", "B"};
-        for (size_t c = 0; c < 3; ++c) {
-            exr.channels().insert(names[c], Imf::Channel(Imf::FLOAT));
-            // The slice is only read from, but OpenEXR has one type for both directions.
-            char* base = reinterpret_cast<char*>(const_cast<float*>(picture.values + c));
-            const size_t step = picture.stride * sizeof(float);
-            pixels.insert(names[c], Imf::Slice(Imf::FLOAT, base, step, step * picture.width));
-        }
+        for (const ExrPixels& layer : picture.layers)
+            for (size_t c = 0; c < 3; ++c) {
+                const std::string name = layer.layer + (layer.layer.empty() ? "" : ".") + "RGB"[c];
+                exr.channels().insert(name, Imf::Channel(Imf::FLOAT));
+                // The slice is only read from, but OpenEXR has one type for both directions.
+                char* base = reinterpret_cast<char*>(const_cast<float*>(layer.values + c));
+                const size_t step = layer.stride * sizeof(float);
+                pixels.insert(name, Imf::Slice(Imf::FLOAT, base, step, step * picture.width));
+            }
         Imf::OutputFile out(stream, exr);
         out.setFrameBuffer(pixels);
         out.writePixels(static_cast<int>(picture.height));
@@ -200,12 +201,23 @@ void encode_exr(const std::filesystem::path& file, const ExrPixels& picture, con
 void write_exr(const std::filesystem::path& file, uint32_t width, uint32_t height, std::span<const float> rgba,
                const Header& header) {
     check_size(file, width, height, 4, rgba.size());
-    hdr::encode_exr(file, {width, height, rgba.data(), 4, 1.0}, header);
+    hdr::encode_exr(file, {width, height, {{rgba.data(), 4, {}}}, 1.0}, header);
 }
 
 void write_exr(const std::filesystem::path& file, const HdrImage& image) {
     check_size(file, image.width, image.height, 3, image.rgb.size());
-    hdr::encode_exr(file, {image.width, image.height, image.rgb.data(), 3, image.white_luminance}, image.header);
+    hdr::encode_exr(file, {image.width, image.height, {{image.rgb.data(), 3, {}}}, image.white_luminance},
+                    image.header);
+}
+
+void write_exr_layers(const std::filesystem::path& file, uint32_t width, uint32_t height,
+                      std::span<const ExrLayerPixels> layers, const Header& header) {
+    hdr::ExrPicture picture{width, height, {}, 0};
+    for (const ExrLayerPixels& layer : layers) {
+        check_size(file, width, height, 3, layer.rgb.size());
+        picture.layers.push_back({layer.rgb.data(), 3, layer.name});
+    }
+    hdr::encode_exr(file, picture, header);
 }
 
 }  // namespace vesper::io

@@ -1,6 +1,7 @@
 // Light traced for each pixel: in pictures against cells and closed forms, and the options for it.
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <numbers>
 
 #include "base/luminance.h"
 #include "io/hdr_image.h"
@@ -15,6 +16,7 @@ namespace vesper::test::exact_light_test {
 namespace {
 
 constexpr VkExtent2D kExtent{48, 30};
+constexpr double kPi = std::numbers::pi;
 
 /// From the middle of a wall of a room of 8 x 6 x 8 m about the origin, along -z.
 gpu_scene::View view_of_room() {
@@ -177,6 +179,41 @@ TEST_F(ExactProgram, RefusesWhatHasNoMeaning) {
     expect_refused("render a.gltf -o a.png --indirect exact --paths 0", {"--paths"});
     expect_refused("render a.gltf -o a.png --indirect exact --operator ldr", {"--indirect exact", "ldr"});
     EXPECT_FALSE(exists("a.png"));
+}
+
+TEST_F(ExactProgram, InspectWritesAPictureOfEachOrigin) {
+    ASSERT_EQ(run("inspect a.gltf --light l --camera eye --size 48x30 --paths 64 --json a.json"), 0) << said;
+    EXPECT_NE(printed.find("camera 'eye', 48 x 30 px, 64 paths a pixel"), printed.npos) << printed;
+    for (const char* origin : {"lamps", "emitters", "sky", "once", "more"})
+        EXPECT_TRUE(exists(std::string("l-") + origin + ".png")) << origin;
+    const io::HdrImage emitters = io::read_exr(folder / "l.exr", {}, "emitters"), sum = io::read_exr(folder / "l.exr");
+    ASSERT_EQ(emitters.width, 48u);
+    ASSERT_EQ(emitters.height, 30u);
+    EXPECT_EQ(sum.white_luminance, 0) << "lx are no luminance";
+    double most = 0;
+    for (size_t i = 0; i < sum.rgb.size(); ++i) {
+        EXPECT_GE(sum.rgb[i], emitters.rgb[i]);
+        most = std::max(most, double(emitters.rgb[i]));
+    }
+    EXPECT_GT(most, 100) << "near the panel; no more than below it";
+    EXPECT_LT(most, 300 * kPi);
+    for (const float none : io::read_exr(folder / "l.exr", {}, "lamps").rgb) ASSERT_EQ(none, 0);
+    const auto json = nlohmann::json::parse(read_text(folder / "a.json"));
+    EXPECT_EQ(json["paths"], 64);
+    EXPECT_GT(json["mean_illuminance_lx"]["emitters"], 1);
+    EXPECT_GT(json["median_relative_standard_error"], 0);
+}
+
+TEST_F(ExactProgram, InspectRefusesWhatHasNoMeaning) {
+    expect_refused("inspect a.gltf --camera eye", {"only beside --light"});
+    expect_refused("inspect a.gltf --size 4x4", {"only beside --light"});
+    expect_refused("inspect a.gltf --light l --at 0,0,0", {"ask for one of them"});
+    expect_refused("inspect a.gltf --light l --normal 0,1,0", {"only beside --at"});
+    expect_refused("inspect a.gltf --light l --camera none", {"none"});
+    expect_refused("inspect a.gltf --light l --size 4", {"4"});
+    expect_refused("inspect a.gltf --light none/l --size 4x4", {"none/l"});
+    expect_refused("inspect " VESPER_SOURCE_DIR "/data/road/luminaire.ldt --light l", {"--light is for scenes"});
+    EXPECT_FALSE(exists("l.exr"));
 }
 
 }  // namespace

@@ -287,6 +287,21 @@ TEST(HdrExr, TellsTristimulusValuesFromVectors) {
         contains(refusal(folder / "normal.exr"), "no channels R, G, B or Y of a picture; it has N.X, N.Y, N.Z"));
 }
 
+TEST(HdrExr, ReadsOurOwnLayers) {
+    const TempFolder folder;
+    const Values whole = {1, 2, 3, 4, 5, 6}, lamps = {-1, 0, 1e-4f, 70000, 8, 9};
+    io::write_exr_layers(folder / "x.exr", 2, 1, std::vector<io::ExrLayerPixels>{{"", whole}, {"lamps", lamps}},
+                         {{"vesper:unit", "lx"}});
+    expect_values(io::read_exr(folder / "x.exr"), whole);
+    const io::HdrImage layer = io::read_exr(folder / "x.exr", {}, "lamps");
+    expect_values(layer, lamps);
+    EXPECT_EQ(layer.white_luminance, 0.0);
+    EXPECT_NE(std::ranges::find(layer.header, std::pair<std::string, std::string>("vesper:unit", "lx")),
+              layer.header.end());
+    EXPECT_THROW(io::write_exr_layers(folder / "y.exr", 2, 2, std::vector<io::ExrLayerPixels>{{"lamps", lamps}}, {}),
+                 Error);
+}
+
 TEST(HdrExr, ReadsOurOwnWithHeaderAndUnit) {
     const TempFolder folder;
     const Values rgba = {1e-4f, 1, 1e8f, 1, 65504, 70000, 0, 1};

@@ -9,6 +9,7 @@
 
 #include "base/luminance.h"
 #include "base/parallel.h"
+#include "transport/cell_places.h"
 #include "transport/emitters.h"
 #include "transport/lamp_light.h"
 #include "transport/radiosity.h"
@@ -19,38 +20,12 @@
 namespace vesper::transport {
 namespace {
 
-constexpr uint32_t kPlaces = 4;      // of a cell, that rays start from
-constexpr double kPlaceStep = 0.35;  // of a cube, between places that are looked for
-constexpr double kCovered = 0.06;    // a surface so near before another is taken to lie on it, m
-constexpr double kLevel = 0.7;       // cosine: ground and floors, with air over them
-constexpr double kAirHeight = 4;     // m, of that
 constexpr double kAtEmitter = 1e-3;  // m
 constexpr uint32_t kMostRounds = 4;
 constexpr double kRegion = 8;            // cubes: cells in one see about the same emitters
 constexpr uint32_t kFirstLooks = 1'024;  // of a region, to learn which it sees
 constexpr float kUnknown = 0.25f;        // of a look, before any: so that no group is taken to be hidden
 constexpr double kKeptSources = 0.995;   // of the light of a cell
-
-// A place on a surface, from the middle of the cube.
-struct Place {
-    glm::vec3 point{0}, normal{0};
-    uint32_t node = 0;
-};
-
-// A cell while places are found.
-struct Cell {
-    std::array<Place, kPlaces> places;
-    uint32_t seen = 0;  // places
-    bool covered = false;
-    double weight = 0, area = 0, height = 0;
-    glm::dvec3 normal{0}, reflectance{0};
-};
-
-struct FoundPlace {
-    glm::dvec3 point, normal, reflectance;
-    uint32_t node;
-    double weight, area;
-};
 
 using Light = std::vector<std::pair<uint32_t, glm::dvec3>>;  // by source, lx
 
@@ -99,148 +74,10 @@ struct Gathering {
           emitters(of, world, surfaces),
           lamps(of, world, rays) {}
 
-    struct Corners {
-        std::array<glm::dvec3, 3> points, normals;
-        double area;
-    };
-    template <class Take>
-    void each_triangle(Take take) const {
-        for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
-            if (scene.nodes[node].mesh == scene::kNone) continue;
-            const scene::Mesh& mesh = scene.meshes[scene.nodes[node].mesh];
-            const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(world[node])));
-            for (uint32_t p = 0; p < mesh.primitives.size(); ++p) {
-                const scene::Primitive& primitive = mesh.primitives[p];
-                const scene::Material& material = scene.materials[primitive.material];
-                if (material.clear) continue;
-                for (uint32_t t = 0; 3 * size_t(t) < primitive.indices.size(); ++t) {
-                    Corners c{};
-                    for (size_t k = 0; k < 3; ++k) {
-                        const scene::Vertex& vertex = primitive.vertices[primitive.indices[3 * size_t(t) + k]];
-                        c.points[k] = glm::dvec3(world[node] * glm::dvec4(vertex.position, 1));
-                        c.normals[k] = turn * glm::dvec3(vertex.normal);
-                    }
-                    c.area = 0.5 * glm::length(glm::cross(c.points[1] - c.points[0], c.points[2] - c.points[0]));
-                    double farthest = 0;  // per axis, as rays/ has it
-                    for (const glm::dvec3 corner : c.points) {
-                        const glm::dvec3 a = glm::abs(corner);
-                        farthest = std::max({farthest, a.x, a.y, a.z});
-                    }
-                    if (c.area > 0 && farthest <= rays::kFarthest)
-                        take(rays::Hit{.share = 1, .node = node, .primitive = p, .triangle = t}, c,
-                             material.double_sided);
-                }
-            }
-        }
-    }
-
-    bool make_grid() {
-        glm::dvec3 low(1e300), high(-1e300);
-        double area = 0;
-        each_triangle([&](const rays::Hit&, const Corners& c, bool double_sided) {
-            for (const glm::dvec3 corner : c.points) low = glm::min(low, corner), high = glm::max(high, corner);
-            area += double_sided ? 2 * c.area : c.area;
-        });
-        if (!(area > 0)) return false;
-        const double least = std::sqrt(area / double(settings.most_cells));
-        double size = settings.cell_size;
-        while (size < least) size *= std::numbers::sqrt2;
-        grid = CellGrid::around(low, high, size);
-        return true;
-    }
-
-    // Places that are covered count where a cell has no others.
-    void add_place(std::map<uint32_t, Cell>& cells, const FoundPlace& place, bool covered) const {
-        add_place(cells, grid.cell_at(place.point, place.normal), place, covered);
-    }
-    void add_place(std::map<uint32_t, Cell>& cells, std::optional<uint32_t> number, const FoundPlace& place,
-                   bool covered) const {
-        if (!number) return;
-        Cell& cell = cells[*number];
-        if (covered && cell.seen > 0 && !cell.covered) return;
-        if (!covered && cell.covered) cell = {};
-        cell.covered = covered;
-        // Any places are as likely to be kept (reservoir sampling: Vitter 1985).
-        const uint32_t seen = cell.seen++;
-        const uint64_t slot =
-            seen < kPlaces ? seen : Random((uint64_t{*number} << 32u) + seen).next_bits() % (uint64_t{seen} + 1);
-        if (slot < kPlaces)
-            cell.places[slot] = {glm::vec3(place.point - grid.middle(*number)), glm::vec3(place.normal), place.node};
-        cell.weight += place.weight, cell.area += place.area;
-        cell.height += place.weight * grid.height(*number, place.point);
-        cell.normal += place.weight * place.normal, cell.reflectance += place.weight * place.reflectance;
-    }
-
-    // Places all over the triangles, a few in each cell: in strips along the longest side, at the middle of pieces.
-    void find_places(std::map<uint32_t, Cell>& cells) const {
-        Random random(0);
-        const double step = grid.size * kPlaceStep;
-        each_triangle([&](rays::Hit hit, const Corners& c, bool double_sided) {
-            int p = 0;  // where the longest side begins
-            for (int k = 1; k < 3; ++k)
-                if (side_length(c, k) > side_length(c, p)) p = k;
-            const double longest = side_length(c, p);
-            const double strips = std::ceil(2 * c.area / longest / step);
-            for (double strip = 0; strip < strips; ++strip) {
-                // Of the way from that side to the other corner.
-                const double from = strip / strips, to = (strip + 1) / strips, width = to - from,
-                             squares = (to * to - from * from) / 2, cubes = (to * to * to - from * from * from) / 3,
-                             middle = (squares - cubes) / (width - squares);
-                const double pieces = std::max(std::ceil(longest * (1 - middle) / step), 1.0);
-                const double area = c.area * 2 * (width - squares) / pieces;
-                for (double piece = 0; piece < pieces; ++piece) {
-                    const double along_it = (piece + 0.5) / pieces;
-                    hit.weights[p] = (1 - middle) * (1 - along_it);
-                    hit.weights[(p + 1) % 3] = (1 - middle) * along_it, hit.weights[(p + 2) % 3] = middle;
-                    add_on_triangle(cells, hit, c, area, double_sided, random);
-                }
-            }
-        });
-    }
-
-    static double side_length(const Corners& c, int from) {
-        return glm::distance(c.points[size_t(from)], c.points[size_t((from + 1) % 3)]);
-    }
-
-    void add_on_triangle(std::map<uint32_t, Cell>& cells, const rays::Hit& hit, const Corners& c, double area,
-                         bool double_sided, Random& random) const {
-        glm::dvec3 point(0), normal(0);
-        for (int k = 0; k < 3; ++k)
-            point += hit.weights[k] * c.points[size_t(k)], normal += hit.weights[k] * c.normals[size_t(k)];
-        if (!(glm::length(normal) > 1e-12)) return;
-        normal = glm::normalize(normal);
-        const glm::dvec3 reflectance = surfaces.at(hit, point + normal).reflectance;
-        for (const glm::dvec3 outwards : {normal, -normal}) {
-            const std::optional<double> open = open_before(point, outwards);
-            add_place(cells, {point, outwards, reflectance, hit.node, area, area}, !open);
-            if (open && outwards.y > kLevel) add_air(cells, point, outwards, *open, random);
-            if (!double_sided) break;
-        }
-    }
-
-    // How far a surface sees along its normal, m; none if it is under another or within a body: what is there shows its
-    // back.
-    std::optional<double> open_before(glm::dvec3 point, glm::dvec3 outwards) const {
-        const std::optional<rays::Hit> hit =
-            rays.nearest(point + skin_at(rays, point) * outwards, point + kReach * outwards);
-        if (!hit) return kReach;
-        if (hit->share * kReach < kCovered || !surfaces.shows_front(*hit, point)) return std::nullopt;
-        return hit->share * kReach;
-    }
-
-    // Over ground and floors, where things move.
-    void add_air(std::map<uint32_t, Cell>& cells, glm::dvec3 ground, glm::dvec3 up, double open, Random& random) const {
-        const glm::dvec3 point = ground + std::min(random.next() * kAirHeight, 0.9 * open) * up;
-        for (uint32_t side = 0; side < kSides; ++side) {
-            const glm::dvec3 cube = grid.place(point) / double(CellGrid::kAir);
-            add_place(cells, grid.air_cell(cube, side), {point, direction_of(side), {}, scene::kNone, 1, 0}, false);
-        }
-    }
-
     // What the rays of some cells found.
     struct Round {
         std::vector<uint32_t> numbers;
-        std::vector<Cell> cells;
+        std::vector<CellPlaces> cells;
         std::vector<float> sky;
         std::vector<uint32_t> met;  // numbers
         struct Region {
@@ -267,12 +104,12 @@ struct Gathering {
         const EmitterChoice& choice;
         uint32_t looks, rays;
     };
-    Start start_of(const Place& place, uint32_t number, const EmitterChoice& choice) const {
+    Start start_of(const CellPlaces::Place& place, uint32_t number, const EmitterChoice& choice) const {
         const glm::dvec3 point = grid.middle(number) + glm::dvec3(place.point);
         const glm::dvec3 normal = glm::normalize(glm::dvec3(place.normal));
         return {point + skin_at(rays, point) * normal, normal, choice, 1, 0};
     }
-    EmitterChoice choice_at(const Place& place, uint32_t number, std::span<const float> seen) const {
+    EmitterChoice choice_at(const CellPlaces::Place& place, uint32_t number, std::span<const float> seen) const {
         return {emitters, grid.middle(number) + glm::dvec3(place.point), glm::normalize(glm::dvec3(place.normal)),
                 seen};
     }
@@ -285,8 +122,8 @@ struct Gathering {
         constexpr uint32_t kFromEach = 32;
         for (uint32_t i = 0; i < kFirstLooks / kFromEach; ++i) {
             const uint32_t c = region.cells[random.next_bits() % region.cells.size()];
-            const Cell& cell = round.cells[c];
-            const Place& place = cell.places[random.next_bits() % std::min(cell.seen, kPlaces)];
+            const CellPlaces& cell = round.cells[c];
+            const CellPlaces::Place& place = cell.places[random.next_bits() % cell.count()];
             const EmitterChoice choice = choice_at(place, round.numbers[c], {});
             if (!choice.any()) continue;
             const Start start = start_of(place, round.numbers[c], choice);
@@ -354,8 +191,8 @@ struct Gathering {
     }
 
     void gather(Round& round, size_t i, std::span<const float> seen, Round::Region& region) const {
-        const Cell& cell = round.cells[i];
-        const uint32_t number = round.numbers[i], places = std::min(cell.seen, kPlaces);
+        const CellPlaces& cell = round.cells[i];
+        const uint32_t number = round.numbers[i], places = cell.count();
         Random random(number);
         Light meshes, of_lamps;
         std::vector<LampLight::Share> shares;
@@ -386,9 +223,10 @@ struct Gathering {
         Radiosity result;
         result.rays = settings.rays;
         result.first_source.push_back(0);
-        if (!make_grid()) return result;
-        std::map<uint32_t, Cell> wanted;
-        find_places(wanted);
+        const std::optional<CellGrid> cubes = grid_around(scene, world, settings);
+        if (!cubes) return result;
+        grid = *cubes;
+        PlacesByCell wanted = find_places(scene, world, rays, surfaces, grid);
         std::vector<Round> rounds;
         std::map<uint32_t, std::pair<uint32_t, uint32_t>> known;  // round and place in it, by number
         while (!wanted.empty() && rounds.size() < kMostRounds) {
@@ -417,7 +255,8 @@ struct Gathering {
             if (!done) return std::nullopt;
             wanted.clear();
             for (const Round::Region& region : round.regions)
-                for (const FoundPlace& place : region.places) add_place(wanted, place, false);
+                for (const FoundPlace& place : region.places)
+                    add_place(wanted, grid, *grid.cell_at(place.point, place.normal), place, false);
         }
         put_together(rounds, known, result);
         return result;
@@ -430,9 +269,9 @@ struct Gathering {
 
     // Whether something stands between the places of a cell: a wall is between half of the pairs at least, a post is
     // not.
-    bool is_split(const Cell& cell, uint32_t number) const {
+    bool is_split(const CellPlaces& cell, uint32_t number) const {
         const glm::dvec3 middle = grid.middle(number);
-        const uint32_t places = std::min(cell.seen, kPlaces);
+        const uint32_t places = cell.count();
         uint32_t pairs = 0, apart = 0;
         for (uint32_t a = 1; a < places; ++a)
             for (uint32_t b = 0; b < a; ++b, ++pairs)
@@ -446,7 +285,7 @@ struct Gathering {
     // A cell that something splits is seen by no other, and sees none.
     void connect(const std::vector<Round>& rounds, const std::map<uint32_t, std::pair<uint32_t, uint32_t>>& known,
                  Radiosity& result) const {
-        std::vector<const Cell*> cells;
+        std::vector<const CellPlaces*> cells;
         for (const auto& [number, at] : known) cells.push_back(&rounds[at.first].cells[at.second]);
         std::vector<char> split(cells.size());
         in_parallel(cells.size(), 1024, [&](size_t begin, size_t end) {
@@ -477,7 +316,7 @@ struct Gathering {
         for (const auto& [number, at] : known) {
             const Round& round = rounds[at.first];
             const size_t i = at.second;
-            const Cell& cell = round.cells[i];
+            const CellPlaces& cell = round.cells[i];
             result.heights.push_back(float(cell.height / cell.weight));
             result.areas.push_back(float(cell.area));
             const double length = glm::length(cell.normal);

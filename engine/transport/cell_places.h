@@ -1,0 +1,56 @@
+// Places on the surfaces of a scene, a few for each cell. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <span>
+
+#include "transport/cell_grid.h"
+#include "transport/radiosity.h"
+#include "transport/surfaces.h"
+
+namespace vesper::transport {
+
+/// What was found on the surfaces of a cell.
+struct CellPlaces {
+    static constexpr uint32_t kMost = 4;
+
+    struct Place {
+        glm::vec3 point{0};  ///< from the middle of the cube, m
+        glm::vec3 normal{0};
+        uint32_t node = 0;
+    };
+    std::array<Place, kMost> places;  ///< count() of all that were seen, each as likely
+    uint32_t seen = 0;
+    bool covered = false;
+    double weight = 0;  ///< of all
+    double area = 0;    ///< m^2
+    double height = 0;  ///< over the middle of the cube, m; this and what follows: times weight
+    glm::dvec3 normal{0}, reflectance{0};
+
+    uint32_t count() const { return std::min(seen, kMost); }
+};
+using PlacesByCell = std::map<uint32_t, CellPlaces>;
+
+/// A place on a surface, in the world.
+struct FoundPlace {
+    glm::dvec3 point, normal, reflectance;
+    uint32_t node;
+    double weight, area;
+};
+
+/// Adds a place to the cell `number` of `grid`. Those that are `covered` count where a cell has no others.
+void add_place(PlacesByCell& cells, const CellGrid& grid, uint32_t number, const FoundPlace& place, bool covered);
+
+/// The cubes of cells for all surfaces; none if there is no surface.
+std::optional<CellGrid> grid_around(const scene::Scene& scene, std::span<const glm::dmat4> world,
+                                    const RadiositySettings& settings);
+
+/// Places all over the triangles that can be seen, and in the air over ground and floors, where things move. Covered is
+/// what lies under another surface or within a body.
+PlacesByCell find_places(const scene::Scene& scene, std::span<const glm::dmat4> world, const rays::RayCaster& rays,
+                         const Surfaces& surfaces, const CellGrid& grid);
+
+}  // namespace vesper::transport

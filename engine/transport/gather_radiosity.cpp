@@ -20,7 +20,8 @@
 namespace vesper::transport {
 namespace {
 
-constexpr double kAtEmitter = 1e-3;  // m
+constexpr double kPlacesShare = 0.08;  // of the time
+constexpr double kAtEmitter = 1e-3;    // m
 constexpr uint32_t kMostRounds = 4;
 constexpr double kRegion = 8;            // cubes: cells in one see about the same emitters
 constexpr uint32_t kFirstLooks = 1'024;  // of a region, to learn which it sees
@@ -226,7 +227,11 @@ struct Gathering {
         const std::optional<CellGrid> cubes = grid_around(scene, world, settings);
         if (!cubes) return result;
         grid = *cubes;
-        PlacesByCell wanted = find_places(scene, world, rays, surfaces, grid);
+        std::optional<PlacesByCell> places = find_places(scene, world, rays, surfaces, grid, [&](double share) {
+            return !progress || progress(kPlacesShare * share);
+        });
+        if (!places) return std::nullopt;
+        PlacesByCell wanted = std::move(*places);
         std::vector<Round> rounds;
         std::map<uint32_t, std::pair<uint32_t, uint32_t>> known;  // round and place in it, by number
         while (!wanted.empty() && rounds.size() < kMostRounds) {
@@ -250,13 +255,16 @@ struct Gathering {
                     });
                 },
                 [&](size_t so_far) {
-                    return !progress || progress(begins + width * double(so_far) / double(round.regions.size()));
+                    const double of_rays = begins + width * double(so_far) / double(round.regions.size());
+                    return !progress || progress(kPlacesShare + (1 - kPlacesShare) * of_rays);
                 });
             if (!done) return std::nullopt;
             wanted.clear();
             for (const Round::Region& region : round.regions)
-                for (const FoundPlace& place : region.places)
-                    add_place(wanted, grid, *grid.cell_at(place.point, place.normal), place, false);
+                for (const FoundPlace& place : region.places) {
+                    const uint32_t number = *grid.cell_at(place.point, place.normal);
+                    add_place(wanted[number], grid, number, place, false);
+                }
         }
         put_together(rounds, known, result);
         return result;

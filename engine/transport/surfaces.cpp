@@ -87,12 +87,18 @@ bool Surfaces::shows_front(const rays::Hit& hit, glm::dvec3 from) const {
     return met.front || met.material.double_sided;
 }
 
+glm::dvec3 Surfaces::reflectance(const Facet& facet) const {
+    const glm::dvec3 reflectance = glm::dvec3(facet.material.base_colour) * facet.colour;
+    const scene::TextureUse& use = facet.material.base_colour_texture;
+    return use.image == scene::kNone ? reflectance
+                                     : reflectance * colour_at(scene_.images[use.image], use, facet.uv, codes_);
+}
+
+glm::dvec3 Surfaces::reflectance(const rays::Hit& hit) const { return reflectance(facet(hit, glm::dvec3(0))); }
+
 SurfacePoint Surfaces::at(const rays::Hit& hit, glm::dvec3 from) const {
     const Facet met = facet(hit, from);
-    glm::dvec3 reflectance = glm::dvec3(met.material.base_colour) * met.colour;
-    if (const uint32_t image = met.material.base_colour_texture.image; image != scene::kNone)
-        reflectance *= colour_at(scene_.images[image], met.material.base_colour_texture, met.uv, codes_);
-    return {met.position, met.normal, reflectance, emission(met, hit.node)};
+    return {met.position, met.normal, reflectance(met), emission(met, hit.node)};
 }
 
 }  // namespace vesper::transport

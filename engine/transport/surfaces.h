@@ -29,6 +29,8 @@ public:
     SurfacePoint at(const rays::Hit& hit, glm::dvec3 from) const;
     /// SurfacePoint::emission only.
     glm::dvec3 emission(const rays::Hit& hit, glm::dvec3 from) const;
+    /// SurfacePoint::reflectance only, which is the same from everywhere.
+    glm::dvec3 reflectance(const rays::Hit& hit) const;
     /// Whether what a ray from `from` hits is a front, or has none.
     bool shows_front(const rays::Hit& hit, glm::dvec3 from) const;
     bool holds_lamp(uint32_t node) const { return holds_lamp_[node]; }
@@ -37,6 +39,7 @@ private:
     struct Facet;
     Facet facet(const rays::Hit& hit, glm::dvec3 from) const;
     glm::dvec3 emission(const Facet& facet, uint32_t node) const;
+    glm::dvec3 reflectance(const Facet& facet) const;
 
     const scene::Scene& scene_;
     std::span<const glm::dmat4> world_;

@@ -279,7 +279,10 @@ TEST(GatherRadiosity, TheNumberOfCellsIsBounded) {
     add_floor(scene, add_material(scene, 0.5f), 5000);
     const Radiosity wide = gathered(scene, {.most_cells = 5'000});
     size_t floors = 0;
+    double area = 0;
     for (const uint32_t number : wide.numbers) floors += !wide.grid.is_air(number);
+    for (const float of_cell : wide.areas) area += double(of_cell);
+    EXPECT_NEAR(area, 1e8, 100) << "however triangles are parted";
     EXPECT_LE(floors, 5'000u * 5 / 4) << "roughly: those along borders are halves";
     EXPECT_GE(floors, 2'000u);
     EXPECT_NEAR(wide.at(wide.solve({.sky = dvec3(1)}).other, {100, 0, -1234}, kUp).g, kPi, 1e-5);

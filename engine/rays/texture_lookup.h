@@ -18,13 +18,13 @@ inline double turned(double place, uint32_t size, scene::Wrap wrap) {
     return (place - turn * std::floor(place / turn)) * size;
 }
 
-/// The texel of an index, which may lie outside of the texture.
+/// The texel of an index, which may lie outside of the texture by one turn.
 inline uint32_t texel(double index, uint32_t size, scene::Wrap wrap) {
     const auto last = int64_t(size) - 1;
     int64_t i = int64_t(index);
     if (wrap == scene::Wrap::Clamp) return uint32_t(std::clamp<int64_t>(i, 0, last));
     const int64_t turn = wrap == scene::Wrap::Mirror ? 2 * int64_t(size) : int64_t(size);
-    i = (i % turn + turn) % turn;
+    i += i < 0 ? turn : i >= turn ? -turn : 0;
     return uint32_t(std::min(i <= last ? i : turn - 1 - i, last));
 }
 

@@ -157,11 +157,12 @@ struct Gathering {
         for (int k = 0; k < 3; ++k) place += wanted.weights[k] * e.corners[size_t(k)];
         const glm::dvec3 to = place - start.point;
         const double distance = glm::length(to), cosine = glm::dot(start.normal, to) / distance;
-        if (!(cosine > 0) || !(distance < kReach)) return {number, none};
+        const bool front = e.double_sided || glm::dot(e.outwards, to) < 0;
+        if (!front || !(cosine > 0) || !(distance < kReach)) return {number, none};
         // Nothing before it, and it has no hole there.
         const double skin = std::min(1e-3, kAtEmitter / distance);
-        const glm::dvec3 before = start.point + (1 - skin) * to, behind = start.point + (1 + skin) * to;
-        if (rays.blocked(start.point, before) || !rays.blocked(before, behind)) return {number, none};
+        if (rays.blocked(start.point, start.point + (1 - skin) * to) || !surfaces.stops_light(wanted))
+            return {number, none};
         const glm::dvec3 emission = surfaces.emission(wanted, start.point);
         return {number, cosine / density(start, number, to, cosine) * emission};
     }
@@ -175,7 +176,7 @@ struct Gathering {
             sky += float(share / start.rays);
             return Radiosity::kNowhere;
         }
-        const SurfacePoint surface = surfaces.at(*hit, start.point);
+        const SurfacePoint surface = surfaces.emitted(*hit, start.point);
         if (surface.emission != glm::dvec3(0))
             if (const std::optional<size_t> number = emitters.find(*hit)) {
                 const double cosine = glm::dot(start.normal, direction);
@@ -185,7 +186,7 @@ struct Gathering {
         const std::optional<uint32_t> cell = grid.cell_at(surface.position, surface.normal);
         if (!cell) return Radiosity::kNowhere;
         if (!std::ranges::binary_search(known, *cell))
-            places.push_back({surface.position, surface.normal, surface.reflectance, hit->node, 1, 0});
+            places.push_back({surface.position, surface.normal, surfaces.reflectance(*hit), hit->node, 1, 0});
         return *cell;
     }
 

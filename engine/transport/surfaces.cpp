@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "rays/opacity.h"
 #include "rays/texture_lookup.h"
 #include "scene/fixtures.h"
 #include "scene/reflectance.h"
@@ -82,6 +83,12 @@ glm::dvec3 Surfaces::emission(const rays::Hit& hit, glm::dvec3 from) const {
     return emission(facet(hit, from), hit.node);
 }
 
+bool Surfaces::stops_light(const rays::Hit& hit) const {
+    const scene::Primitive& primitive = scene_.meshes[scene_.nodes[hit.node].mesh].primitives[hit.primitive];
+    return scene_.materials[primitive.material].alpha != scene::Material::Alpha::Mask ||
+           rays::stops_light(scene_, primitive, hit.triangle, hit.weights);
+}
+
 bool Surfaces::shows_front(const rays::Hit& hit, glm::dvec3 from) const {
     const Facet met = facet(hit, from);
     return met.front || met.material.double_sided;
@@ -99,6 +106,11 @@ glm::dvec3 Surfaces::reflectance(const rays::Hit& hit) const { return reflectanc
 SurfacePoint Surfaces::at(const rays::Hit& hit, glm::dvec3 from) const {
     const Facet met = facet(hit, from);
     return {met.position, met.normal, reflectance(met), emission(met, hit.node)};
+}
+
+SurfacePoint Surfaces::emitted(const rays::Hit& hit, glm::dvec3 from) const {
+    const Facet met = facet(hit, from);
+    return {met.position, met.normal, glm::dvec3(0), emission(met, hit.node)};
 }
 
 }  // namespace vesper::transport

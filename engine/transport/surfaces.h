@@ -27,10 +27,14 @@ public:
     /// `hit`: of a ray from `from`. Meshes that hold a lamp (scene/fixtures.h) emit nothing: the lamp's intensities
     /// have their light.
     SurfacePoint at(const rays::Hit& hit, glm::dvec3 from) const;
+    /// The same but for its reflectance, which is 0.
+    SurfacePoint emitted(const rays::Hit& hit, glm::dvec3 from) const;
     /// SurfacePoint::emission only.
     glm::dvec3 emission(const rays::Hit& hit, glm::dvec3 from) const;
     /// SurfacePoint::reflectance only, which is the same from everywhere.
     glm::dvec3 reflectance(const rays::Hit& hit) const;
+    /// Whether the surface has no hole there (rays/opacity.h).
+    bool stops_light(const rays::Hit& hit) const;
     /// Whether what a ray from `from` hits is a front, or has none.
     bool shows_front(const rays::Hit& hit, glm::dvec3 from) const;
     bool holds_lamp(uint32_t node) const { return holds_lamp_[node]; }

@@ -10,7 +10,7 @@
 
 namespace vesper::transport {
 LampLight::LampLight(const scene::Scene& scene, std::span<const glm::dmat4> world, const rays::RayCaster& rays)
-    : scene_(scene), rays_(rays) {
+    : scene_(scene), rays_(rays), in_fixture_(scene.nodes.size()) {
     const std::vector<uint32_t> nodes = scene::nodes_with_lamps(scene);
     std::vector<std::vector<uint32_t>> fixtures = scene::fixture_nodes(scene, nodes, world);
     for (size_t i = 0; i < nodes.size(); ++i) {
@@ -19,7 +19,11 @@ LampLight::LampLight(const scene::Scene& scene, std::span<const glm::dmat4> worl
         double largest = double(lamp.intensity);
         if (lamp.kind == scene::Lamp::Kind::Measured)
             largest *= photometry::largest_intensity(scene.distributions[lamp.distribution]);
-        lamps_.push_back({nodes[i], &lamp, glm::dvec3(at[3]), glm::transpose(scene::lamp_frame(at)), largest,
+        const glm::dmat3 frame = scene::lamp_frame(at);
+        const bool directional = lamp.kind == scene::Lamp::Kind::Directional;
+        bounds_.push_back({directional ? kReach * frame[2] : glm::dvec3(at[3]), largest, directional});
+        for (const uint32_t node : fixtures[i]) in_fixture_[node] = true;
+        lamps_.push_back({nodes[i], &lamp, glm::transpose(frame),
                           std::move(fixtures[i])});
     }
 }
@@ -32,76 +36,75 @@ struct LampLight::Way {
     double bound() const { return cosine > 0 ? cosine / distance2 : 0; }
 };
 
-LampLight::Way LampLight::way_to(const Placed& lamp, glm::dvec3 point, glm::dvec3 normal) const {
-    const bool directional = lamp.lamp->kind == scene::Lamp::Kind::Directional;
-    const glm::dvec3 axis = -glm::dvec3(lamp.to_lamp[0].z, lamp.to_lamp[1].z, lamp.to_lamp[2].z);
-    const glm::dvec3 to = directional ? -kReach * axis : lamp.position - point;
-    return {to, glm::dot(normal, to) / std::max(glm::length(to), 1e-300), directional ? 1 : glm::dot(to, to)};
+inline LampLight::Way LampLight::way_to(const Bound& lamp, glm::dvec3 point, glm::dvec3 normal) {
+    const glm::dvec3 to = lamp.directional ? lamp.place : lamp.place - point;
+    const double distance2 = glm::dot(to, to);
+    return {to, glm::dot(normal, to) / std::max(std::sqrt(distance2), 1e-300), lamp.directional ? 1 : distance2};
 }
 
 // lx, if nothing stands between.
-double LampLight::unshadowed(const Placed& lamp, const Way& way) const {
-    const double intensity = lamp.lamp->kind == scene::Lamp::Kind::Directional
-                                 ? lamp.largest
-                                 : scene::luminous_intensity(*lamp.lamp, scene_.distributions, lamp.to_lamp * -way.to);
+double LampLight::unshadowed(size_t lamp, const Way& way) const {
+    const Placed& placed = lamps_[lamp];
+    const double intensity = bounds_[lamp].directional ? bounds_[lamp].largest
+                                                       : scene::luminous_intensity(*placed.lamp, scene_.distributions,
+                                                                                   placed.to_lamp * -way.to);
     return intensity * way.bound();
 }
 
-bool LampLight::blocked(const Placed& lamp, const Way& way, glm::dvec3 point, glm::dvec3 normal) const {
+bool LampLight::blocked(size_t lamp, const Way& way, glm::dvec3 point, glm::dvec3 normal) const {
     const glm::dvec3 start = point + skin_at(rays_, point) * normal;
-    const bool directional = lamp.lamp->kind == scene::Lamp::Kind::Directional;
-    return rays_.blocked(start, directional ? start + way.to : lamp.position, lamp.fixture);
+    const Bound& bound = bounds_[lamp];
+    return rays_.blocked(start, bound.directional ? start + way.to : bound.place, lamps_[lamp].fixture);
+}
+
+bool LampLight::lights(size_t lamp, uint32_t node) const {
+    return node == scene::kNone || !in_fixture_[node] || !std::ranges::binary_search(lamps_[lamp].fixture, node);
 }
 
 glm::dvec3 LampLight::illuminance(glm::dvec3 point, glm::dvec3 normal, double threshold, uint32_t node) const {
     glm::dvec3 sum(0);
-    for (const Placed& lamp : lamps_) {
-        const Way way = way_to(lamp, point, normal);
-        if (!(way.cosine > 0) || !(lamp.largest * way.cosine >= threshold * way.distance2)) continue;
-        if (node != scene::kNone && std::ranges::binary_search(lamp.fixture, node)) continue;
-        const double lux = unshadowed(lamp, way);
-        if (lux < threshold || lux == 0 || blocked(lamp, way, point, normal)) continue;
-        sum += lux * glm::dvec3(lamp.lamp->colour);
+    for (size_t i = 0; i < lamps_.size(); ++i) {
+        const Way way = way_to(bounds_[i], point, normal);
+        if (!(way.cosine > 0) || !(bounds_[i].largest * way.cosine >= threshold * way.distance2)) continue;
+        if (!lights(i, node)) continue;
+        const double lux = unshadowed(i, way);
+        if (lux < threshold || lux == 0 || blocked(i, way, point, normal)) continue;
+        sum += lux * glm::dvec3(lamps_[i].lamp->colour);
     }
     return sum;
 }
 
 void LampLight::sample(glm::dvec3 point, glm::dvec3 normal, uint32_t node, uint32_t looks, Random& random,
                        std::vector<Share>& shares) const {
-    // First by what a lamp may give at most, then, of some, by what they give.
-    struct Candidate {
-        const Placed* lamp;
-        Way way;
-        double weight;
-    };
-    std::vector<Candidate> all;
-    double most = 0;
-    for (const Placed& lamp : lamps_) {
-        const Way way = way_to(lamp, point, normal);
-        if (!(lamp.largest * way.bound() > 0)) continue;
-        if (node != scene::kNone && std::ranges::binary_search(lamp.fixture, node)) continue;
-        all.push_back({&lamp, way, lamp.largest * way.bound()}), most += all.back().weight;
-    }
     // The numbers of even steps through the sum of all weights that fall into each.
-    const auto systematic = [&random](std::vector<Candidate>& from, double sum, uint32_t steps, auto take) {
+    const auto systematic = [&random](std::span<const double> weights, double sum, uint32_t steps, auto take) {
         double next = random.next() * sum / steps, at = 0;
-        for (Candidate& candidate : from) {
-            at += candidate.weight;
+        for (size_t i = 0; i < weights.size(); ++i) {
+            at += weights[i];
             uint32_t times = 0;
             for (; next < at; next += sum / steps) ++times;
-            if (times > 0) take(candidate, times);
+            if (times > 0) take(i, times);
         }
     };
+    // First by what a lamp may give at most, then, of some, by what they give.
+    std::vector<double> most(lamps_.size());
+    double all = 0;
+    for (size_t i = 0; i < lamps_.size(); ++i) {
+        const double bound = bounds_[i].largest * way_to(bounds_[i], point, normal).bound();
+        if (bound > 0 && lights(i, node)) all += most[i] = bound;
+    }
     const uint32_t first_looks = 4 * looks;
-    std::vector<Candidate> some;
+    std::vector<size_t> some;
+    std::vector<double> lux;
     double sum = 0;
-    systematic(all, most, first_looks, [&](Candidate& candidate, uint32_t times) {
-        const double lux = unshadowed(*candidate.lamp, candidate.way) * times * most / (first_looks * candidate.weight);
-        if (lux > 0) some.push_back({candidate.lamp, candidate.way, lux}), sum += lux;
+    systematic(most, all, first_looks, [&](size_t i, uint32_t times) {
+        const double given = unshadowed(i, way_to(bounds_[i], point, normal)) * times * all / (first_looks * most[i]);
+        if (given > 0) some.push_back(i), lux.push_back(given), sum += given;
     });
-    systematic(some, sum, looks, [&](const Candidate& candidate, uint32_t times) {
-        if (blocked(*candidate.lamp, candidate.way, point, normal)) return;
-        shares.push_back({candidate.lamp->node, times * sum / looks * glm::dvec3(candidate.lamp->lamp->colour)});
+    systematic(lux, sum, looks, [&](size_t candidate, uint32_t times) {
+        const size_t i = some[candidate];
+        if (blocked(i, way_to(bounds_[i], point, normal), point, normal)) return;
+        shares.push_back({lamps_[i].node, times * sum / looks * glm::dvec3(lamps_[i].lamp->colour)});
     });
 }
 

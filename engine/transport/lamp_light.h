@@ -36,20 +36,27 @@ private:
     struct Placed {
         uint32_t node;
         const scene::Lamp* lamp;
-        glm::dvec3 position;
         glm::dmat3 to_lamp;             // directions
-        double largest;                 // intensity, cd
         std::vector<uint32_t> fixture;  // nodes
+    };
+    // What all lamps are asked for at each point, apart from the rest.
+    struct Bound {
+        glm::dvec3 place;  // of directional lamps the way to it, m
+        double largest;    // intensity, cd
+        bool directional;
     };
 
     struct Way;
-    Way way_to(const Placed& lamp, glm::dvec3 point, glm::dvec3 normal) const;
-    double unshadowed(const Placed& lamp, const Way& way) const;
-    bool blocked(const Placed& lamp, const Way& way, glm::dvec3 point, glm::dvec3 normal) const;
+    static Way way_to(const Bound& lamp, glm::dvec3 point, glm::dvec3 normal);
+    double unshadowed(size_t lamp, const Way& way) const;
+    bool blocked(size_t lamp, const Way& way, glm::dvec3 point, glm::dvec3 normal) const;
+    bool lights(size_t lamp, uint32_t node) const;
 
     const scene::Scene& scene_;
     const rays::RayCaster& rays_;
     std::vector<Placed> lamps_;
+    std::vector<Bound> bounds_;     // of each
+    std::vector<bool> in_fixture_;  // nodes: of any lamp's fixture
 };
 
 }  // namespace vesper::transport

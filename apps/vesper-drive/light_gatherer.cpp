@@ -9,6 +9,7 @@
 namespace vesper::drive {
 namespace {
 
+constexpr transport::RadiositySettings kWhole;  // as pictures have it
 constexpr transport::RadiositySettings kRough{.cell_size = 2, .rays = 8, .looks = 16, .lamp_looks = 8};
 constexpr double kRoughShare = 0.05;  // of the work
 
@@ -31,35 +32,31 @@ LightGatherer::~LightGatherer() {
     thread_.join();
 }
 
-bool LightGatherer::gather(const scene::Scene& scene, const std::vector<glm::dmat4>& world,
-                           const std::vector<bool>& moving, const transport::RadiositySettings& settings,
-                           double begins) {
-    const bool whole = begins > 0;
-    const double width = whole ? 1 - begins : kRoughShare;
-    std::string problem;
-    auto radiosity = transport::kept_or_gathered(
-        scene, world, moving, settings, whole ? cache_.get() : nullptr,
-        [&](double share) {
-            share_ = begins + width * share;
-            return !ends_;
-        },
-        &problem);
-    if (!radiosity) return false;
-    auto given = std::make_shared<const transport::Radiosity>(std::move(*radiosity));
+void LightGatherer::give(transport::Radiosity&& radiosity, const std::string& problem) {
+    auto given = std::make_shared<const transport::Radiosity>(std::move(radiosity));
     const std::lock_guard lock(mutex_);
     found_ = std::move(given), problem_ = problem;
-    return true;
 }
 
 void LightGatherer::run(const scene::Scene& scene, const std::vector<glm::dmat4>& world,
                         const std::vector<bool>& moving) {
+    const auto gathered = [&](const transport::RadiositySettings& settings, double begins, double ends) {
+        return transport::gather_radiosity(scene, world, moving, settings, [&](double share) {
+            share_ = begins + (ends - begins) * share;
+            return !ends_;
+        });
+    };
+    const Digest::Value key = cache_ ? transport::radiosity_key(scene, world, moving, kWhole) : Digest::Value{};
     if (cache_)
-        if (auto kept = transport::read_radiosity(*cache_, transport::radiosity_key(scene, world, moving, {}))) {
-            const std::lock_guard lock(mutex_);
-            found_ = std::make_shared<const transport::Radiosity>(std::move(*kept));
-            return;
-        }
-    if (gather(scene, world, moving, kRough, 0)) gather(scene, world, moving, {}, kRoughShare);
+        if (auto kept = transport::read_radiosity(*cache_, key)) return give(std::move(*kept));
+    auto rough = gathered(kRough, 0, kRoughShare);
+    if (!rough) return;
+    give(std::move(*rough));
+    auto whole = gathered(kWhole, kRoughShare, 1);
+    if (!whole) return;
+    std::string problem;
+    if (cache_ && cache_->writes()) problem = transport::write_radiosity(*cache_, key, *whole);
+    give(std::move(*whole), problem);
 }
 
 std::shared_ptr<const transport::Radiosity> LightGatherer::take() {

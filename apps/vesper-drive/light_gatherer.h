@@ -33,8 +33,7 @@ public:
 
 private:
     void run(const scene::Scene& scene, const std::vector<glm::dmat4>& world, const std::vector<bool>& moving);
-    bool gather(const scene::Scene& scene, const std::vector<glm::dmat4>& world, const std::vector<bool>& moving,
-                const transport::RadiositySettings& settings, double begins);
+    void give(transport::Radiosity&& radiosity, const std::string& problem = {});
 
     std::shared_ptr<Cache> cache_;
     std::atomic<bool> ends_{false}, done_{false};

@@ -1,34 +1,15 @@
 // Radiosity from a cache is what was given to it, and belongs to one scene. SPDX-License-Identifier: MIT
 #include "transport/kept_radiosity.h"
 
-#include <cstring>
 #include <functional>
-#include <map>
 
 #include <gtest/gtest.h>
 
 #include "support/rooms.h"
+#include "support/shelf.h"
 
 namespace vesper::test::kept_radiosity_test {
 namespace {
-
-class Shelf : public Cache {
-public:
-    std::map<Digest::Value, std::vector<std::byte>> kept;
-    bool full = false;
-
-    bool read(const Digest::Value& key, std::span<std::byte> bytes) override {
-        const auto found = kept.find(key);
-        if (found == kept.end() || found->second.size() != bytes.size()) return false;
-        std::ranges::copy(found->second, bytes.begin());
-        return true;
-    }
-    bool writes() const override { return !full; }
-    void write(const Digest::Value& key, std::span<const std::byte> bytes) override {
-        kept[key].assign(bytes.begin(), bytes.end());
-    }
-    std::string settle() override { return full ? "full" : ""; }
-};
 
 scene::Scene room() {
     scene::Scene scene;

@@ -25,7 +25,7 @@ constexpr double kPlacesShare = 0.08;  // of the time
 constexpr double kAtEmitter = 1e-3;    // m
 constexpr uint32_t kMostRounds = 4;
 constexpr double kRegion = 8;            // cubes: cells in one see about the same emitters
-constexpr uint32_t kFirstLooks = 1'024;  // of a region, to learn which it sees
+constexpr uint32_t kFirstLooks = 1'024;  // of a region, to learn which it sees; no more than its cells have
 constexpr float kUnknown = 0.25f;        // of a look, before any: so that no group is taken to be hidden
 constexpr double kKeptSources = 0.995;   // of the light of a cell
 
@@ -123,7 +123,8 @@ struct Gathering {
         if (looks.empty()) return {};
         Random random(round.numbers[region.cells[0]]);
         constexpr uint32_t kFromEach = 32;
-        for (uint32_t i = 0; i < kFirstLooks / kFromEach; ++i) {
+        const size_t first = std::min(size_t(kFirstLooks), settings.looks * region.cells.size());
+        for (size_t i = 0; i < std::max(first / kFromEach, size_t(1)); ++i) {
             const uint32_t c = region.cells[random.next_bits() % region.cells.size()];
             const CellPlaces& cell = round.cells[c];
             const CellPlaces::Place& place = cell.places[random.next_bits() % cell.count()];

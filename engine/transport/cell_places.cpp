@@ -20,6 +20,8 @@ constexpr double kPlacesOfPart = 4'096;  // which one thread finds, roughly
 constexpr double kPlacesAtATime =
     100'000;  // that wait to be put together, some 100 bytes each, seven times over floors
 
+constexpr double kMostCubesAlong = 1 << 17;  // an axis: so a strip of a triangle has places that memory holds
+
 struct Corners {
     std::array<glm::dvec3, 3> points, normals;
     double area;
@@ -217,7 +219,9 @@ std::optional<CellGrid> grid_around(const scene::Scene& scene, std::span<const g
             area += primitive.double_sided ? 2 * c->area : c->area;
         }
     if (!(area > 0)) return std::nullopt;
-    const double least = std::sqrt(area / double(settings.most_cells));
+    const glm::dvec3 extent = high - low;
+    const double least = std::max(std::sqrt(area / double(settings.most_cells)),
+                                  std::max({extent.x, extent.y, extent.z}) / kMostCubesAlong);
     double size = settings.cell_size;
     while (size < least) size *= std::numbers::sqrt2;
     return CellGrid::around(low, high, size);

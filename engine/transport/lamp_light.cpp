@@ -23,8 +23,7 @@ LampLight::LampLight(const scene::Scene& scene, std::span<const glm::dmat4> worl
         const bool directional = lamp.kind == scene::Lamp::Kind::Directional;
         bounds_.push_back({directional ? kReach * frame[2] : glm::dvec3(at[3]), largest, directional});
         for (const uint32_t node : fixtures[i]) in_fixture_[node] = true;
-        lamps_.push_back({nodes[i], &lamp, glm::transpose(frame),
-                          std::move(fixtures[i])});
+        lamps_.push_back({nodes[i], &lamp, glm::transpose(frame), std::move(fixtures[i])});
     }
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "transport/placed_triangles.h"
 #include "transport/reach.h"
 #include "transport/sampling.h"
 
@@ -13,67 +14,13 @@ namespace vesper::transport {
 namespace {
 
 constexpr double kPlaceStep = 0.35;      // of a cube, between places that are looked for
+constexpr double kFew = CellGrid::kAir;  // places along each way, of which one is looked for in larger cells
 constexpr double kCovered = 0.06;        // a surface so near before another is taken to lie on it, m
 constexpr double kLevel = 0.7;           // cosine: ground and floors, with air over them
 constexpr double kAirHeight = 4;         // m, of that
 constexpr double kPlacesOfPart = 4'096;  // which one thread finds, roughly
 constexpr double kPlacesAtATime =
     100'000;  // that wait to be put together, some 100 bytes each, seven times over floors
-
-constexpr double kMostCubesAlong = 1 << 17;  // an axis: so a strip of a triangle has places that memory holds
-
-struct Corners {
-    std::array<glm::dvec3, 3> points, normals;
-    double area;
-
-    double side(int from) const { return glm::distance(points[size_t(from)], points[size_t((from + 1) % 3)]); }
-    int longest() const {  // the side, by where it begins
-        int longest = 0;
-        for (int k = 1; k < 3; ++k)
-            if (side(k) > side(longest)) longest = k;
-        return longest;
-    }
-};
-
-// A primitive of a node.
-struct PlacedPrimitive {
-    const scene::Primitive& primitive;
-    uint32_t node, number;
-    bool double_sided;
-    const glm::dmat4& world;
-    glm::dmat3 turn;  // of normals
-
-    uint32_t triangles() const { return uint32_t(primitive.indices.size() / 3); }
-    // None of what rays do not meet either.
-    std::optional<Corners> corners(uint32_t triangle) const {
-        Corners c{};
-        double farthest = 0;  // per axis, as rays/ has it
-        for (size_t k = 0; k < 3; ++k) {
-            const scene::Vertex& vertex = primitive.vertices[primitive.indices[3 * size_t(triangle) + k]];
-            c.points[k] = glm::dvec3(world * glm::dvec4(vertex.position, 1));
-            c.normals[k] = turn * glm::dvec3(vertex.normal);
-            const glm::dvec3 a = glm::abs(c.points[k]);
-            farthest = std::max({farthest, a.x, a.y, a.z});
-        }
-        c.area = 0.5 * glm::length(glm::cross(c.points[1] - c.points[0], c.points[2] - c.points[0]));
-        if (!(c.area > 0 && farthest <= rays::kFarthest)) return std::nullopt;
-        return c;
-    }
-};
-
-std::vector<PlacedPrimitive> primitives_of(const scene::Scene& scene, std::span<const glm::dmat4> world) {
-    std::vector<PlacedPrimitive> all;
-    for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
-        if (scene.nodes[node].mesh == scene::kNone) continue;
-        const std::vector<scene::Primitive>& primitives = scene.meshes[scene.nodes[node].mesh].primitives;
-        const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(world[node])));
-        for (uint32_t p = 0; p < primitives.size(); ++p) {
-            const scene::Material& material = scene.materials[primitives[p].material];
-            if (!material.clear) all.push_back({primitives[p], node, p, material.double_sided, world[node], turn});
-        }
-    }
-    return all;
-}
 
 // Some triangles of a primitive, or some strips of a large one.
 struct Part {
@@ -122,7 +69,7 @@ struct NumberedPlace {
 struct PlaceFinder {
     const rays::RayCaster& rays;
     const Surfaces& surfaces;
-    const CellGrid& grid;
+    const SurfaceCells& cells;
     double step;
     Random random;
     std::vector<NumberedPlace> found;
@@ -149,23 +96,27 @@ struct PlaceFinder {
                 const double along_it = (piece + 0.5) / pieces;
                 hit.weights[p] = (1 - middle) * (1 - along_it);
                 hit.weights[(p + 1) % 3] = (1 - middle) * along_it, hit.weights[(p + 2) % 3] = middle;
-                add_on_triangle(hit, c, area, part.of->double_sided);
+                const bool fine = cells.is_fine(c.at(hit.weights));
+                // Of places in larger cells one stands for those of the strips and pieces after it.
+                if (!fine && (std::fmod(strip, kFew) != 0 || std::fmod(piece, kFew) != 0)) continue;
+                const double times = fine ? 1 : std::min(kFew, strips - strip) * std::min(kFew, pieces - piece);
+                add_on_triangle(hit, c, times * area, part.of->double_sided, fine);
             }
         }
     }
 
-    void add_on_triangle(const rays::Hit& hit, const Corners& c, double area, bool double_sided) {
-        glm::dvec3 point(0), normal(0);
-        for (int k = 0; k < 3; ++k)
-            point += hit.weights[k] * c.points[size_t(k)], normal += hit.weights[k] * c.normals[size_t(k)];
+    void add_on_triangle(const rays::Hit& hit, const Corners& c, double area, bool double_sided, bool fine) {
+        const glm::dvec3 point = c.at(hit.weights);
+        glm::dvec3 normal(0);
+        for (int k = 0; k < 3; ++k) normal += hit.weights[k] * c.normals[size_t(k)];
         if (!(glm::length(normal) > 1e-12)) return;
         normal = glm::normalize(normal);
         const glm::dvec3 reflectance = surfaces.reflectance(hit);
         for (const glm::dvec3 outwards : {normal, -normal}) {
             const std::optional<double> open = open_before(point, outwards);
-            if (const std::optional<uint32_t> number = grid.cell_at(point, outwards))
+            if (const std::optional<uint32_t> number = cells.number(point, outwards))
                 found.push_back({*number, !open, {point, outwards, reflectance, hit.node, area, area}});
-            if (open && outwards.y > kLevel) add_air(point, outwards, *open);
+            if (fine && open && outwards.y > kLevel) add_air(point, outwards, *open);
             if (!double_sided) break;
         }
     }
@@ -183,9 +134,8 @@ struct PlaceFinder {
     // Over ground and floors, where things move.
     void add_air(glm::dvec3 ground, glm::dvec3 up, double open) {
         const glm::dvec3 point = ground + std::min(random.next() * kAirHeight, 0.9 * open) * up;
-        const glm::dvec3 cube = grid.place(point) / double(CellGrid::kAir);
         for (uint32_t side = 0; side < kSides; ++side)
-            if (const std::optional<uint32_t> number = grid.air_cell(cube, side))
+            if (const std::optional<uint32_t> number = cells.air(point, side))
                 found.push_back({*number, false, {point, direction_of(side), {}, scene::kNone, 1, 0}});
     }
 };
@@ -207,54 +157,34 @@ void add_place(CellPlaces& cell, const CellGrid& grid, uint32_t number, const Fo
     cell.normal += place.weight * place.normal, cell.reflectance += place.weight * place.reflectance;
 }
 
-std::optional<CellGrid> grid_around(const scene::Scene& scene, std::span<const glm::dmat4> world,
-                                    const RadiositySettings& settings) {
-    glm::dvec3 low(1e300), high(-1e300);
-    double area = 0;
-    for (const PlacedPrimitive& primitive : primitives_of(scene, world))
-        for (uint32_t t = 0; t < primitive.triangles(); ++t) {
-            const std::optional<Corners> c = primitive.corners(t);
-            if (!c) continue;
-            for (const glm::dvec3 corner : c->points) low = glm::min(low, corner), high = glm::max(high, corner);
-            area += primitive.double_sided ? 2 * c->area : c->area;
-        }
-    if (!(area > 0)) return std::nullopt;
-    const glm::dvec3 extent = high - low;
-    const double least = std::max(std::sqrt(area / double(settings.most_cells)),
-                                  std::max({extent.x, extent.y, extent.z}) / kMostCubesAlong);
-    double size = settings.cell_size;
-    while (size < least) size *= std::numbers::sqrt2;
-    return CellGrid::around(low, high, size);
-}
-
 std::optional<PlacesByCell> find_places(const scene::Scene& scene, std::span<const glm::dmat4> world,
-                                        const rays::RayCaster& rays, const Surfaces& surfaces, const CellGrid& grid,
-                                        const std::function<bool(double)>& progress) {
-    const double step = grid.size * kPlaceStep;
+                                        const rays::RayCaster& rays, const Surfaces& surfaces,
+                                        const SurfaceCells& cells, const std::function<bool(double)>& progress) {
+    const double step = cells.grid.size * kPlaceStep;
     const std::vector<PlacedPrimitive> primitives = primitives_of(scene, world);
     const std::vector<Part> parts = parts_of(primitives, step);
-    PlacesByCell cells;
+    PlacesByCell by_cell;
     for (size_t first = 0, end = 0; first < parts.size(); first = end) {
         for (double places = 0; end < parts.size() && places < kPlacesAtATime; ++end) places += parts[end].places;
         std::vector<std::vector<NumberedPlace>> found(end - first);
         const bool done = in_parallel(
             found.size(), 1,
             [&](size_t i, size_t) {
-                PlaceFinder finder{rays, surfaces, grid, step, Random(first + i), {}};
+                PlaceFinder finder{rays, surfaces, cells, step, Random(first + i), {}};
                 finder.look_at(parts[first + i]);
                 found[i] = std::move(finder.found);
             },
             [&](size_t so_far) { return !progress || progress(double(first + so_far) / double(parts.size())); });
         if (!done) return std::nullopt;
         for (const std::vector<NumberedPlace>& of_part : found) {
-            auto at = cells.end();
+            auto at = by_cell.end();
             for (const NumberedPlace& p : of_part) {
-                if (at == cells.end() || at->first != p.number) at = cells.try_emplace(p.number).first;
-                add_place(at->second, grid, p.number, p.place, p.covered);
+                if (at == by_cell.end() || at->first != p.number) at = by_cell.try_emplace(p.number).first;
+                add_place(at->second, cells.grid, p.number, p.place, p.covered);
             }
         }
     }
-    return cells;
+    return by_cell;
 }
 
 }  // namespace vesper::transport

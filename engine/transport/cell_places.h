@@ -8,8 +8,7 @@
 #include <optional>
 #include <span>
 
-#include "transport/cell_grid.h"
-#include "transport/radiosity.h"
+#include "transport/surface_cells.h"
 #include "transport/surfaces.h"
 
 namespace vesper::transport {
@@ -45,15 +44,11 @@ struct FoundPlace {
 /// Adds a place to the cell `number` of `grid`. Those that are `covered` count where a cell has no others.
 void add_place(CellPlaces& cell, const CellGrid& grid, uint32_t number, const FoundPlace& place, bool covered);
 
-/// The cubes of cells for all surfaces; none if there is no surface.
-std::optional<CellGrid> grid_around(const scene::Scene& scene, std::span<const glm::dmat4> world,
-                                    const RadiositySettings& settings);
-
 /// Places all over the triangles, and in the air over ground and floors, where things move. Covered is what lies under
 /// another surface or within a body. `progress` is called with shares from 0 to 1, from this thread; where it returns
 /// false there is no result. On all processors; however many they are, the result is the same.
 std::optional<PlacesByCell> find_places(const scene::Scene& scene, std::span<const glm::dmat4> world,
-                                        const rays::RayCaster& rays, const Surfaces& surfaces, const CellGrid& grid,
-                                        const std::function<bool(double)>& progress);
+                                        const rays::RayCaster& rays, const Surfaces& surfaces,
+                                        const SurfaceCells& cells, const std::function<bool(double)>& progress);
 
 }  // namespace vesper::transport

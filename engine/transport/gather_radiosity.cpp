@@ -64,7 +64,8 @@ struct Gathering {
     Surfaces surfaces;
     Emitters emitters;
     LampLight lamps;
-    CellGrid grid;
+    SurfaceCells surface_cells;
+    CellGrid grid;                // of those
     std::vector<uint32_t> known;  // numbers of cells of all rounds so far, ascending
 
     Gathering(const scene::Scene& of, std::span<const glm::dmat4> at, const std::vector<bool>& moving,
@@ -184,7 +185,7 @@ struct Gathering {
                 const glm::dvec3 to = surface.position - start.point;
                 add_to(meshes, hit->node, share * cosine / density(start, *number, to, cosine) * surface.emission);
             }
-        const std::optional<uint32_t> cell = grid.cell_at(surface.position, surface.normal);
+        const std::optional<uint32_t> cell = surface_cells.number(surface.position, surface.normal);
         if (!cell) return Radiosity::kNowhere;
         if (!std::ranges::binary_search(known, *cell))
             places.push_back({surface.position, surface.normal, surfaces.reflectance(*hit), hit->node, 1, 0});
@@ -229,12 +230,12 @@ struct Gathering {
         Radiosity result;
         result.rays = settings.rays;
         result.first_source.push_back(0);
-        const std::optional<CellGrid> cubes = grid_around(scene, world, settings);
-        if (!cubes) return result;
-        grid = *cubes;
-        std::optional<PlacesByCell> places = find_places(scene, world, rays, surfaces, grid, [&](double share) {
-            return !progress || progress(kPlacesShare * share);
-        });
+        std::optional<SurfaceCells> found = SurfaceCells::of(scene, world, emitters, settings);
+        if (!found) return result;
+        surface_cells = std::move(*found), grid = surface_cells.grid;
+        std::optional<PlacesByCell> places =
+            find_places(scene, world, rays, surfaces, surface_cells,
+                        [&](double share) { return !progress || progress(kPlacesShare * share); });
         if (!places) return std::nullopt;
         PlacesByCell wanted = std::move(*places);
         std::vector<Round> rounds;
@@ -259,7 +260,7 @@ struct Gathering {
             if (!done) return std::nullopt;
             for (Round::Region& region : round.regions)
                 for (const FoundPlace& place : std::exchange(region.places, {})) {
-                    const uint32_t number = *grid.cell_at(place.point, place.normal);
+                    const uint32_t number = *surface_cells.number(place.point, place.normal);
                     add_place(wanted[number], grid, number, place, false);
                 }
         }

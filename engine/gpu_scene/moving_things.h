@@ -6,21 +6,22 @@
 
 #include "gpu_scene/gpu_scene.h"
 #include "gpu_scene/view.h"
+#include "shared/moving_light.h"
 #include "transport/lamp_reflections.h"
 #include "transport/moving_bodies.h"
 
 namespace vesper::gpu_scene {
 
-/// The texels of shared/moving_light.h.
+/// What of them a view sees, as shared/moving_light.h has it.
 struct MovingThings {
-    std::vector<glm::vec4> texels;
-    uint32_t bodies = 0, patches = 0;
+    std::vector<shared::HiddenPush> bodies;
+    std::vector<glm::vec4> patches;  ///< texels
 };
-/// Of what a view may show changed, the kMostBodies nearest and the kMostPatches that give the eye's surroundings most.
+/// The kMostBodies nearest to the eye and the kMostPatches that give it most.
 MovingThings moving_things(const transport::MovingBodies& bodies, std::span<const transport::LitPatch> patches,
                            const SceneFrame& poses, const View& view);
 
-/// MovingBodies::hidden as texels of rg32ui.
-std::vector<glm::uvec2> volume_texels(const transport::MovingBodies& bodies);
+/// MovingBodies::hidden as texels of r32ui.
+std::vector<uint32_t> volume_texels(const transport::MovingBodies& bodies);
 
 }  // namespace vesper::gpu_scene

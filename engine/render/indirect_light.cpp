@@ -31,13 +31,13 @@ MovingLight IndirectLight::moving(graph::FrameGraph& graph, const gpu::Device& d
     MovingLight moving{.things = gpu_scene::moving_things(bodies, patches, poses, view)};
     if (bodies.hidden.empty()) return moving;
     if (volume_bytes_ == 0) {
-        const std::vector<glm::uvec2> texels = gpu_scene::volume_texels(bodies);
+        const std::vector<uint32_t> texels = gpu_scene::volume_texels(bodies);
         const auto bytes = std::as_bytes(std::span(texels));
         volume_arena_.emplace(device);
         volumes_ = gpu_scene::upload_buffer(device, *volume_arena_, bytes, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
         volume_bytes_ = bytes.size();
     }
-    moving.volumes = graph.external("volumes of occlusion", volumes_.get(), volume_bytes_, VK_FORMAT_R32G32_UINT);
+    moving.volumes = graph.external("volumes of occlusion", volumes_.get(), volume_bytes_, VK_FORMAT_R32_UINT);
     return moving;
 }
 

@@ -10,7 +10,6 @@
 #include "base/parallel.h"
 #include "rays/ray_caster.h"
 #include "scene/placement.h"
-#include "transport/cell_grid.h"
 
 namespace vesper::transport {
 namespace {
@@ -86,8 +85,8 @@ double fade_at(const OcclusionVolume& volume, glm::uvec3 place, double across) {
     return std::min(1.0, volume.step * std::min({off.x, off.y, off.z}) / (kFade * kMargin * across));
 }
 
-std::array<uint8_t, 8> hidden_around(const rays::RayCaster& rays, glm::dvec3 point, double reach, double fade,
-                                     const std::vector<glm::dvec3>& directions) {
+std::array<uint8_t, kSides> hidden_around(const rays::RayCaster& rays, glm::dvec3 point, double reach, double fade,
+                                          const std::vector<glm::dvec3>& directions) {
     std::array<double, kSides> hidden{}, all{};
     for (const glm::dvec3 direction : directions) {
         const bool blocked = rays.blocked(point, point + reach * direction);
@@ -97,9 +96,9 @@ std::array<uint8_t, 8> hidden_around(const rays::RayCaster& rays, glm::dvec3 poi
             all[side] += std::abs(cosine), hidden[side] += blocked ? std::abs(cosine) : 0;
         }
     }
-    std::array<uint8_t, 8> parts{};
+    std::array<uint8_t, kSides> parts{};
     for (uint32_t side = 0; side < kSides; ++side)
-        parts[side] = uint8_t(std::lround(255 * fade * hidden[side] / all[side]));
+        parts[side] = uint8_t(std::lround(MovingBodies::kAll * fade * hidden[side] / all[side]));
     return parts;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "transport/cell_grid.h"
 
 namespace vesper::transport {
 
@@ -29,10 +30,11 @@ struct MovingBodies {
     std::vector<Body> bodies;  ///< ascending by node
     std::vector<OcclusionVolume> volumes;
     /// Of each place, for a surface there that faces each side (+x, -x, +y, -y, +z, -z), the part of the light of a
-    /// uniform hemisphere that the body hides, in 255ths; 0 at the border of the volume. The last two are 0.
+    /// uniform hemisphere that the body hides, in parts of kAll; 0 at the border of the volume.
     /// A surface takes it linearly between the eight places around a point one step before it, of its sides by the
     /// squares of the normal's components: so far off, a body does not hide light of its own outer surfaces.
-    std::vector<std::array<uint8_t, 8>> hidden;
+    static constexpr uint32_t kAll = 31;
+    std::vector<std::array<uint8_t, kSides>> hidden;
 };
 
 /// Of a scene in which nodes are `moving` (per node; empty: none). Bodies smaller than 0.3 m across hide nothing, nor

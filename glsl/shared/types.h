@@ -7,7 +7,8 @@
 #include <glm/glm.hpp>
 #define SHARED_BEGIN              \
     namespace vesper::shared {    \
-    using glm::uvec2, glm::vec2;  \
+    using glm::uvec2, glm::uvec4; \
+    using glm::vec2;              \
     using glm::vec3, glm::vec4;   \
     using uint = std::uint32_t;
 #define SHARED_END }

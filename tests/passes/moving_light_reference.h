@@ -29,7 +29,9 @@ inline double hidden(const transport::MovingBodies& bodies, const transport::Occ
                 if (weight == 0) continue;
                 for (uint32_t side = 0; side < 6; ++side) {
                     const double component = side % 2 ? -normal[int(side / 2)] : normal[int(side / 2)];
-                    if (component > 0) sum += weight * component * component * bodies.hidden[i][side] / 255;
+                    if (component > 0)
+                        sum += weight * component * component * bodies.hidden[i][side] /
+                               double(transport::MovingBodies::kAll);
                 }
             }
     return sum;

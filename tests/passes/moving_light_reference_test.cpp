@@ -17,7 +17,7 @@ transport::MovingBodies one_place() {
     transport::MovingBodies bodies;
     bodies.volumes = {{.low = {1, 2, 3}, .step = 0.5, .count = {4, 3, 3}, .first = 2}};
     bodies.hidden.resize(2 + 36);
-    bodies.hidden[2 + (1 * 3 + 1) * 4 + 2] = {10, 20, 51, 102, 153, 204, 0, 0};  // at (2, 1, 1): 2, 2.5, 3.5
+    bodies.hidden[2 + (1 * 3 + 1) * 4 + 2] = {1, 2, 6, 12, 18, 24};  // at (2, 1, 1): 2, 2.5, 3.5
     bodies.bodies = {{1, 0}};
     return bodies;
 }
@@ -27,11 +27,11 @@ TEST(MovingLightReference, IsLinearBetweenPlacesOneStepBeforeTheSurface) {
     const auto at = [&](dvec3 point, dvec3 normal) {
         return reference::hidden(bodies, bodies.volumes[0], point, normal);
     };
-    EXPECT_NEAR(at({2, 2, 3.5}, {0, 1, 0}), 51 / 255.0, 1e-12);
-    EXPECT_NEAR(at({2, 3, 3.5}, {0, -1, 0}), 102 / 255.0, 1e-12);
-    EXPECT_NEAR(at({2.2, 2.15, 3.6}, {0, 1, 0}), 0.6 * 0.7 * 0.8 * 51 / 255.0, 1e-12);
+    EXPECT_NEAR(at({2, 2, 3.5}, {0, 1, 0}), 6 / 31.0, 1e-12);
+    EXPECT_NEAR(at({2, 3, 3.5}, {0, -1, 0}), 12 / 31.0, 1e-12);
+    EXPECT_NEAR(at({2.2, 2.15, 3.6}, {0, 1, 0}), 0.6 * 0.7 * 0.8 * 6 / 31.0, 1e-12);
     const dvec3 normal(-0.6, 0, 0.8);
-    EXPECT_NEAR(at(dvec3(2, 2.5, 3.5) - 0.5 * normal, normal), (0.36 * 20 + 0.64 * 153) / 255, 1e-12);
+    EXPECT_NEAR(at(dvec3(2, 2.5, 3.5) - 0.5 * normal, normal), (0.36 * 2 + 0.64 * 18) / 31, 1e-12);
     EXPECT_EQ(at({2, 3, 3.5}, {0, 1, 0}), 0) << "one step before it the volume ends";
     EXPECT_EQ(at({0.9, 2, 3.5}, {0, 1, 0}), 0);
 }
@@ -42,11 +42,11 @@ TEST(MovingLightReference, BodiesHideOfWhatOthersLeave) {
     gpu_scene::SceneFrame poses{{glm::dmat4(1), glm::dmat4(1), glm::dmat4(1)}};
     poses.world[1] = glm::translate(glm::dmat4(1), {100, 0, 0});
     poses.world[2] = poses.world[1];
-    EXPECT_NEAR(reference::left_open(bodies, poses, {102, 2, 3.5}, {0, 1, 0}), 0.8 * 0.8, 1e-12);
+    EXPECT_NEAR(reference::left_open(bodies, poses, {102, 2, 3.5}, {0, 1, 0}), 25 / 31.0 * 25 / 31.0, 1e-12);
     // Turned so that its y is the world's x: what it hides from a surface that faces x is what it has of y.
     poses.world[2] = glm::rotate(glm::translate(glm::dmat4(1), {0, 0, 50}), -std::numbers::pi / 2, {0, 0, 1});
     const dvec3 place(glm::dvec3(poses.world[2] * glm::dvec4(2, 2.5, 3.5, 1)));
-    EXPECT_NEAR(reference::left_open(bodies, poses, place - dvec3(0.5, 0, 0), {1, 0, 0}), 0.8, 1e-12);
+    EXPECT_NEAR(reference::left_open(bodies, poses, place - dvec3(0.5, 0, 0), {1, 0, 0}), 25 / 31.0, 1e-12);
 }
 
 // A disc of the radius r and the luminance L: on its axis E = pi L r^2 / (d^2 + r^2), far from it I cos cos / d^2.

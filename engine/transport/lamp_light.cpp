@@ -9,10 +9,17 @@
 #include "transport/reach.h"
 
 namespace vesper::transport {
+namespace {
+
+constexpr double kDark = 1e-200;  // lx: less is rounding
+
+}  // namespace
+
 LampLight::LampLight(const scene::Scene& scene, std::span<const glm::dmat4> world, const rays::RayCaster& rays)
-    : scene_(scene), rays_(rays), in_fixture_(scene.nodes.size()) {
+    : scene_(scene), rays_(rays), in_housing_(scene.nodes.size()) {
     const std::vector<uint32_t> nodes = scene::nodes_with_lamps(scene);
-    std::vector<std::vector<uint32_t>> fixtures = scene::fixture_nodes(scene, nodes, world);
+    std::vector<std::vector<uint32_t>> fixtures = scene::fixture_nodes(scene, nodes, world),
+                                       housings = scene::housing_nodes(scene, nodes, world);
     for (size_t i = 0; i < nodes.size(); ++i) {
         const scene::Lamp& lamp = scene.lamps[scene.nodes[nodes[i]].lamp];
         const glm::dmat4& at = world[nodes[i]];
@@ -22,8 +29,8 @@ LampLight::LampLight(const scene::Scene& scene, std::span<const glm::dmat4> worl
         const glm::dmat3 frame = scene::lamp_frame(at);
         const bool directional = lamp.kind == scene::Lamp::Kind::Directional;
         bounds_.push_back({directional ? kReach * frame[2] : glm::dvec3(at[3]), largest, directional});
-        for (const uint32_t node : fixtures[i]) in_fixture_[node] = true;
-        lamps_.push_back({nodes[i], &lamp, glm::transpose(frame), std::move(fixtures[i])});
+        for (const uint32_t node : housings[i]) in_housing_[node] = true;
+        lamps_.push_back({nodes[i], &lamp, glm::transpose(frame), std::move(fixtures[i]), std::move(housings[i])});
     }
 }
 
@@ -57,7 +64,7 @@ bool LampLight::blocked(size_t lamp, const Way& way, glm::dvec3 point, glm::dvec
 }
 
 bool LampLight::lights(size_t lamp, uint32_t node) const {
-    return node == scene::kNone || !in_fixture_[node] || !std::ranges::binary_search(lamps_[lamp].fixture, node);
+    return node == scene::kNone || !in_housing_[node] || !std::ranges::binary_search(lamps_[lamp].housing, node);
 }
 
 glm::dvec3 LampLight::illuminance(glm::dvec3 point, glm::dvec3 normal, double threshold, uint32_t node) const {
@@ -77,11 +84,14 @@ void LampLight::sample(glm::dvec3 point, glm::dvec3 normal, uint32_t node, uint3
                        std::vector<Share>& shares) const {
     // The numbers of even steps through the sum of all weights that fall into each.
     const auto systematic = [&random](std::span<const double> weights, double sum, uint32_t steps, auto take) {
-        double next = random.next() * sum / steps, at = 0;
+        if (!(sum > kDark)) return;
+        const double start = random.next();
+        double at = 0;
+        uint32_t step = 0;
         for (size_t i = 0; i < weights.size(); ++i) {
             at += weights[i];
             uint32_t times = 0;
-            for (; next < at; next += sum / steps) ++times;
+            for (; step < steps && (start + step) * sum / steps < at; ++step) ++times;
             if (times > 0) take(i, times);
         }
     };

@@ -18,7 +18,7 @@ public:
     LampLight(scene::Scene&&, std::span<const glm::dmat4>, const rays::RayCaster&) = delete;
 
     /// On a surface with the unit normal `normal`, lx RGB. Lamps that give less than `threshold` lx count as dark.
-    /// `node`: that has the surface; lamps of whose fixture it is give it nothing, since their intensities hold its
+    /// `node`: that has the surface; lamps of whose housing it is give it nothing, since their intensities hold its
     /// light.
     glm::dvec3 illuminance(glm::dvec3 point, glm::dvec3 normal, double threshold, uint32_t node = scene::kNone) const;
 
@@ -36,8 +36,8 @@ private:
     struct Placed {
         uint32_t node;
         const scene::Lamp* lamp;
-        glm::dmat3 to_lamp;             // directions
-        std::vector<uint32_t> fixture;  // nodes
+        glm::dmat3 to_lamp;                      // directions
+        std::vector<uint32_t> fixture, housing;  // nodes
     };
     // What all lamps are asked for at each point, apart from the rest.
     struct Bound {
@@ -56,7 +56,7 @@ private:
     const rays::RayCaster& rays_;
     std::vector<Placed> lamps_;
     std::vector<Bound> bounds_;     // of each
-    std::vector<bool> in_fixture_;  // nodes: of any lamp's fixture
+    std::vector<bool> in_housing_;  // nodes: of any lamp
 };
 
 }  // namespace vesper::transport

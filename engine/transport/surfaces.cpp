@@ -35,8 +35,8 @@ Surfaces::Surfaces(const scene::Scene& scene, std::span<const glm::dmat4> world)
       codes_(scene::linear_codes(scene.transfer)),
       emitted_(scene::linear_codes(scene::Transfer{})),
       holds_lamp_(scene.nodes.size()) {
-    for (const std::vector<uint32_t>& fixture : scene::fixture_nodes(scene, scene::nodes_with_lamps(scene), world))
-        for (const uint32_t node : fixture) holds_lamp_[node] = true;
+    for (const std::vector<uint32_t>& housing : scene::housing_nodes(scene, scene::nodes_with_lamps(scene), world))
+        for (const uint32_t node : housing) holds_lamp_[node] = true;
 }
 
 // What a ray meets, before textures are looked up.

@@ -24,7 +24,7 @@ public:
     Surfaces(const scene::Scene& scene, std::span<const glm::dmat4> world);
     Surfaces(scene::Scene&&, std::span<const glm::dmat4>) = delete;
 
-    /// `hit`: of a ray from `from`. Meshes that hold a lamp (scene/fixtures.h) emit nothing: the lamp's intensities
+    /// `hit`: of a ray from `from`. Meshes of a lamp's housing (scene/fixtures.h) emit nothing: its intensities
     /// have their light.
     SurfacePoint at(const rays::Hit& hit, glm::dvec3 from) const;
     /// The same but for its reflectance, which is 0.

@@ -54,8 +54,9 @@ Emitters::Emitters(const scene::Scene& scene, std::span<const glm::dmat4> world,
                 if (!(e.area > 0) || !std::isfinite(e.area)) continue;
                 e.outwards = front * twice / (2 * e.area);
                 if (list_.size() == kMost)
-                    throw Error(one_line(scene.nodes[node].name) + " is one of nodes that emit light with more than " +
-                                std::to_string(kMost) + " triangles");
+                    throw Error("light between surfaces: more than " + std::to_string(kMost) +
+                                " triangles emit, with those of node " + std::to_string(node) + " '" +
+                                one_line(scene.nodes[node].name) + "'");
                 list_.push_back(e);
             }
         }

@@ -33,7 +33,7 @@ double least_cosine(const scene::Lamp& lamp) {
 // The part of a lamp's light that meets no surface.
 double open_part(const scene::Scene& scene, const scene::Lamp& lamp, const glm::dmat4& at,
                  std::span<const uint32_t> fixture, const rays::RayCaster& rays, uint32_t seed) {
-    const glm::dmat3 turned(at);
+    const glm::dmat3 turned = scene::lamp_frame(at);
     Random random(seed);
     const Lattice directions(random);
     const double least = least_cosine(lamp);
@@ -45,7 +45,7 @@ double open_part(const scene::Scene& scene, const scene::Lamp& lamp, const glm::
         const glm::dvec3 own(sine * std::cos(turn), sine * std::sin(turn), -cosine);
         const double candela = scene::luminous_intensity(lamp, scene.distributions, own);
         sent += candela;
-        const glm::dvec3 from(at[3]), way = glm::normalize(turned * own);
+        const glm::dvec3 from(at[3]), way = turned * own;
         if (candela > 0 && !rays.blocked(from, from + kReach * way, fixture)) open += candela;
     }
     return sent > 0 ? open / sent : 0;
@@ -84,6 +84,7 @@ void add_emitters(FluxBalance& balance, const scene::Scene& scene, std::span<con
         const rays::Hit here{
             .share = 1, .node = e.node, .primitive = e.primitive, .triangle = e.triangle, .weights = weights};
         const double sides = e.double_sided ? 2 : 1;
+        if (!surfaces.stops_light(here)) continue;  // a hole of a mask
         const double flux = std::numbers::pi * luminance(surfaces.emission(here, place + normal)) * sides * e.area /
                             (choice.probability(number) * kRaysOfEmitters);
         balance.emitters += flux;
@@ -101,7 +102,11 @@ FluxBalance flux_balance(const scene::Scene& scene, std::span<const glm::dmat4> 
     FluxBalance balance;
     add_lamps(balance, scene, still, rays);
     add_emitters(balance, scene, still, rays);
-    const Radiosity::Solution light = radiosity.solve({.reflections = reflections});
+    // Directional light has no flux.
+    std::vector<float> factors(scene.nodes.size(), 1);
+    for (const uint32_t node : scene::nodes_with_lamps(scene))
+        if (scene.lamps[scene.nodes[node].lamp].kind == scene::Lamp::Kind::Directional) factors[node] = 0;
+    const Radiosity::Solution light = radiosity.solve({.factors = factors, .reflections = reflections});
     for (size_t i = 0; i < radiosity.cells(); ++i) {
         const glm::dvec3 lux = glm::dvec3(light.lamps[i]) + glm::dvec3(light.other[i]),
                          kept = glm::dvec3(radiosity.reflectances[i]);

@@ -27,7 +27,8 @@ constexpr uint32_t kMostRounds = 4;
 constexpr double kRegion = 8;            // cubes: cells in one see about the same emitters
 constexpr uint32_t kFirstLooks = 1'024;  // of a region, to learn which it sees; no more than its cells have
 constexpr float kUnknown = 0.25f;        // of a look, before any: so that no group is taken to be hidden
-constexpr double kKeptSources = 0.995;   // of the light of a cell
+constexpr double kMostOverfull = 1.5;    // times settings.most_cells
+constexpr double kKeptSources = 0.999;   // of the light of a cell
 
 using Light = std::vector<std::pair<uint32_t, glm::dvec3>>;  // by source, lx
 
@@ -230,13 +231,18 @@ struct Gathering {
         Radiosity result;
         result.rays = settings.rays;
         result.first_source.push_back(0);
-        std::optional<SurfaceCells> found = SurfaceCells::of(scene, world, emitters, settings);
-        if (!found) return result;
-        surface_cells = std::move(*found), grid = surface_cells.grid;
-        std::optional<PlacesByCell> places =
-            find_places(scene, world, rays, surfaces, surface_cells,
-                        [&](double share) { return !progress || progress(kPlacesShare * share); });
-        if (!places) return std::nullopt;
+        std::optional<PlacesByCell> places;
+        // Where surfaces are small there are more cells than their area says.
+        for (RadiositySettings sized = settings;
+             !places || double(places->size()) > kMostOverfull * double(settings.most_cells);
+             sized.cell_size *= std::sqrt(double(places->size()) / double(settings.most_cells))) {
+            std::optional<SurfaceCells> found = SurfaceCells::of(scene, world, emitters, sized);
+            if (!found) return result;
+            surface_cells = std::move(*found), grid = surface_cells.grid;
+            places = find_places(scene, world, rays, surfaces, surface_cells,
+                                 [&](double share) { return !progress || progress(kPlacesShare * share); });
+            if (!places) return std::nullopt;
+        }
         PlacesByCell wanted = std::move(*places);
         std::vector<Round> rounds;
         while (!wanted.empty() && rounds.size() < kMostRounds) {

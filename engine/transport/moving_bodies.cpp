@@ -109,10 +109,12 @@ MovingBodies moving_bodies(const scene::Scene& scene, const std::vector<bool>& m
     std::map<uint32_t, Shape> by_node;  // of bodies
     std::vector<uint32_t> body(scene.nodes.size(), scene::kNone);
     std::vector<glm::dmat4> from_node(scene.nodes.size(), glm::dmat4(1));
+    std::vector<bool> animated(scene.nodes.size());
+    for (const scene::Channel& channel : scene.channels) animated[channel.node] = true;
     for (uint32_t node = 0; node < moving.size(); ++node) {
         if (!moving[node]) continue;
         const uint32_t parent = scene.nodes[node].parent;
-        const bool below = parent != scene::kNone && moving[parent];
+        const bool below = parent != scene::kNone && moving[parent] && !animated[node];
         body[node] = below ? body[parent] : node;
         if (below) from_node[node] = from_node[parent] * scene::local_transform(scene.nodes[node]);
         take_in(scene, node, from_node[node], by_node[body[node]]);

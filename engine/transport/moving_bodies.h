@@ -23,7 +23,8 @@ struct OcclusionVolume {
 /// Bodies that move, with what each hides (ambient occlusion fields: Kontkanen and Laine 2005, Malmer et al. 2007).
 /// Bodies count as rigid and black. Equal ones share a volume.
 struct MovingBodies {
-    /// A node that moves, below none that does, with all that is below it.
+    /// A node that moves, below none that does or with animations of its own, and all that is below it but for other
+    /// bodies.
     struct Body {
         uint32_t node, volume;
     };

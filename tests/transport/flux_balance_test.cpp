@@ -55,7 +55,7 @@ TEST(FluxBalance, EmittersAreCountedBySides) {
         add_rectangle(scene, glow, {-1, 0.1f, 1}, {2, 0, 0}, {0, 0, -2});
         const transport::FluxBalance found = balance_of(scene);
         EXPECT_NEAR(found.emitters, (both ? 2 : 1) * 400 * kPi, 1e-6 * found.emitters);
-        EXPECT_NEAR(found.absorbed, found.emitters, 0.03 * found.emitters) << both;
+        EXPECT_NEAR(found.absorbed, found.emitters, 0.04 * found.emitters) << both;
     }
 }
 

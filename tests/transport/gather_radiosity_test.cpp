@@ -256,6 +256,35 @@ TEST(GatherRadiosity, LightThroughAThinWallStaysNearIt) {
 }
 
 // Beside an ordinary floor: triangles with corners that are no places change nothing, whichever corner it is.
+// cos^1000 away from the axis: denormal numbers, of which no sum is even steps.
+TEST(GatherRadiosity, ABeamThatGivesNextToNothingEnds) {
+    scene::Scene scene;
+    add_rectangle(scene, add_material(scene, 0.5f), {-40, 0, 40}, {80, 0, 0}, {0, 0, -80});
+    add_lamp(scene, 1000, {0, 4, 0});
+    scene.lamps[0].kind = scene::Lamp::Kind::CosinePower, scene.lamps[0].exponent = 1000;
+    const transport::Radiosity radiosity = gathered(scene, {.cell_size = 4});
+    EXPECT_GT(radiosity.cells(), 300u);
+}
+
+// A lamp, a room and a panel below one group: the room is no housing, and the panel emits.
+TEST(GatherRadiosity, ARoomIsNoHousingOfItsLamp) {
+    scene::Scene scene;
+    const uint32_t white = add_material(scene, 0.5f), glow = add_material(scene, 0, 100);
+    scene.nodes.emplace_back();
+    add_room(scene, white, glm::vec3(3));
+    add_rectangle(scene, glow, {-1, 2.9f, -1}, {2, 0, 0}, {0, 0, 2});
+    add_lamp(scene, 100, {0, 0, 0});
+    for (size_t node = 1; node < scene.nodes.size(); ++node) scene.nodes[node].parent = 0;
+    scene.nodes.back().fixture.reset();
+    const transport::Radiosity radiosity = gathered(scene);
+    const auto floor = [&](size_t i, dvec3 middle) {
+        return radiosity.grid.side(radiosity.numbers[i]) == 2 && middle.y < -2;
+    };
+    const auto light = radiosity.solve({.reflections = 0});
+    EXPECT_GT(mean_over(radiosity, lux(light.lamps), floor), 3);
+    EXPECT_GT(mean_over(radiosity, lux(light.other), floor), 5);
+}
+
 TEST(GatherRadiosity, BrokenTrianglesChangeNothing) {
     scene::Scene scene = yard();
     const Radiosity whole = gathered(scene);

@@ -97,6 +97,19 @@ TEST(MovingBodies, HideNothingOfTheirOwnOuterSurfaces) {
         }
 }
 
+// A box that is animated below a node that is: two bodies, each at the pose of its own node.
+TEST(MovingBodies, PartsWithAnimationsAreBodies) {
+    scene::Scene scene;
+    add_material(scene, 0.5f);
+    const uint32_t above = add_body(scene, vec3(1)), below = add_body(scene, vec3(0.5f), {4, 0, 0});
+    scene.nodes[below].parent = above;
+    for (const uint32_t node : {above, below}) scene.channels.emplace_back().node = node;
+    const MovingBodies bodies = moving_from(scene, 0);
+    ASSERT_EQ(bodies.bodies.size(), 2u);
+    EXPECT_EQ(bodies.bodies[0].node, above);
+    EXPECT_EQ(bodies.bodies[1].node, below);
+}
+
 TEST(MovingBodies, EqualOnesShareAVolumeAndSmallOnesHaveNone) {
     scene::Scene scene;
     add_material(scene, 0.5f);

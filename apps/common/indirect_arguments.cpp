@@ -17,7 +17,9 @@ void add_indirect_options(Command command, IndirectArguments& a, bool exact) {
                     help + (exact ? "; exact: they are traced for each pixel of each frame (slow)" : ""))
         .check(one_of(words))
         .shows_default();
-    command.add_option("--reflections", a.reflections, "Reflections of light that are counted")
+    command
+        .add_option("--reflections", a.reflections,
+                    "Reflections of light, at most; they end where the rest would add less than 1 %")
         .check(range(0u, 100u))
         .shows_default();
     command
@@ -30,6 +32,8 @@ void add_indirect_options(Command command, IndirectArguments& a, bool exact) {
 void set_indirect(const IndirectArguments& a, render::RenderSettings& settings) {
     settings.indirect = a.indirect != "off", settings.reflections = a.reflections;
     settings.moving_reflections = a.moving == "on";
+    if (settings.moving_reflections && !settings.indirect)
+        throw Error("--moving-reflections has no meaning with --indirect off");
 }
 
 std::shared_ptr<const transport::Radiosity> gathered(const scene::Scene& scene, std::span<const glm::dmat4> world,

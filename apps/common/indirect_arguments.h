@@ -14,7 +14,7 @@ namespace vesper::apps {
 
 struct IndirectArguments {
     std::string indirect = "cached", moving = "off";
-    uint32_t reflections = 3;
+    uint32_t reflections = 100;
 };
 /// --indirect, --reflections and --moving-reflections. `exact`: whether light may be traced for each pixel, too.
 void add_indirect_options(Command, IndirectArguments&, bool exact = false);

@@ -228,7 +228,8 @@ void run_headless(const DriveArguments& a) {
     Session session(device, options, std::move(scenery));
     const std::shared_ptr<Cache> cache = apps::shadow_cache(a.shadow_cache);
     session.keep_maps(cache);
-    if (outlet.wanted() && session.settings().render().indirect) {
+    const render::RenderSettings& shown = session.settings().render();
+    if (outlet.wanted() && shown.indirect && shown.tone_operator != render::Operator::Ldr) {
         const gpu_scene::SceneFrame rest = session.moment();
         session.set_radiosity(apps::gathered(session.scenery().scene(), rest.world, rest.moving, cache.get()));
     }

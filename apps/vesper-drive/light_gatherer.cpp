@@ -65,9 +65,9 @@ std::shared_ptr<const transport::Radiosity> LightGatherer::take() {
     return std::exchange(found_, nullptr);
 }
 
-std::string LightGatherer::problem() const {
+std::string LightGatherer::problem() {
     const std::lock_guard lock(mutex_);
-    return problem_;
+    return std::exchange(problem_, {});
 }
 
 }  // namespace vesper::drive

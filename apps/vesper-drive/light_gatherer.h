@@ -28,8 +28,8 @@ public:
     std::shared_ptr<const transport::Radiosity> take();
     bool done() const { return done_; }
     double share() const { return share_; }  ///< of the work that is done, 0 to 1
-    /// Why it is not kept for later runs; empty: it is, or is not yet found.
-    std::string problem() const;
+    /// Why it is not kept for later runs, once; empty: it is, or is not yet found.
+    std::string problem();
 
 private:
     void run(const scene::Scene& scene, const std::vector<glm::dmat4>& world, const std::vector<bool>& moving);
@@ -38,7 +38,7 @@ private:
     std::shared_ptr<Cache> cache_;
     std::atomic<bool> ends_{false}, done_{false};
     std::atomic<double> share_{0};
-    mutable std::mutex mutex_;  // of what follows
+    std::mutex mutex_;  // of what follows
     std::shared_ptr<const transport::Radiosity> found_;
     std::string problem_, failure_;
     std::thread thread_;

@@ -270,11 +270,8 @@ void WindowedDrive::take_light() {
                                                  std::move(rest.moving), apps::shadow_cache(arguments_.shadow_cache));
     }
     try {
-        const bool done = light_->done();
-        auto radiosity = light_->take();
-        if (!radiosity) return;
-        session_->set_radiosity(std::move(radiosity)), stale_ = true;
-        if (done) apps::print_cache_note(light_->problem());
+        if (auto radiosity = light_->take()) session_->set_radiosity(std::move(radiosity)), stale_ = true;
+        apps::print_cache_note(light_->problem());
     } catch (const gpu::DeviceLost&) {
         throw;
     } catch (const Error& error) {

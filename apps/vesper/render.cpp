@@ -287,7 +287,7 @@ void run(RenderArguments& arguments) {
     render::Renderer renderer(device, scene);
     const std::shared_ptr<Cache> cache = apps::shadow_cache(arguments.shadows.cache);
     renderer.keep_maps(cache);
-    if (arguments.settings.indirect && !arguments.traces)
+    if (arguments.settings.indirect && !arguments.traces && !ldr)  // which shows lamps alone
         renderer.set_radiosity(apps::gathered(scene, moment.world, scene::animated_nodes(scene), cache.get()));
     if (arguments.settings.moving_reflections)
         renderer.set_lamp_reflections(

@@ -49,10 +49,10 @@ struct VesperRenderer {
     uint64_t version;  // of the scene on the device
     vesper::render::Renderer engine;
     vesper::scene::DisplayFinder displays;
-    std::map<uint32_t, glm::mat4> places;     // of nodes that were put somewhere: node frame to world
-    std::map<uint32_t, float> dimming;        // of lamps and meshes at nodes
-    bool lamp_reflections = false;            // the engine has them
-    std::shared_ptr<vesper::Cache> cache;     // of what is kept for later runs
+    std::map<uint32_t, glm::mat4> places;         // of nodes that were put somewhere: node frame to world
+    std::map<uint32_t, float> dimming;            // of lamps and meshes at nodes
+    std::optional<std::vector<bool>> reflecting;  // nodes that move, for which the engine has reflections of lamps
+    std::shared_ptr<vesper::Cache> cache;         // of what is kept for later runs
     std::optional<VesperFrameReport> report;  // of the last submitted frame that was finished, until it is asked for
 };
 

@@ -39,6 +39,8 @@ gpu_scene::View view_of(const VesperView& v, const scene::Scene& scene, const gp
     return gpu_scene::View::symmetric(extent, v.vertical_fov, world_to_view, v.near_plane);
 }
 
+constexpr uint32_t kViewWithoutIndirect = 104;  // size of a VesperView before there was that field, padded
+
 /// What is drawn and from where.
 struct Seen {
     gpu_scene::SceneFrame frame;
@@ -49,7 +51,8 @@ void apply(const Seen& seen, render::RenderSettings& how) {
     how.shadows = seen.shadows, how.indirect = seen.indirect, how.moving_reflections = seen.moving_reflections;
 }
 Seen see(const VesperRenderer& renderer, const VesperView* view) {
-    const VesperView v = known(view, "a view without its size");
+    VesperView v = known(view, "a view without its size");
+    if (v.size <= kViewWithoutIndirect) v.no_indirect = 0;  // it lies where such views have padding
     require(v.scene_seconds >= 0 && v.scene_seconds <= 1e9, "the scene's time is 0 to 1e9 s");
     require(v.no_shadows == 0 || v.no_shadows == 1, "VesperView::no_shadows is 0 or 1");
     require(v.no_indirect == 0 || v.no_indirect == 1, "VesperView::no_indirect is 0 or 1");
@@ -65,7 +68,7 @@ Seen see(const VesperRenderer& renderer, const VesperView* view) {
 void take_over_scene(VesperRenderer& renderer) {
     if (renderer.version == renderer.scene.version) return;
     renderer.engine.set_scene(renderer.scene.scene);
-    renderer.lamp_reflections = false;
+    renderer.reflecting.reset();
     const auto is_gone = [&](const auto& of_node) {
         return of_node.first < renderer.scene.gone.size() && renderer.scene.gone[of_node.first];
     };
@@ -82,11 +85,13 @@ std::vector<bool> all_moving(const scene::Scene& scene, const gpu_scene::SceneFr
 }
 
 void find_lamp_reflections(VesperRenderer& renderer, const Seen& seen) {
-    if (!seen.moving_reflections || renderer.lamp_reflections) return;
+    if (!seen.moving_reflections) return;
     const scene::Scene& scene = renderer.scene.scene;
+    std::vector<bool> moving = all_moving(scene, seen.frame);
+    if (renderer.reflecting == moving) return;
     renderer.engine.set_lamp_reflections(
-        std::make_shared<const transport::LampReflections>(scene, seen.frame.world, all_moving(scene, seen.frame)));
-    renderer.lamp_reflections = true;
+        std::make_shared<const transport::LampReflections>(scene, seen.frame.world, moving));
+    renderer.reflecting = std::move(moving);
 }
 
 void require_node(const VesperRenderer& renderer, uint32_t node) {
@@ -149,7 +154,7 @@ VesperResult vesper_renderer_gather_light(VesperRenderer* renderer, VesperProgre
         const gpu_scene::SceneFrame rest = frame_of(*renderer, 0);
         const scene::Scene& scene = renderer->scene.scene;
         const std::vector<bool> moving = all_moving(scene, rest);
-        renderer->engine.set_lamp_reflections(nullptr), renderer->lamp_reflections = false;
+        renderer->engine.set_lamp_reflections(nullptr), renderer->reflecting.reset();
         auto radiosity =
             transport::kept_or_gathered(scene, rest.world, moving, {}, renderer->cache.get(),
                                         [&](double share) { return !progress || progress(share, user) != 0; });

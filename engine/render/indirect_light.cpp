@@ -5,13 +5,21 @@
 namespace vesper::render {
 
 IndirectCells IndirectLight::cells(graph::FrameGraph& graph, const gpu::Device& device,
-                                   const transport::RadiosityLight& light, const std::function<void()>& wait) {
+                                   const transport::RadiosityLight& light, const std::vector<bool>& moving,
+                                   const std::function<void()>& wait) {
     if (radiosity_->cells() == 0) return {};
     Lit lit{std::vector<float>(sources_.size(), 1), light.sky, light.reflections};
-    for (size_t i = 0; i < sources_.size() && !light.factors.empty(); ++i) lit.factors[i] = light.factors[sources_[i]];
+    std::vector<float> factors(sources_.empty() ? 0 : sources_.back() + size_t{1});  // of nodes
+    for (size_t i = 0; i < sources_.size(); ++i) {
+        const uint32_t node = sources_[i];
+        if (!light.factors.empty()) lit.factors[i] = light.factors[node];
+        if (!moving.empty() && moving[node]) lit.factors[i] = 0;
+        factors[node] = lit.factors[i];
+    }
     if (lit != lit_) {
-        const gpu_scene::IrradianceCells table =
-            gpu_scene::irradiance_cells(*radiosity_, radiosity_->solve(light).other);
+        transport::RadiosityLight now = light;
+        now.factors = factors;
+        const gpu_scene::IrradianceCells table = gpu_scene::irradiance_cells(*radiosity_, radiosity_->solve(now).other);
         wait();
         lit_.reset(), texels_ = {};
         arena_.emplace(device);
@@ -20,8 +28,11 @@ IndirectCells IndirectLight::cells(graph::FrameGraph& graph, const gpu::Device& 
         bytes_ = bytes.size(), log2_places_ = table.log2_places;
         lit_ = std::move(lit);
     }
-    return {graph.external("irradiance cells", texels_.get(), bytes_, VK_FORMAT_R32G32B32A32_UINT), log2_places_,
-            radiosity_->grid};
+    return {.texels = graph.external("irradiance cells", texels_.get(), bytes_, VK_FORMAT_R32G32B32A32_UINT),
+            .log2_places = log2_places_,
+            .grid = radiosity_->grid,
+            .sky_above = glm::vec3(transport::open_sky(light, {0, 1, 0})),
+            .sky_below = glm::vec3(transport::open_sky(light, {0, -1, 0}))};
 }
 
 MovingLight IndirectLight::moving(graph::FrameGraph& graph, const gpu::Device& device,

@@ -19,9 +19,10 @@ public:
     explicit IndirectLight(std::shared_ptr<const transport::Radiosity> radiosity)
         : radiosity_(std::move(radiosity)), sources_(radiosity_->source_nodes()) {}
 
-    /// `wait` is called before anything that a frame may use is replaced. Throws Error.
+    /// What moves (per node; empty: nothing) gives no light to it. `wait` is called before anything that a frame may
+    /// use is replaced. Throws Error.
     IndirectCells cells(graph::FrameGraph& graph, const gpu::Device& device, const transport::RadiosityLight& light,
-                        const std::function<void()>& wait);
+                        const std::vector<bool>& moving, const std::function<void()>& wait);
     /// The bodies that hide it, and `patches`, as a view sees them. Throws Error.
     MovingLight moving(graph::FrameGraph& graph, const gpu::Device& device,
                        std::span<const transport::LitPatch> patches, const gpu_scene::SceneFrame& poses,

@@ -9,6 +9,11 @@
 #include "render/passes/luminaires.h"
 
 namespace vesper::render {
+namespace {
+
+constexpr double kReflectionsLeftOut = 0.01;
+
+}  // namespace
 
 Renderer::Renderer(gpu::Device& device, const scene::Scene& scene)
     : device_(device), scene_(std::make_unique<SceneData>(device, scene)), frames_(device) {}
@@ -118,12 +123,14 @@ void Renderer::add_indirect_light(graph::FrameGraph& graph, FrameInputs& in, con
         const transport::RadiosityLight light{.factors = poses.dimming,
                                               .sky = glm::dvec3(ambient.sky),
                                               .sky_picture = scene_->sky_on ? &*scene_->sky_on : nullptr,
-                                              .reflections = settings.reflections};
-        in.indirect = indirect_->cells(graph, device_, light, [this] { frames_.wait(); });
+                                              .reflections = settings.reflections,
+                                              .left_out = kReflectionsLeftOut};
+        in.indirect = indirect_->cells(graph, device_, light, poses.moving, [this] { frames_.wait(); });
+        if (!in.indirect.texels) return;  // nothing stands still
         std::vector<transport::LitPatch> patches;
         if (settings.moving_reflections && lamp_reflections_)
             patches = lamp_reflections_->patches(poses.world, poses.dimming, gpu_scene::eye_of(view));
-        if (in.indirect.texels) in.moving = indirect_->moving(graph, device_, patches, poses, view);
+        in.moving = indirect_->moving(graph, device_, patches, poses, view);
     } else {
         return;
     }

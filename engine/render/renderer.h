@@ -27,7 +27,7 @@ struct RenderSettings : ToneChainSettings {
     bool shadows = true;                       ///< lamps light only what they see
     uint64_t shadow_budget = kNoShadowBudget;  ///< of tiles of distance maps drawn for a frame, see DistanceMaps
     bool indirect = true;  ///< light of emitting surfaces and of the sky, and reflected light, if the renderer has it
-    uint32_t reflections = 3;         ///< of light, that are counted with it
+    uint32_t reflections = 100;       ///< of light, at most: they end where the rest would add less than 1 %
     bool moving_reflections = false;  ///< with it, the first reflection of lamps that move, if the renderer has them
     ClusterSettings clusters;
     std::vector<gpu_scene::OffscreenLamp>

@@ -36,12 +36,17 @@ Axes axes_of(uint32_t side) {
     return {axis, (axis + 1) % 3, (axis + 2) % 3};
 }
 
-glm::dvec3 sky_on(const RadiosityLight& light, glm::dvec3 normal) {
+glm::dvec3 full_sky_on(const RadiosityLight& light, glm::dvec3 normal) {
     if (!light.sky_picture) return std::numbers::pi * light.sky;
     return photometry::evaluate(*light.sky_picture, normal);
 }
 
 }  // namespace
+
+glm::dvec3 open_sky(const RadiosityLight& light, glm::dvec3 normal) {
+    if (light.sky_picture) return photometry::evaluate(*light.sky_picture, normal);
+    return std::numbers::pi * (1 + normal.y) / 2 * light.sky;
+}
 
 glm::dvec3 Radiosity::Source::illuminance() const { return kPackedUnit * glm::dvec3(glm::unpackF3x9_E1x5(lux)); }
 
@@ -110,9 +115,15 @@ Radiosity::Solution Radiosity::solve(const RadiosityLight& light) const {
             (sources[s].node & kLamp ? of_lamps : of_meshes) += factor * sources[s].illuminance();
         }
         result.lamps[i] = glm::vec3(of_lamps);
-        unreflected[i] = glm::vec3(of_meshes + double(sky[i]) * sky_on(light, glm::dvec3(normals[i])));
+        unreflected[i] = glm::vec3(of_meshes + double(sky[i]) * full_sky_on(light, glm::dvec3(normals[i])));
     });
     std::vector<glm::vec3> other = unreflected;
+    const auto sum_of = [](const std::vector<glm::vec3>& lux_of_cells) {
+        double sum = 0;
+        for (const glm::vec3& lux : lux_of_cells) sum += luminance(glm::dvec3(lux));
+        return sum;
+    };
+    double before = sum_of(other), gained = 0;  // all other light; what the last reflection added
     for (uint32_t reflection = 0; reflection < light.reflections; ++reflection) {
         each_cell([&](size_t i) { sent[i] = reflectances[i] * (result.lamps[i] + other[i]); });
         each_cell([&](size_t i) {
@@ -121,6 +132,12 @@ Radiosity::Solution Radiosity::solve(const RadiosityLight& light) const {
                 if (met[ray] != kNowhere) sum += sent[met[ray]];
             other[i] = unreflected[i] + sum / float(rays);
         });
+        if (!(light.left_out > 0)) continue;
+        const double all = sum_of(other);
+        // What is added falls by about the same factor each time, so that all that is to come is a geometric series.
+        const double gain = all - before, factor = gained > 0 ? gain / gained : 1;
+        if (reflection > 0 && factor < 1 && gain * factor / (1 - factor) <= light.left_out * all) break;
+        before = all, gained = gain;
     }
     // Of neighbours, for less noise.
     each_cell([&](size_t i) {

@@ -20,8 +20,12 @@ struct RadiosityLight {
     std::span<const float> factors;  ///< per node, on the light of its lamp and of its mesh; empty: 1
     glm::dvec3 sky{0};               ///< luminance of all directions without a surface, RGB cd/m^2
     const photometry::Irradiance9* sky_picture = nullptr;  ///< instead of it: illuminance by direction, unobstructed
-    uint32_t reflections = 3;                              ///< that are counted
+    uint32_t reflections = 3;                              ///< that are counted, at most
+    double left_out = 0;  ///< reflections end where those to come would add less than this part of the mean
 };
+
+/// Of the sky alone, RGB lx on a surface that sees nothing else.
+glm::dvec3 open_sky(const RadiosityLight& light, glm::dvec3 normal);
 
 /// The transport of light among the surfaces of a scene at rest (radiosity: Goral et al. 1984), for cells of them as
 /// patches. It holds for any intensities: each cell knows what each source gives it directly, and which cells its rays,

@@ -138,7 +138,8 @@ void main() {
             const vec4 air = in_air(at, normal);
             found = alone && air.w > 0.0 ? air : found;
         }
-        vec3 illuminance = found.w > 0.0 ? found.rgb / found.w : vec3(0.0);
+        const vec3 open = mix(push.sky_below, push.sky_above, 0.5 + 0.5 * normal.y * inversesqrt(dot(normal, normal)));
+        vec3 illuminance = found.w > 0.0 ? found.rgb / found.w : open;
         if (kMoving != 0u) {
             const vec4 moving = imageLoad(moving_light_image, ivec2(pixel));
             illuminance = illuminance * moving.a + moving.rgb;

@@ -33,8 +33,10 @@ struct IndirectPush {
     vec3 cubes;         // along each axis, at most 2^24
     uint log2_places;   // of the table, at least 1
     float lambert;      // as in ShadePush
+    vec3 sky_above;     // where no cell is near: on surfaces that face up, and down, lx; linear between them
+    vec3 sky_below;
 };
-SHARED_SIZE(IndirectPush, 92)
+SHARED_SIZE(IndirectPush, 116)
 
 // Of illuminance that is known for each pixel.
 struct IlluminancePush {

@@ -107,8 +107,8 @@ TEST_F(CScene, ShadowsMayBeKept) {
     EXPECT_FALSE(std::filesystem::exists(maps));
 }
 
-// A large plate of 1 cd/m^2 hangs over the ground: pi lx by its light, 0.8 % less at its middle. 6 %: noise of nine
-// cells.
+// A large plate of 1 cd/m^2 hangs over the ground: pi lx by its light, 0.8 % less at its middle. 10 %: noise of
+// nine cells.
 TEST_F(CScene, EmittingSurfacesLightOnceThatIsGathered) {
     VesperMaterial glow = white();
     uint32_t material = VESPER_NONE, mesh = VESPER_NONE, plate = VESPER_NONE;
@@ -129,7 +129,7 @@ TEST_F(CScene, EmittingSurfacesLightOnceThatIsGathered) {
     EXPECT_EQ(lux(), 0);
     expect(vesper_renderer_gather_light(renderer, keep, &share, &error));
     EXPECT_GT(share, 0);
-    EXPECT_NEAR(lux(), kPi, 0.06 * kPi);
+    EXPECT_NEAR(lux(), kPi, 0.1 * kPi);
     VesperView view = down();
     view.no_indirect = 1;
     EXPECT_EQ(render(view)[4 * kMiddle], 0);
@@ -139,10 +139,12 @@ TEST_F(CScene, EmittingSurfacesLightOnceThatIsGathered) {
     EXPECT_EQ(render(view)[4 * kMiddle], 1);
     expect(vesper_renderer_dim(renderer, plate, 0.5f, &error));
     EXPECT_EQ(render(view)[4 * kMiddle], 0.5f);
-    EXPECT_NEAR(lux(), kPi / 2, 0.03 * kPi);
+    EXPECT_NEAR(lux(), kPi / 2, 0.05 * kPi);
     expect(vesper_renderer_dim(renderer, plate, 0, &error));
     EXPECT_EQ(lux(), 0);
     expect(vesper_renderer_dim(renderer, plate, 1, &error));
+    expect(vesper_renderer_place(renderer, plate, at(0, 500, 0).data(), &error));
+    EXPECT_EQ(lux(), 0) << "what moves now gives no light";
     add(candle());
     EXPECT_NEAR(lux(), 1, 2e-3) << "of another scene nothing is gathered";
 }

@@ -33,7 +33,10 @@ struct CellLight {
 /// Cells with their cubes.
 class CellList {
 public:
-    CellList(const transport::CellGrid& grid, const std::vector<LitCell>& cells) : grid_(grid) {
+    /// `above`, `below`: light on surfaces that face up and down where there are no cells, lx; linear between them.
+    CellList(const transport::CellGrid& grid, const std::vector<LitCell>& cells, dvec3 above = dvec3(0),
+             dvec3 below = dvec3(0))
+        : grid_(grid), above_(above), below_(below) {
         for (const LitCell& cell : cells) {
             const bool air = grid.is_air(cell.number);
             const dvec3 middle = (grid.middle(cell.number) - grid.origin) / grid.size;
@@ -42,6 +45,7 @@ public:
     }
 
     const transport::CellGrid& grid() const { return grid_; }
+    dvec3 open(dvec3 normal) const { return (1 + normal.y) / 2 * above_ + (1 - normal.y) / 2 * below_; }
 
     /// `place` in cubes; `side` 0 to 5: +x, -x, +y, -y, +z, -z.
     CellLight on_surfaces(dvec3 place, uint32_t side) const {
@@ -96,6 +100,7 @@ private:
         double height;  // cubes
     };
     transport::CellGrid grid_;
+    dvec3 above_, below_;
     std::vector<Lit> surfaces_[6], air_[6];
 };
 
@@ -104,7 +109,7 @@ inline dvec3 illuminance_on_side(const CellList& cells, dvec3 place, dvec3 norma
     CellLight found = cells.on_surfaces(place, side);
     if (found.weight < 2 * double(shared::kElsewhere))
         if (const CellLight air = cells.in_air(place, normal); air.weight > 0) found = air;
-    return found.weight > 0 ? found.light / found.weight : dvec3(0);
+    return found.weight > 0 ? found.light / found.weight : cells.open(normal);
 }
 
 /// The sides that a normal goes to most, but for `rounding` of its components; the first is the one.

@@ -39,6 +39,15 @@ TEST(IndirectReference, AFloorOfOneValueHasIt) {
     EXPECT_EQ(reference::illuminance_on_side(cells, {-2, 3.5, 5}, {0, 1, 0}, 2), dvec3(0));
 }
 
+TEST(IndirectReference, WhereThereAreNoCellsTheSkyIsOpen) {
+    const reference::CellList none(kGrid, {}, {8, 4, 2}, {0, 4, 1});
+    const auto at = [&](dvec3 normal) { return reference::illuminance_on_side(none, {6, 5, 5}, normal, 2); };
+    EXPECT_EQ(at({0, 1, 0}), dvec3(8, 4, 2));
+    EXPECT_EQ(at({0, -1, 0}), dvec3(0, 4, 1));
+    EXPECT_EQ(at({0, 0, 1}), dvec3(4, 4, 1.5));
+    EXPECT_NEAR(at({0.8, 0.6, 0}).x, 6.4, 1e-12);
+}
+
 // A quarter of the way from one cell to the next, which is 0.3 cubes higher: weights 3 to 1 * 0.6.
 TEST(IndirectReference, HeightsAndDistancesAreWeights) {
     MadeCells made{kGrid, {}};

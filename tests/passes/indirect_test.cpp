@@ -18,6 +18,7 @@ namespace {
 
 using glm::dvec3, glm::vec3;
 constexpr float kLambert = 0.318309886f;
+const vec3 kAbove(9, 10, 11), kBelow(3, 2, 1);  // lx, where there are no cells
 
 /// Surfaces, and what lamps gave them.
 struct Lit : Surfaces {
@@ -75,8 +76,8 @@ std::vector<glm::vec4> add(PassRig& rig, const Lit& s, const MadeCells& made, co
     const graph::Resource scene = rig.image(graph, "scene", render::kSceneFormat, s.extent, s.scene);
     const graph::Resource texels = graph.upload("cells", table.texels, VK_FORMAT_R32G32B32A32_UINT);
     const graph::Resource wanted = keep<glm::vec4>(
-        graph,
-        render::add_indirect(rig.frame(graph, view), g, scene, {texels, table.log2_places, made.grid}, {}, kLambert));
+        graph, render::add_indirect(rig.frame(graph, view), g, scene,
+                                    {texels, table.log2_places, made.grid, kAbove, kBelow}, {}, kLambert));
     rig.run(graph);
     return rig.got<glm::vec4>(wanted);
 }
@@ -88,7 +89,7 @@ void expect_reference(const std::vector<glm::vec4>& got, const Lit& s, const Mad
                       const gpu_scene::View& view) {
     std::vector<reference::LitCell> list;
     for (const auto& [number, cell] : made.cells) list.push_back({number, dvec3(cell.light), double(cell.height)});
-    const reference::CellList cells(made.grid, list);
+    const reference::CellList cells(made.grid, list, dvec3(kAbove), dvec3(kBelow));
     const dvec3 eye = made.grid.place(gpu_scene::eye_of(view));
     size_t jumps = 0;
     expect_light("indirect", s.extent, got, {4e-6, 1e-6}, [&](size_t i) {
@@ -191,9 +192,9 @@ TEST(Indirect, FindsCellsBehindOthers) {
     const render::GBuffer g = upload(graph, ground.s);
     const graph::Resource scene = rig.image(graph, "scene", render::kSceneFormat, ground.s.extent, ground.s.scene);
     const graph::Resource texels = graph.upload("cells", full, VK_FORMAT_R32G32B32A32_UINT);
-    const graph::Resource wanted =
-        keep<glm::vec4>(graph, render::add_indirect(rig.frame(graph, ground.view), g, scene,
-                                                    {texels, table.log2_places, ground.made.grid}, {}, kLambert));
+    const graph::Resource wanted = keep<glm::vec4>(
+        graph, render::add_indirect(rig.frame(graph, ground.view), g, scene,
+                                    {texels, table.log2_places, ground.made.grid, kAbove, kBelow}, {}, kLambert));
     rig.run(graph);
     const auto got = rig.got<glm::vec4>(wanted);  // before the rig runs another
     EXPECT_EQ(got, add(rig, ground.s, ground.made, ground.view));
@@ -215,9 +216,9 @@ TEST(Indirect, AddsWhatMoves) {
     const graph::Resource texels = graph.upload("cells", table.texels, VK_FORMAT_R32G32B32A32_UINT);
     const graph::Resource image =
         rig.image(graph, "moving", VK_FORMAT_R16G16B16A16_SFLOAT, ground.s.extent, to_halves(moving));
-    const graph::Resource wanted =
-        keep<glm::vec4>(graph, render::add_indirect(rig.frame(graph, ground.view), g, scene,
-                                                    {texels, table.log2_places, ground.made.grid}, image, kLambert));
+    const graph::Resource wanted = keep<glm::vec4>(
+        graph, render::add_indirect(rig.frame(graph, ground.view), g, scene,
+                                    {texels, table.log2_places, ground.made.grid, kAbove, kBelow}, image, kLambert));
     rig.run(graph);
     const auto got = rig.got<glm::vec4>(wanted);
     for (size_t i = 0; i < got.size(); ++i)

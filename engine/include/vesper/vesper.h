@@ -372,10 +372,12 @@ typedef int32_t (*VesperProgress)(double share, void* user);
 
 /** Gathers the light that surfaces at rest get from emitting surfaces and from the sky, and by way of each other, for
  * all later frames (radiosity; in place of the scene's ambient illuminance). Nodes that were placed, or are animated,
- * get it but neither hide nor send any. It takes up to minutes on all processors, and much less where
+ * get it and hide it, but send none. Those that are placed later send none from then on, but still reflect and hide it
+ * where they were. It takes up to minutes on all processors, and much less where
  * vesper_renderer_keep_shadows names a folder that has it. Lamps and meshes may be dimmed afterwards; after any other
  * change of the scene frames go without it until it is gathered again. `progress`: null: nobody is told; called from
- * this thread with `user`. VESPER_FAILED: it ended the work. */
+ * this thread with `user`; it must not call other functions with this renderer or its scene. VESPER_FAILED: it ended
+ * the work. */
 VesperResult vesper_renderer_gather_light(VesperRenderer* renderer, VesperProgress progress, void* user,
                                           VesperError* error);
 

@@ -31,7 +31,9 @@ graph::Resource add_indirect(const FrameContext& frame, const GBuffer& surfaces,
                                     .eye = glm::vec3(cells.grid.place(glm::dvec3(world[3]))),
                                     .cubes = glm::vec3(cells.grid.count),
                                     .log2_places = cells.log2_places,
-                                    .lambert = lambert};
+                                    .lambert = lambert,
+                                    .sky_above = cells.sky_above,
+                                    .sky_below = cells.sky_below};
     // Where nothing moves the image is not looked at; any of its format will do.
     const uint32_t moving = moving_light ? 1 : 0;
     frame.graph.dispatch("indirect", frame.kernels.get(kIndirect, {groups.width, groups.height, groups.rows, moving}),

@@ -11,6 +11,7 @@ struct IndirectCells {
     graph::Resource texels;    ///< rgba32ui, as shared/indirect.h says; none: there is no such light
     uint32_t log2_places = 1;  ///< of the table
     transport::CellGrid grid;
+    glm::vec3 sky_above{0}, sky_below{0};  ///< where no cell is near: on surfaces that face up and down, lx
 };
 
 /// Adds that light, and that of what moves (add_moving_light), to shaded luminance, in place: E rho lambert. Without

@@ -6,8 +6,8 @@
 namespace vesper::scene {
 namespace {
 
-constexpr double kFarthestAside = 20, kFarthestUp = 50;   // m, from the lamp: the ends of long arms and of high masts
-constexpr double kAroundLamp = 0.5, kLargestHousing = 6;  // m
+constexpr double kFarthestAside = 20, kFarthestUp = 50;  // m, from the lamp: the ends of long arms and of high masts
+constexpr double kHousing = 0.75;                        // m
 
 bool is_near(const Scene& scene, uint32_t node, const glm::dmat4& world, glm::dvec3 place) {
     return std::ranges::all_of(scene.meshes[scene.nodes[node].mesh].primitives, [&](const Primitive& primitive) {
@@ -20,22 +20,6 @@ bool is_near(const Scene& scene, uint32_t node, const glm::dmat4& world, glm::dv
         }
         return true;
     });
-}
-
-bool is_around(const Scene& scene, uint32_t node, const glm::dmat4& world, glm::dvec3 place) {
-    glm::dvec3 low(HUGE_VAL), high(-HUGE_VAL);
-    bool touches = false;
-    for (const Primitive& primitive : scene.meshes[scene.nodes[node].mesh].primitives)
-        for (size_t first = 0; first + 2 < primitive.indices.size(); first += 3) {
-            glm::dvec3 least(HUGE_VAL), most(-HUGE_VAL);
-            for (size_t k = first; k < first + 3; ++k) {
-                const glm::dvec3 corner(world * glm::dvec4(primitive.vertices[primitive.indices[k]].position, 1));
-                least = glm::min(least, corner), most = glm::max(most, corner);
-            }
-            low = glm::min(low, least), high = glm::max(high, most);
-            touches = touches || glm::distance(place, glm::clamp(place, least, most)) <= kAroundLamp;
-        }
-    return touches && glm::distance(low, high) <= kLargestHousing;
 }
 
 }  // namespace
@@ -84,15 +68,6 @@ std::vector<std::vector<uint32_t>> fixture_nodes(const Scene& scene, std::span<c
     return own;
 }
 
-std::vector<std::vector<uint32_t>> housing_nodes(const Scene& scene, std::span<const uint32_t> lamp_nodes,
-                                                 std::span<const glm::dmat4> world) {
-    std::vector<std::vector<uint32_t>> housings = fixture_nodes(scene, lamp_nodes, world);
-    for (size_t i = 0; i < housings.size(); ++i) {
-        if (scene.nodes[lamp_nodes[i]].fixture) continue;
-        const glm::dvec3 place(world[lamp_nodes[i]][3]);
-        std::erase_if(housings[i], [&](uint32_t node) { return !is_around(scene, node, world[node], place); });
-    }
-    return housings;
-}
+double housing_reach(const Node& lamp) { return lamp.fixture ? HUGE_VAL : kHousing; }
 
 }  // namespace vesper::scene

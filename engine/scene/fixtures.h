@@ -22,10 +22,8 @@ std::vector<bool> nodes_above_meshes(const Scene& scene);
 std::vector<std::vector<uint32_t>> fixture_nodes(const Scene& scene, std::span<const uint32_t> lamp_nodes,
                                                  std::span<const glm::dmat4> world);
 
-/// Of those, the nodes of its housing, such as its glass: the intensities of the lamp hold what they emit, reflect and
-/// get of it. They are all where Node::fixture says so; otherwise those at most 6 m across with a triangle whose box is
-/// within 0.5 m of the lamp.
-std::vector<std::vector<uint32_t>> housing_nodes(const Scene& scene, std::span<const uint32_t> lamp_nodes,
-                                                 std::span<const glm::dmat4> world);
+/// How far around a lamp meshes of its fixture are its housing, such as its glass: its intensities hold what they emit
+/// and get of it. Everywhere where Node::fixture states the fixture. m
+double housing_reach(const Node& lamp);
 
 }  // namespace vesper::scene

@@ -34,7 +34,7 @@ std::vector<double> luminances_of(const scene::Scene& scene) {
 Emitters::Emitters(const scene::Scene& scene, std::span<const glm::dmat4> world, const Surfaces& surfaces) {
     const std::vector<double> luminances = luminances_of(scene);
     for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
-        if (scene.nodes[node].mesh == scene::kNone || surfaces.holds_lamp(node)) continue;
+        if (scene.nodes[node].mesh == scene::kNone) continue;
         const scene::Mesh& mesh = scene.meshes[scene.nodes[node].mesh];
         const double front = glm::determinant(glm::dmat3(world[node])) < 0 ? -1 : 1;
         for (uint32_t p = 0; p < mesh.primitives.size(); ++p) {
@@ -51,7 +51,7 @@ Emitters::Emitters(const scene::Scene& scene, std::span<const glm::dmat4> world,
                 }
                 const glm::dvec3 twice = glm::cross(e.corners[1] - e.corners[0], e.corners[2] - e.corners[0]);
                 e.area = 0.5 * glm::length(twice);
-                if (!(e.area > 0) || !std::isfinite(e.area)) continue;
+                if (!(e.area > 0) || !std::isfinite(e.area) || surfaces.is_housing(node, e.corners)) continue;
                 e.outwards = front * twice / (2 * e.area);
                 if (list_.size() == kMost)
                     throw Error("light between surfaces: more than " + std::to_string(kMost) +

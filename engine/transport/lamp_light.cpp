@@ -16,10 +16,9 @@ constexpr double kDark = 1e-200;  // lx: less is rounding
 }  // namespace
 
 LampLight::LampLight(const scene::Scene& scene, std::span<const glm::dmat4> world, const rays::RayCaster& rays)
-    : scene_(scene), rays_(rays), in_housing_(scene.nodes.size()) {
+    : scene_(scene), rays_(rays), in_fixture_(scene.nodes.size()) {
     const std::vector<uint32_t> nodes = scene::nodes_with_lamps(scene);
-    std::vector<std::vector<uint32_t>> fixtures = scene::fixture_nodes(scene, nodes, world),
-                                       housings = scene::housing_nodes(scene, nodes, world);
+    std::vector<std::vector<uint32_t>> fixtures = scene::fixture_nodes(scene, nodes, world);
     for (size_t i = 0; i < nodes.size(); ++i) {
         const scene::Lamp& lamp = scene.lamps[scene.nodes[nodes[i]].lamp];
         const glm::dmat4& at = world[nodes[i]];
@@ -29,8 +28,9 @@ LampLight::LampLight(const scene::Scene& scene, std::span<const glm::dmat4> worl
         const glm::dmat3 frame = scene::lamp_frame(at);
         const bool directional = lamp.kind == scene::Lamp::Kind::Directional;
         bounds_.push_back({directional ? kReach * frame[2] : glm::dvec3(at[3]), largest, directional});
-        for (const uint32_t node : housings[i]) in_housing_[node] = true;
-        lamps_.push_back({nodes[i], &lamp, glm::transpose(frame), std::move(fixtures[i]), std::move(housings[i])});
+        for (const uint32_t node : fixtures[i]) in_fixture_[node] = true;
+        lamps_.push_back({nodes[i], &lamp, glm::transpose(frame), std::move(fixtures[i]),
+                          scene::housing_reach(scene.nodes[nodes[i]])});
     }
 }
 
@@ -63,8 +63,10 @@ bool LampLight::blocked(size_t lamp, const Way& way, glm::dvec3 point, glm::dvec
     return rays_.blocked(start, bound.directional ? start + way.to : bound.place, lamps_[lamp].fixture);
 }
 
-bool LampLight::lights(size_t lamp, uint32_t node) const {
-    return node == scene::kNone || !in_housing_[node] || !std::ranges::binary_search(lamps_[lamp].housing, node);
+bool LampLight::lights(size_t lamp, uint32_t node, const Way& way) const {
+    if (node == scene::kNone || !in_fixture_[node]) return true;
+    const Placed& placed = lamps_[lamp];
+    return !(glm::length(way.to) <= placed.housing) || !std::ranges::binary_search(placed.fixture, node);
 }
 
 glm::dvec3 LampLight::illuminance(glm::dvec3 point, glm::dvec3 normal, double threshold, uint32_t node) const {
@@ -72,7 +74,7 @@ glm::dvec3 LampLight::illuminance(glm::dvec3 point, glm::dvec3 normal, double th
     for (size_t i = 0; i < lamps_.size(); ++i) {
         const Way way = way_to(bounds_[i], point, normal);
         if (!(way.cosine > 0) || !(bounds_[i].largest * way.cosine >= threshold * way.distance2)) continue;
-        if (!lights(i, node)) continue;
+        if (!lights(i, node, way)) continue;
         const double lux = unshadowed(i, way);
         if (lux < threshold || lux == 0 || blocked(i, way, point, normal)) continue;
         sum += lux * glm::dvec3(lamps_[i].lamp->colour);
@@ -99,8 +101,9 @@ void LampLight::sample(glm::dvec3 point, glm::dvec3 normal, uint32_t node, uint3
     std::vector<double> most(lamps_.size());
     double all = 0;
     for (size_t i = 0; i < lamps_.size(); ++i) {
-        const double bound = bounds_[i].largest * way_to(bounds_[i], point, normal).bound();
-        if (bound > 0 && lights(i, node)) all += most[i] = bound;
+        const Way way = way_to(bounds_[i], point, normal);
+        const double bound = bounds_[i].largest * way.bound();
+        if (bound > 0 && lights(i, node, way)) all += most[i] = bound;
     }
     const uint32_t first_looks = 4 * looks;
     std::vector<size_t> some;

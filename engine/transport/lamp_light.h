@@ -36,8 +36,9 @@ private:
     struct Placed {
         uint32_t node;
         const scene::Lamp* lamp;
-        glm::dmat3 to_lamp;                      // directions
-        std::vector<uint32_t> fixture, housing;  // nodes
+        glm::dmat3 to_lamp;             // directions
+        std::vector<uint32_t> fixture;  // nodes
+        double housing;                 // how far around it those are that, m
     };
     // What all lamps are asked for at each point, apart from the rest.
     struct Bound {
@@ -50,13 +51,13 @@ private:
     static Way way_to(const Bound& lamp, glm::dvec3 point, glm::dvec3 normal);
     double unshadowed(size_t lamp, const Way& way) const;
     bool blocked(size_t lamp, const Way& way, glm::dvec3 point, glm::dvec3 normal) const;
-    bool lights(size_t lamp, uint32_t node) const;
+    bool lights(size_t lamp, uint32_t node, const Way& way) const;
 
     const scene::Scene& scene_;
     const rays::RayCaster& rays_;
     std::vector<Placed> lamps_;
     std::vector<Bound> bounds_;     // of each
-    std::vector<bool> in_housing_;  // nodes: of any lamp
+    std::vector<bool> in_fixture_;  // nodes: of any lamp
 };
 
 }  // namespace vesper::transport

@@ -1,5 +1,6 @@
 #include "transport/surfaces.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "rays/opacity.h"
@@ -34,9 +35,21 @@ Surfaces::Surfaces(const scene::Scene& scene, std::span<const glm::dmat4> world)
       world_(world),
       codes_(scene::linear_codes(scene.transfer)),
       emitted_(scene::linear_codes(scene::Transfer{})),
-      holds_lamp_(scene.nodes.size()) {
-    for (const std::vector<uint32_t>& housing : scene::housing_nodes(scene, scene::nodes_with_lamps(scene), world))
-        for (const uint32_t node : housing) holds_lamp_[node] = true;
+      housings_(scene.nodes.size()) {
+    const std::vector<uint32_t> lamps = scene::nodes_with_lamps(scene);
+    const std::vector<std::vector<uint32_t>> fixtures = scene::fixture_nodes(scene, lamps, world);
+    for (size_t i = 0; i < lamps.size(); ++i)
+        for (const uint32_t node : fixtures[i])
+            housings_[node].push_back({glm::dvec3(world[lamps[i]][3]), scene::housing_reach(scene.nodes[lamps[i]])});
+}
+
+bool Surfaces::is_housing(uint32_t node, const std::array<glm::dvec3, 3>& corners) const {
+    if (housings_[node].empty()) return false;
+    const glm::dvec3 low = glm::min(corners[0], glm::min(corners[1], corners[2])),
+                     high = glm::max(corners[0], glm::max(corners[1], corners[2]));
+    return std::ranges::any_of(housings_[node], [&](const Housing& housing) {
+        return glm::distance(housing.lamp, glm::clamp(housing.lamp, low, high)) <= housing.reach;
+    });
 }
 
 // What a ray meets, before textures are looked up.
@@ -44,13 +57,13 @@ struct Surfaces::Facet {
     const scene::Material& material;
     glm::dvec3 position{0}, normal{0}, colour{0};
     glm::dvec2 uv{0};
-    bool front;
+    bool front, housing;
 };
 
 Surfaces::Facet Surfaces::facet(const rays::Hit& hit, glm::dvec3 from) const {
     const scene::Primitive& primitive = scene_.meshes[scene_.nodes[hit.node].mesh].primitives[hit.primitive];
     const glm::dmat4& to_world = world_[hit.node];
-    Facet facet{.material = scene_.materials[primitive.material], .front = true};
+    Facet facet{.material = scene_.materials[primitive.material], .front = true, .housing = false};
     std::array<glm::dvec3, 3> corners;
     for (size_t k = 0; k < 3; ++k) {
         const scene::Vertex& vertex = primitive.vertices[primitive.indices[3 * size_t(hit.triangle) + k]];
@@ -64,12 +77,13 @@ Surfaces::Facet Surfaces::facet(const rays::Hit& hit, glm::dvec3 from) const {
     const bool along = glm::dot(outwards, from - facet.position) >= 0;
     facet.normal = glm::normalize(along ? outwards : -outwards);
     facet.front = along != (glm::determinant(glm::dmat3(to_world)) < 0);
+    facet.housing = is_housing(hit.node, corners);
     return facet;
 }
 
-glm::dvec3 Surfaces::emission(const Facet& facet, uint32_t node) const {
+glm::dvec3 Surfaces::emission(const Facet& facet) const {
     const scene::Material& material = facet.material;
-    if (holds_lamp_[node] || (!facet.front && !material.double_sided)) return glm::dvec3(0);
+    if (facet.housing || (!facet.front && !material.double_sided)) return glm::dvec3(0);
     const glm::dvec3 emission(material.emission);
     if (emission == glm::dvec3(0)) return emission;
     if (const uint32_t picture = material.emission_picture.image; picture != scene::kNone)
@@ -79,9 +93,7 @@ glm::dvec3 Surfaces::emission(const Facet& facet, uint32_t node) const {
     return emission;
 }
 
-glm::dvec3 Surfaces::emission(const rays::Hit& hit, glm::dvec3 from) const {
-    return emission(facet(hit, from), hit.node);
-}
+glm::dvec3 Surfaces::emission(const rays::Hit& hit, glm::dvec3 from) const { return emission(facet(hit, from)); }
 
 bool Surfaces::stops_light(const rays::Hit& hit) const {
     const scene::Primitive& primitive = scene_.meshes[scene_.nodes[hit.node].mesh].primitives[hit.primitive];
@@ -105,12 +117,12 @@ glm::dvec3 Surfaces::reflectance(const rays::Hit& hit) const { return reflectanc
 
 SurfacePoint Surfaces::at(const rays::Hit& hit, glm::dvec3 from) const {
     const Facet met = facet(hit, from);
-    return {met.position, met.normal, reflectance(met), emission(met, hit.node)};
+    return {met.position, met.normal, reflectance(met), emission(met)};
 }
 
 SurfacePoint Surfaces::emitted(const rays::Hit& hit, glm::dvec3 from) const {
     const Facet met = facet(hit, from);
-    return {met.position, met.normal, glm::dvec3(0), emission(met, hit.node)};
+    return {met.position, met.normal, glm::dvec3(0), emission(met)};
 }
 
 }  // namespace vesper::transport

@@ -37,18 +37,23 @@ public:
     bool stops_light(const rays::Hit& hit) const;
     /// Whether what a ray from `from` hits is a front, or has none.
     bool shows_front(const rays::Hit& hit, glm::dvec3 from) const;
-    bool holds_lamp(uint32_t node) const { return holds_lamp_[node]; }
+    /// Whether a triangle of a node, in the world, is housing of a lamp.
+    bool is_housing(uint32_t node, const std::array<glm::dvec3, 3>& corners) const;
 
 private:
     struct Facet;
     Facet facet(const rays::Hit& hit, glm::dvec3 from) const;
-    glm::dvec3 emission(const Facet& facet, uint32_t node) const;
+    glm::dvec3 emission(const Facet& facet) const;
     glm::dvec3 reflectance(const Facet& facet) const;
 
     const scene::Scene& scene_;
     std::span<const glm::dmat4> world_;
     std::array<double, 256> codes_, emitted_;  // linear values of base colours, and of textures of emission
-    std::vector<bool> holds_lamp_;             // nodes
+    struct Housing {
+        glm::dvec3 lamp;
+        double reach;  // m
+    };
+    std::vector<std::vector<Housing>> housings_;  // of lamps whose fixture each node is
 };
 
 }  // namespace vesper::transport

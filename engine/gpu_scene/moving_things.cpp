@@ -13,8 +13,6 @@ static_assert(shared::kMostHidden == transport::MovingBodies::kAll);
 
 namespace {
 
-constexpr double kLeastLight = 0.01;  // of a patch, lx: farther off it lights nothing
-
 // With how near or strong it is.
 template <class Thing>
 using Ranked = std::vector<std::pair<double, Thing>>;

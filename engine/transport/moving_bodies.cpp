@@ -122,15 +122,17 @@ MovingBodies moving_bodies(const scene::Scene& scene, const std::vector<bool>& m
     std::erase_if(by_node, [](const auto& one) { return !(one.second.across() >= kLeastBody); });
 
     std::vector<Shape> shapes;
+    const auto find = [&shapes](const Shape& shape) {
+        return std::ranges::find_if(shapes, [&](const Shape& known) { return known.is(shape); });
+    };
     for (const auto& [node, shape] : by_node)
-        if (std::ranges::none_of(shapes, [&](const Shape& known) { return known.is(shape); })) shapes.push_back(shape);
+        if (find(shape) == shapes.end()) shapes.push_back(shape);
     std::ranges::stable_sort(shapes, std::greater{}, &Shape::across);
     if (shapes.size() > kMostShapes) shapes.resize(kMostShapes);
     if (shapes.empty()) return found;
-    for (const auto& [node, shape] : by_node) {
-        const auto known = std::ranges::find_if(shapes, [&](const Shape& other) { return other.is(shape); });
-        if (known != shapes.end()) found.bodies.push_back({node, uint32_t(known - shapes.begin())});
-    }
+    for (const auto& [node, shape] : by_node)
+        if (const auto known = find(shape); known != shapes.end())
+            found.bodies.push_back({node, uint32_t(known - shapes.begin())});
 
     const rays::RayCaster rays = rays_of(scene, shapes);
     const std::vector<glm::dvec3> directions = directions_all_around();

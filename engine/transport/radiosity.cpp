@@ -7,6 +7,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "base/luminance.h"
 #include "base/parallel.h"
 
 namespace vesper::transport {

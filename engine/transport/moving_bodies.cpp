@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <tuple>
 
 #include "base/parallel.h"
 #include "rays/ray_caster.h"
@@ -52,11 +51,11 @@ void take_in(const scene::Scene& scene, uint32_t node, const glm::dmat4& from_no
         }
 }
 
-// Shapes stand in a row, so that none is in the volume of another.
-double place_in_row(const std::vector<Shape>& shapes, size_t number) {
-    double x = 0;
+// Shapes stand in a row, so that none is in the volume of another: how far one is moved.
+glm::dvec3 place_in_row(const std::vector<Shape>& shapes, size_t number) {
+    double x = -(shapes[number].low.x + shapes[number].high.x) / 2;
     for (size_t i = 0; i < number; ++i) x += 4 * shapes[i].across() + 4 * shapes[i + 1].across();
-    return x;
+    return {x, 0, 0};
 }
 
 rays::RayCaster rays_of(const scene::Scene& scene, const std::vector<Shape>& shapes) {
@@ -65,7 +64,7 @@ rays::RayCaster rays_of(const scene::Scene& scene, const std::vector<Shape>& sha
     for (size_t s = 0; s < shapes.size(); ++s)
         for (size_t i = 0; i < shapes[s].nodes.size(); ++i) {
             glm::dmat4& at = world[shapes[s].nodes[i]] = shapes[s].meshes[i].second;
-            at[3] += glm::dvec4(place_in_row(shapes, s) - (shapes[s].low.x + shapes[s].high.x) / 2, 0, 0, 0);
+            at[3] += glm::dvec4(place_in_row(shapes, s), 0);
         }
     return {scene, world};
 }
@@ -141,7 +140,7 @@ MovingBodies moving_bodies(const scene::Scene& scene, const std::vector<bool>& m
         OcclusionVolume& volume = found.volumes.emplace_back(volume_around(shapes[s]));
         volume.first = uint32_t(found.hidden.size());
         found.hidden.resize(found.hidden.size() + volume.places());
-        const glm::dvec3 moved(place_in_row(shapes, s) - (shapes[s].low.x + shapes[s].high.x) / 2, 0, 0);
+        const glm::dvec3 moved = place_in_row(shapes, s);
         in_parallel(volume.places(), 256, [&](size_t begin, size_t end) {
             for (auto i = uint32_t(begin); i < end; ++i) {
                 const glm::uvec3 at(i % volume.count.x, i / volume.count.x % volume.count.y,

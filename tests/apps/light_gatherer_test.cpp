@@ -16,14 +16,6 @@ namespace {
 
 using drive::LightGatherer, transport::Radiosity;
 
-scene::Scene room() {
-    scene::Scene scene;
-    add_room(scene, add_material(scene, 0.5f), glm::vec3(2));
-    add_lamp(scene, 100, {0, 0, 0});
-    add_rectangle(scene, add_material(scene, 0, 10), {-1, 1, 1}, {2, 0, 0}, {0, 0, -2});
-    return scene;
-}
-
 // Takes what was found before the first that is kept.
 struct TakingShelf : Shelf {
     std::promise<LightGatherer*> gatherer;
@@ -40,7 +32,7 @@ void wait_for(const LightGatherer& gatherer) {
 }
 
 TEST(LightGatherer, GivesAStandInAndThenTheWhole) {
-    const scene::Scene scene = room();
+    const scene::Scene scene = lit_room();
     const std::vector<glm::dmat4> world = scene::world_transforms(scene, 0);
     const auto shelf = std::make_shared<TakingShelf>();
     LightGatherer gatherer(scene, world, {}, shelf);
@@ -62,7 +54,7 @@ TEST(LightGatherer, GivesAStandInAndThenTheWhole) {
 }
 
 TEST(LightGatherer, TakesTheWholeFromACache) {
-    const scene::Scene scene = room();
+    const scene::Scene scene = lit_room();
     const std::vector<glm::dmat4> world = scene::world_transforms(scene, 0);
     const auto shelf = std::make_shared<Shelf>();
     const auto expected = transport::kept_or_gathered(scene, world, {}, {}, shelf.get(), {});
@@ -75,7 +67,7 @@ TEST(LightGatherer, TakesTheWholeFromACache) {
 }
 
 TEST(LightGatherer, NeedsNoCache) {
-    const scene::Scene scene = room();
+    const scene::Scene scene = lit_room();
     for (const bool full : {false, true}) {
         const auto shelf = full ? std::make_shared<Shelf>() : nullptr;
         if (full) shelf->full = true;

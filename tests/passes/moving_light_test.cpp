@@ -176,9 +176,9 @@ TEST(MovingLight, WhatIsNotFiniteStaysInItsPixel) {
     const float depths[]{kNan, 5, kInf, 3e38f};
     for (size_t i = 3; i < s.surface.size(); i += 7) s.surface[i] = {i % 3 ? kNan : kInf, kNan, depths[i % 4], kNan};
     const auto got = light(rig, s, things, view), want = light(rig, clean, things, view);
+    expect_others_equal(got, want);
     for (size_t i = 0; i < got.size(); ++i)
         if (i % 7 != 3) {
-            EXPECT_EQ(got[i], want[i]) << "pixel " << i;
             EXPECT_TRUE(std::isfinite(got[i].a)) << "pixel " << i;
         }
     EXPECT_EQ(rig.complaints(), "");

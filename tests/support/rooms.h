@@ -55,4 +55,13 @@ inline void add_lamp(scene::Scene& scene, float candela, glm::dvec3 position) {
     node.fixture = scene::kNone;
 }
 
+/// A closed room with a lamp and a panel that emits.
+inline scene::Scene lit_room() {
+    scene::Scene scene;
+    add_room(scene, add_material(scene, 0.5f), glm::vec3(2));
+    add_lamp(scene, 100, {0, 0, 0});
+    add_rectangle(scene, add_material(scene, 0, 10), {-1, 1, 1}, {2, 0, 0}, {0, 0, -2});
+    return scene;
+}
+
 }  // namespace vesper::test

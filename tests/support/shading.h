@@ -127,4 +127,24 @@ inline void expect_reference(const Shot& shot, const Surfaces& s, const gpu_scen
     });
 }
 
+/// Pixels 3, 10, 17, ... held what is not finite: all others are as without that.
+inline void expect_others_equal(const std::vector<glm::vec4>& got, const std::vector<glm::vec4>& want) {
+    ASSERT_EQ(got.size(), want.size());
+    for (size_t i = 0; i < got.size(); ++i)
+        if (i % 7 != 3) {
+            EXPECT_EQ(got[i], want[i]) << "pixel " << i;
+        }
+}
+
+/// `add(frame, scene)` has nothing to add: the scene is what it was, by no pass.
+template <class Add>
+void expect_no_pass(const Add& add) {
+    PassRig rig;
+    graph::FrameGraph graph;
+    const render::FrameContext frame = rig.frame(graph, VkExtent2D{8, 8});
+    const graph::Resource scene = graph.transient("scene", graph::image_shape(render::kSceneFormat, {8, 8}));
+    EXPECT_EQ(add(frame, scene), scene);
+    EXPECT_TRUE(graph.passes().empty());
+}
+
 }  // namespace vesper::test

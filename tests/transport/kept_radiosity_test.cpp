@@ -11,14 +11,6 @@
 namespace vesper::test::kept_radiosity_test {
 namespace {
 
-scene::Scene room() {
-    scene::Scene scene;
-    add_room(scene, add_material(scene, 0.5f), glm::vec3(2));
-    add_lamp(scene, 100, {0, 0, 0});
-    add_rectangle(scene, add_material(scene, 0, 10), {-1, 1, 1}, {2, 0, 0}, {0, 0, -2});
-    return scene;
-}
-
 std::optional<transport::Radiosity> found(Shelf& shelf, const scene::Scene& scene, bool& gathers,
                                           const std::vector<bool>& moving = {},
                                           const transport::RadiositySettings& settings = {}) {
@@ -30,7 +22,7 @@ std::optional<transport::Radiosity> found(Shelf& shelf, const scene::Scene& scen
 TEST(KeptRadiosity, IsTheSame) {
     Shelf shelf;
     bool gathers = false;
-    const scene::Scene scene = room();
+    const scene::Scene scene = lit_room();
     const auto first = found(shelf, scene, gathers);
     EXPECT_TRUE(gathers);
     const auto second = found(shelf, scene, gathers);
@@ -50,7 +42,7 @@ TEST(KeptRadiosity, IsTheSame) {
 TEST(KeptRadiosity, HasBodiesThatMove) {
     Shelf shelf;
     bool gathers = false;
-    scene::Scene scene = room();
+    scene::Scene scene = lit_room();
     const size_t first = scene.nodes.size();
     add_box(scene, 0, glm::vec3(0.5f), {0, -1, 0});
     for (size_t node = first + 1; node < scene.nodes.size(); ++node) scene.nodes[node].parent = uint32_t(first);
@@ -76,7 +68,7 @@ TEST(KeptRadiosity, HasBodiesThatMove) {
 TEST(KeptRadiosity, BelongsToOneScene) {
     Shelf shelf;
     bool gathers = false;
-    found(shelf, room(), gathers);
+    found(shelf, lit_room(), gathers);
     const std::pair<const char*, std::function<void(scene::Scene&)>> changes[]{
         {"reflectance", [](scene::Scene& s) { s.materials[0].base_colour.g = 0.51f; }},
         {"emission", [](scene::Scene& s) { s.materials[1].emission.r = 11; }},
@@ -87,18 +79,18 @@ TEST(KeptRadiosity, BelongsToOneScene) {
         {"vertex", [](scene::Scene& s) { s.meshes[0].primitives[0].vertices[0].position.x += 0.01f; }},
         {"transfer", [](scene::Scene& s) { s.transfer.kind = scene::Transfer::Kind::Gamma; }}};
     for (const auto& [what, change] : changes) {
-        scene::Scene scene = room();
+        scene::Scene scene = lit_room();
         change(scene);
         found(shelf, scene, gathers);
         EXPECT_TRUE(gathers) << what;
     }
-    found(shelf, room(), gathers, std::vector<bool>(room().nodes.size(), false));
+    found(shelf, lit_room(), gathers, std::vector<bool>(lit_room().nodes.size(), false));
     EXPECT_FALSE(gathers) << "nothing moves";
-    std::vector<bool> moving(room().nodes.size(), false);
+    std::vector<bool> moving(lit_room().nodes.size(), false);
     moving.back() = true;
-    found(shelf, room(), gathers, moving);
+    found(shelf, lit_room(), gathers, moving);
     EXPECT_TRUE(gathers);
-    found(shelf, room(), gathers, {}, {.rays = 16});
+    found(shelf, lit_room(), gathers, {}, {.rays = 16});
     EXPECT_TRUE(gathers);
 }
 
@@ -106,7 +98,7 @@ TEST(KeptRadiosity, AFullCacheChangesNothing) {
     Shelf shelf;
     shelf.full = true;
     bool gathers = false;
-    EXPECT_TRUE(found(shelf, room(), gathers));
+    EXPECT_TRUE(found(shelf, lit_room(), gathers));
     EXPECT_TRUE(gathers);
     EXPECT_TRUE(shelf.kept.empty());
 }

@@ -1,10 +1,13 @@
 // What `vesper inspect` says of each kind of file. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
+
+#include "transport/light_tracer.h"
 
 namespace vesper::commands {
 
@@ -36,5 +39,9 @@ Inspection inspect_lamp_map(const InspectArguments&);       ///< of a scene; wri
 Inspection inspect_distribution(const InspectArguments&);   ///< writes the picture if one is wanted
 Inspection inspect_table(const InspectArguments&);          ///< an r-table
 Inspection inspect_picture(const InspectArguments&);        ///< writes the picture if one is wanted
+
+/// What reports call the ways of light, in the order of transport::Origin.
+constexpr std::array<const char*, transport::kOrigins> kOriginTexts{
+    "lamps, directly", "emitting surfaces, directly", "sky, directly", "reflected once", "reflected more often"};
 
 }  // namespace vesper::commands

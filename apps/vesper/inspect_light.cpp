@@ -18,14 +18,9 @@ namespace {
 using apps::format;
 using transport::Illuminance;
 
-struct Row {
-    const char *text, *key;
-};
-constexpr std::array<Row, transport::kOrigins> kRows{{{"lamps, directly", "lamps"},
-                                                      {"emitting surfaces, directly", "emitters"},
-                                                      {"sky, directly", "sky"},
-                                                      {"reflected once", "reflected_once"},
-                                                      {"reflected more often", "reflected_more_often"}}};
+// Of each origin, in JSON.
+constexpr std::array<const char*, transport::kOrigins> kKeys{"lamps", "emitters", "sky", "reflected_once",
+                                                             "reflected_more_often"};
 
 glm::dvec3 triple(const char* option, const std::string& text) {
     glm::dvec3 v;
@@ -44,12 +39,12 @@ void report(const Illuminance& light, glm::dvec3 point, glm::dvec3 normal, Inspe
                                    {"normal", {normal.x, normal.y, normal.z}}};
     made.text += "\nat " + numbers(point) + " m, facing " + numbers(normal) + "\n";
     made.text += "  illuminance                          lx   std. error   share\n";
-    for (size_t i = 0; i < kRows.size(); ++i) {
+    for (size_t i = 0; i < kKeys.size(); ++i) {
         const double lux = luminance(light.rgb[i]), error = light.standard_error[i];
-        made.text +=
-            format("  %-28s %10.4g   %10.2g   %5.1f %%\n", kRows[i].text, lux, error, sum > 0 ? 100 * lux / sum : 0.0);
-        json["illuminance_lx"][kRows[i].key] = lux;
-        json["standard_error_lx"][kRows[i].key] = error;
+        made.text += format("  %-28s %10.4g   %10.2g   %5.1f %%\n", kOriginTexts[i], lux, error,
+                            sum > 0 ? 100 * lux / sum : 0.0);
+        json["illuminance_lx"][kKeys[i]] = lux;
+        json["standard_error_lx"][kKeys[i]] = error;
     }
     made.text += format("  %-28s %10.4g   %10.2g\n", "sum", sum, light.standard_error_of_sum);
     json["illuminance_lx"]["sum"] = sum;

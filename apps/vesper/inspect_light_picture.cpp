@@ -23,19 +23,11 @@ namespace {
 
 using apps::format;
 
-struct LightLayer {
-    const char *text, *name;
-};
-constexpr std::array<LightLayer, transport::kOrigins> kLayers{{{"lamps, directly", "lamps"},
-                                                               {"emitting surfaces, directly", "emitters"},
-                                                               {"sky, directly", "sky"},
-                                                               {"reflected once", "once"},
-                                                               {"reflected more often", "more"}}};
+// Of each origin, in files.
+constexpr std::array<const char*, transport::kOrigins> kLayers{"lamps", "emitters", "sky", "once", "more"};
 constexpr unsigned kPathsOfPicture = 32, kSteps = 200;
 
-std::string file_of_layer(const std::string& prefix, const LightLayer& layer) {
-    return prefix + "-" + layer.name + ".png";
-}
+std::string file_of_layer(const std::string& prefix, const char* layer) { return prefix + "-" + layer + ".png"; }
 
 float lux_of(glm::vec3 rgb) { return float(luminance(glm::dvec3(rgb))); }
 
@@ -55,8 +47,8 @@ void report(const TracedPicture& picture, Inspection& made) {
     made.text += "  illuminance, mean                    lx   share\n";
     for (size_t k = 0; k < means.size(); ++k) {
         made.text +=
-            format("  %-28s %10.4g   %5.1f %%\n", kLayers[k].text, means[k], sum > 0 ? 100 * means[k] / sum : 0);
-        made.json["mean_illuminance_lx"][kLayers[k].name] = means[k];
+            format("  %-28s %10.4g   %5.1f %%\n", kOriginTexts[k], means[k], sum > 0 ? 100 * means[k] / sum : 0);
+        made.json["mean_illuminance_lx"][kLayers[k]] = means[k];
     }
     made.text += format("  %-28s %10.4g\n", "sum", sum);
     made.json["mean_illuminance_lx"]["sum"] = sum;
@@ -90,7 +82,7 @@ void draw(const InspectArguments& a, VkExtent2D extent, const TracedPicture& pic
         const apps::ValuePicture shown =
             apps::resized({extent.width, extent.height, std::move(values[k])}, width, height);
         apps::Canvas canvas(width + 32 + uint32_t(apps::kBarWidth) + 10, uint32_t(bar) + 84);
-        canvas.text({16, 20}, std::string(kLayers[k].text) + title, 14);
+        canvas.text({16, 20}, std::string(kOriginTexts[k]) + title, 14);
         canvas.pixels(16, 40, width, height, apps::false_colours(shown, scale));
         apps::draw_colour_bar(canvas, {width + 36.0, 64}, bar, scale, "lx");
         canvas.save(file_of_layer(a.light, kLayers[k]));
@@ -106,7 +98,7 @@ void write_layers(const InspectArguments& a, VkExtent2D extent, const TracedPict
             for (int c = 0; c < 3; ++c) rgb[k].push_back(k < light.lux.size() ? light.lux[k][c] : sum[c]);
     }
     std::vector<io::ExrLayerPixels> layers{{"", rgb.back()}};
-    for (size_t k = 0; k < kLayers.size(); ++k) layers.push_back({kLayers[k].name, rgb[k]});
+    for (size_t k = 0; k < kLayers.size(); ++k) layers.push_back({kLayers[k], rgb[k]});
     io::write_exr_layers(a.light + ".exr", extent.width, extent.height, layers, header);
 }
 
@@ -114,7 +106,7 @@ void write_layers(const InspectArguments& a, VkExtent2D extent, const TracedPict
 
 void announce_light_picture(const InspectArguments& a) {
     io::announce_write("--light", a.light + ".exr");
-    for (const LightLayer& layer : kLayers) io::announce_write("--light", file_of_layer(a.light, layer));
+    for (const char* layer : kLayers) io::announce_write("--light", file_of_layer(a.light, layer));
 }
 
 Inspection inspect_light_picture(const InspectArguments& a) {

@@ -6,9 +6,12 @@
 
 #include "base/budget.h"
 #include "base/one_line.h"
+#include "gpu_scene/facets.h"
 #include "gpu_scene/intensity_tables.h"
+#include "gpu_scene/leading_vertices.h"
 #include "gpu_scene/occluders.h"
 #include "scene/reflectance.h"
+#include "shared/edges.h"
 #include "shared/retro.h"
 #include "shared/shade.h"
 
@@ -54,6 +57,21 @@ scene::Material as_sheet(scene::Material m) {
     m.roughness = std::min(m.roughness, 0.999f);  // not matt: lamps count by what they give a surface facing them
     m.metallic_roughness_texture = {};
     return m;
+}
+
+// The facets of all triangles of a primitive, at the vertices that lead them. The primitive's first vertex has the
+// number `first`.
+void add_facets(const scene::Primitive& primitive, const LeadingVertices& triangles, uint32_t first,
+                std::vector<shared::Facet>& to) {
+    to.resize(first + triangles.vertices().size());
+    const std::vector<Facet> found = facets(primitive);
+    for (size_t i = 0; i < found.size(); ++i) {
+        const auto& [corners, count] = found[i];
+        const uint32_t leader = triangles.indices()[3 * i];
+        const auto place = uint32_t(std::ranges::find(corners, triangles.vertices()[leader]) - corners.begin());
+        for (uint32_t k = 1; k < 4; ++k)
+            to[first + leader].others[k - 1] = first + corners[(place + std::min(k, count - 1)) % count];
+    }
 }
 
 // A bound of the largest stretch of a linear map, exact where its axes stay at right angles: the square is the largest
@@ -104,23 +122,29 @@ GpuScene::GpuScene(const gpu::Device& device, const scene::Scene& scene, Picture
 void GpuScene::upload_geometry(const gpu::Device& device, const scene::Scene& scene) {
     std::vector<scene::Vertex> vertices;
     std::vector<uint32_t> indices;
+    std::vector<shared::Facet> of_triangles;
     for (const scene::Mesh& mesh : scene.meshes) {
         mesh_parts_.emplace_back(uint32_t(parts_.size()), uint32_t(mesh.primitives.size()));
         for (const scene::Primitive& primitive : mesh.primitives) {
+            const LeadingVertices leading(primitive);
             const glm::vec3 centre =
                 primitive.bounds.empty() ? glm::vec3(0) : (primitive.bounds.low + primitive.bounds.high) * 0.5f;
             const float radius = primitive.bounds.empty() ? 0 : glm::length(primitive.bounds.high - centre);
             parts_.push_back({primitive.material, uint32_t(indices.size()), uint32_t(primitive.indices.size()),
                               int32_t(vertices.size()), centre, radius});
             // On the device, and on the way there.
-            spend(2 *
-                  (primitive.vertices.size() * sizeof(scene::Vertex) + primitive.indices.size() * sizeof(uint32_t)));
-            vertices.insert(vertices.end(), primitive.vertices.begin(), primitive.vertices.end());
-            indices.insert(indices.end(), primitive.indices.begin(), primitive.indices.end());
+            spend(2 * (leading.vertices().size() * (sizeof(scene::Vertex) + sizeof(shared::Facet)) +
+                       leading.indices().size() * sizeof(uint32_t)));
+            add_facets(primitive, leading, uint32_t(vertices.size()), of_triangles);
+            for (const uint32_t vertex : leading.vertices()) vertices.push_back(primitive.vertices[vertex]);
+            indices.insert(indices.end(), leading.indices().begin(), leading.indices().end());
         }
     }
     if (indices.empty()) return;
-    vertices_ = upload_buffer(device, arena_, bytes_of(vertices), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    vertex_count_ = vertices.size();
+    vertices_ = upload_buffer(device, arena_, bytes_of(vertices),
+                              VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    facets_ = upload_buffer(device, arena_, bytes_of(of_triangles), VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
     indices_ = upload_buffer(device, arena_, bytes_of(indices), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
 }
 

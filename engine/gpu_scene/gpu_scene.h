@@ -59,6 +59,9 @@ public:
     const std::vector<Surface>& surfaces() const { return surfaces_; }
     VkBuffer vertices() const { return vertices_.get(); }
     VkBuffer indices() const { return indices_.get(); }
+    /// shared::Facet for each vertex, of the triangle that it is the first of (LeadingVertices).
+    VkBuffer facets() const { return facets_.get(); }
+    uint64_t vertex_count() const { return vertex_count_; }
     /// Depth of the farthest point of any instance along the view axis, m; at least 0.
     float farthest_depth(const SceneFrame& frame, const View& view) const;
     uint64_t triangles() const { return triangles_; }              ///< of all placements
@@ -71,7 +74,8 @@ private:
     void make_surfaces(const scene::Scene& scene);
 
     gpu::Arena arena_;
-    gpu::OwnedBuffer vertices_, indices_;
+    gpu::OwnedBuffer vertices_, indices_, facets_;
+    uint64_t vertex_count_ = 0;
     TextureStore textures_;
     std::vector<Part> parts_;
     std::vector<std::pair<uint32_t, uint32_t>> mesh_parts_;  // first part and number of parts of each mesh

@@ -1,0 +1,38 @@
+// Pixels that several surfaces fill: what the passes are told. Included by GLSL and by C++. SPDX-License-Identifier: MIT
+#ifndef VESPER_SHARED_EDGES_H
+#define VESPER_SHARED_EDGES_H
+#include "types.h"
+SHARED_BEGIN
+
+const uint kEdgeSamples = 16u;       // points of a pixel: at ((i + 1/2) / 16, the bits of i in reverse / 16 + 1/32)
+const uint kEdgesPerGroup = 256u;    // pixels that a workgroup does
+const uint kMostEdgeGroups = 65535u; // of which every device can run as many; further pixels stay as they are
+
+// Two pixels see one surface if they see one instance, whose normal turns by less between them,
+const float kSameNormal = 0.9f;      // cosine
+const float kSamePlane = 2e-4f;      // and are by no more off each other's plane than that bend, and so much of their depth
+
+// Surfaces of less contrast in every channel have no edge.
+const float kSameLuminance = 0.02f;
+
+// Words of the list of edges: arguments of its dispatches, then how many there are.
+const uint kEdgeCounts = 4u;
+
+const uint kTexelsPerVertex = 5u;   // of rg32f, in which a vertex lies
+
+// The facet of the triangle that a vertex is the first of: its other corners, in turn. Of a triangle the third twice.
+struct Facet {
+    uint others[3];
+    uint unused;
+};
+SHARED_SIZE(Facet, 16)
+
+struct EdgesPush {
+    uvec2 size;       // px
+    vec2 ray_scale;   // pixel (x, y) sees along (ray_scale (pixel + 1/2) + ray_offset, -1)
+    vec2 ray_offset;
+};
+SHARED_SIZE(EdgesPush, 24)
+
+SHARED_END
+#endif

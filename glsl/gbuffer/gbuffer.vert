@@ -23,6 +23,7 @@ layout(location = 1) out vec2 texture_uv;
 layout(location = 2) out vec4 base_colour;
 layout(location = 3) flat out vec4 emission_cutoff;
 layout(location = 4) flat out vec2 metallic_roughness;
+layout(location = 5) flat out uvec2 triangle;  // of the first vertex, which no other triangle has as its first
 
 void main() {
     const vec4 p = vec4(position, 1.0);
@@ -41,4 +42,5 @@ void main() {
     base_colour = push.base_colour * colour;
     emission_cutoff = vec4(dimming * push.emission, push.alpha_cutoff);
     metallic_roughness = vec2(push.metallic, push.roughness);
+    triangle = uvec2(gl_InstanceIndex + 1, gl_VertexIndex);
 }

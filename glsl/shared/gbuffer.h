@@ -22,8 +22,11 @@ struct Instance {
     vec4 row_y;
     vec4 row_z;
     float dimming;   // factor on its emission
+    float masked;    // 1: its surface has holes
+    vec2 unused;     // so that it is kTexelsPerInstance texels of rgba32f
 };
-SHARED_SIZE(Instance, 52)
+SHARED_SIZE(Instance, 64)
+const uint kTexelsPerInstance = 4u;
 
 SHARED_END
 #endif

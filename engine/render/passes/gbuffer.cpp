@@ -55,11 +55,13 @@ uint32_t variant_of(const scene::Material& m) {
 }
 
 const gpu::GraphicsPipeline& pipeline_of(const gpu::GraphicsPipelineCache& pipelines, uint32_t variant) {
-    return pipelines.get(
-        kShaders, {.targets = {{kReflectanceFormat}, {kSurfaceFormat}, {kEmissionFormat, (variant & kEmits) != 0}},
-                   .depth = kDepthFormat,
-                   .constants = {variant & kBaseTexture, variant & kMetallicRoughnessTexture,
-                                 variant & kEmissionTexture, variant & kMask}});
+    return pipelines.get(kShaders, {.targets = {{kReflectanceFormat},
+                                                {kSurfaceFormat},
+                                                {kEmissionFormat, (variant & kEmits) != 0},
+                                                {kTriangleFormat}},
+                                    .depth = kDepthFormat,
+                                    .constants = {variant & kBaseTexture, variant & kMetallicRoughnessTexture,
+                                                  variant & kEmissionTexture, variant & kMask}});
 }
 
 // How the surfaces of one material are drawn.
@@ -130,7 +132,9 @@ std::vector<DrawnPart> cull(const GpuScene& scene, const gpu_scene::SceneFrame& 
             const GpuScene::Part& part = scene.parts()[i];
             const gpu_scene::Sphere sphere = gpu_scene::sphere_of(part, m);
             if (part.index_count == 0 || !visible(view, sphere)) continue;
-            drawn.push_back({i, mirrored, layer_of(sphere), {rows[0], rows[1], rows[2], dimming}});
+            const bool masked = scene.surfaces()[part.material].material.alpha == scene::Material::Alpha::Mask;
+            drawn.push_back(
+                {i, mirrored, layer_of(sphere), {rows[0], rows[1], rows[2], dimming, masked ? 1.0f : 0.0f, {}}});
         }
     }
     return drawn;
@@ -202,16 +206,19 @@ GBuffer add_gbuffer(const FrameContext& frame, const GpuScene& scene, const gpu_
     }
     if (instances.empty()) instances.emplace_back();  // an upload is never empty
 
-    const graph::Resource placed = graph.upload("instances", instances);
+    const graph::Resource placed = graph.upload("instances", instances, VK_FORMAT_R32G32B32A32_SFLOAT);
     const GBuffer g{graph.transient("reflectance", graph::image_shape(kReflectanceFormat, view.extent)),
                     graph.transient("surface", graph::image_shape(kSurfaceFormat, view.extent)),
                     graph.transient("emission", graph::image_shape(kEmissionFormat, view.extent)),
-                    graph.transient("depth", graph::image_shape(kDepthFormat, view.extent))};
+                    graph.transient("depth", graph::image_shape(kDepthFormat, view.extent)),
+                    graph.transient("triangle", graph::image_shape(kTriangleFormat, view.extent)),
+                    placed};
     graph.raster("gbuffer",
                  {{placed, graph::Access::Vertices},
                   {g.reflectance, graph::Access::ColorTarget},
                   {g.surface, graph::Access::ColorTarget},
                   {g.emission, graph::Access::ColorTarget},
+                  {g.triangle, graph::Access::ColorTarget},
                   {g.depth, graph::Access::DepthTarget}},
                  [&device = frame.kernels.device(), &scene, view, placed,
                   batches = std::move(batches)](const graph::Recording& recording) {

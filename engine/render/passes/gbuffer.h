@@ -14,6 +14,9 @@ struct GBuffer {
         surface;  ///< rgba32f: view-frame normal, octahedral (2), depth along the view axis (m; 0: nothing), roughness
     graph::Resource emission;  ///< rgba32f: emitted RGB luminance, cd/m^2
     graph::Resource depth;     ///< d32: near / depth, 0 at infinity
+    graph::Resource
+        triangle;  ///< rg32ui: 1 + its instance, 0 where nothing is drawn; its first vertex, see LeadingVertices
+    graph::Resource instances;  ///< shared::Instance, as rgba32f texels
 };
 
 /// Rasterizes the parts of the scene in view, at the poses of `poses`. Textures are filtered as linear reflectance.

@@ -1,0 +1,26 @@
+// What pixels see. Wants `triangles`, `surface_image` and `push` of EdgesPush.
+
+// The pixel itself, those beside it, those at its corners.
+ivec2 neighbour(uint k) {
+    const uint place = k == 0u ? 4u : k <= 4u ? 2u * k - 1u : k == 5u ? 0u : k == 6u ? 2u : k == 7u ? 6u : 8u;
+    return ivec2(place % 3u, place / 3u) - 1;
+}
+
+struct Seen {
+    uint instance;  // 0: nothing
+    vec3 normal, position;
+};
+
+Seen seen_at(ivec2 pixel) {
+    const vec4 surface = imageLoad(surface_image, pixel);
+    const vec3 ray = vec3(push.ray_scale * (vec2(pixel) + 0.5) + push.ray_offset, -1.0);
+    return Seen(imageLoad(triangles, pixel).r, decode_normal(surface.xy), ray * surface.z);
+}
+
+bool is_same(Seen a, Seen b) {
+    const vec3 between = b.position - a.position;
+    // As far as a bend between the two normals takes one from the other's plane, and rounding of depths.
+    const float most = distance(a.normal, b.normal) * length(between) + kSamePlane * -min(a.position.z, b.position.z);
+    const bool smooth_ = dot(a.normal, b.normal) >= kSameNormal && abs(dot(a.normal, between)) <= most && abs(dot(b.normal, between)) <= most;
+    return a.instance == b.instance && (a.instance == 0u || smooth_);
+}

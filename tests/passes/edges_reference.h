@@ -1,0 +1,152 @@
+// The mean of what fills a pixel, found from what its neighbours see, in double. SPDX-License-Identifier: MIT
+// Everything in the view frame: the eye at the origin, x right, y up, looking along -z.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "shared/edges.h"
+
+namespace vesper::reference {
+
+using glm::dvec2, glm::dvec3, glm::ivec2;
+
+/// What the middle of a pixel sees.
+struct SeenFacet {
+    uint32_t instance = 0, triangle = 0;  ///< 0: nothing
+    std::vector<dvec3> corners;           ///< of its facet, in turn, m
+    dvec3 normal{0, 0, 1}, position{0};   ///< unit; m
+    dvec2 opacity_slope{0};               ///< 1/px: 1 + slope . way is 0 where a masked surface ends
+};
+
+/// A picture of such pixels: pixel (x, y), y down, sees along (scale (pixel + 1/2) + offset, -1).
+struct SeenPicture {
+    ivec2 size{0};
+    dvec2 scale{1}, offset{0};
+    std::vector<SeenFacet> facets;
+    std::vector<dvec3> luminance;
+
+    bool has(ivec2 p) const { return p.x >= 0 && p.y >= 0 && p.x < size.x && p.y < size.y; }
+    const SeenFacet& facet(ivec2 p) const { return facets[size_t(p.y) * size_t(size.x) + size_t(p.x)]; }
+    const dvec3& light(ivec2 p) const { return luminance[size_t(p.y) * size_t(size.x) + size_t(p.x)]; }
+};
+
+/// The pixel, those beside it, those at its corners, in the order in which they are asked.
+inline std::array<ivec2, 9> neighbourhood(ivec2 p) {
+    std::array<ivec2, 9> places{p, p + ivec2(0, -1), p + ivec2(-1, 0), p + ivec2(1, 0), p + ivec2(0, 1)};
+    places[5] = p + ivec2(-1, -1), places[6] = p + ivec2(1, -1), places[7] = p + ivec2(-1, 1), places[8] = p + 1;
+    return places;
+}
+
+inline bool is_one_surface(const SeenFacet& a, const SeenFacet& b) {
+    if (a.instance != b.instance) return false;
+    if (a.instance == 0) return true;
+    const dvec3 way = b.position - a.position;
+    const double bend = glm::length(a.normal - b.normal) * glm::length(way),
+                 rounding = double(shared::kSamePlane) * std::max(-a.position.z, -b.position.z);
+    return glm::dot(a.normal, b.normal) >= double(shared::kSameNormal) &&
+           std::max(std::abs(glm::dot(a.normal, way)), std::abs(glm::dot(b.normal, way))) <= bend + rounding;
+}
+
+/// Whether a pixel is beside an edge that can be seen.
+inline bool is_edge(const SeenPicture& picture, ivec2 p) {
+    for (const ivec2 q : neighbourhood(p)) {
+        if (!picture.has(q) || is_one_surface(picture.facet(p), picture.facet(q))) continue;
+        const dvec3 change = glm::abs(picture.light(q) - picture.light(p));
+        for (int c = 0; c < 3; ++c)
+            if (!(change[c] <= double(shared::kSameLuminance) * std::abs(picture.light(p)[c]))) return true;
+    }
+    return false;
+}
+
+/// How a ray meets a facet and its plane.
+struct Passing {
+    double inside = 0;         ///< px from the nearest of the lines along its edges; negative: outside
+    double inverse_depth = 0;  ///< of its plane, 1/m
+};
+
+inline Passing pass(const std::vector<dvec3>& corners, dvec3 ray, dvec2 scale) {
+    dvec3 normal(0);
+    for (size_t k = 2; k < corners.size(); ++k)
+        normal += glm::cross(corners[k - 1] - corners[0], corners[k] - corners[0]);
+    const double side = glm::dot(normal, corners[0]) < 0 ? -1 : 1;  // which one of the facet the eye is on
+    Passing passing{std::numeric_limits<double>::infinity(), 0};
+    for (size_t k = 0; k < corners.size(); ++k) {
+        // The plane through the eye and the edge.
+        const dvec3 plane = glm::cross(corners[k], corners[(k + 1) % corners.size()]);
+        const double steepness = glm::length(dvec2(plane) * scale);
+        passing.inside = std::min(passing.inside, side * glm::dot(plane, ray) / steepness);
+    }
+    const dvec3 first = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    passing.inverse_depth = glm::dot(first, ray) / glm::dot(first, corners[0]);
+    return passing;
+}
+
+struct EdgeMean {
+    dvec3 luminance{0};
+    double doubt = std::numeric_limits<double>::infinity();  ///< px: how near some point was to another choice
+};
+
+/// The mean over the points of a pixel beside an edge.
+inline EdgeMean edge_mean(const SeenPicture& picture, ivec2 p) {
+    EdgeMean mean;
+    const auto around = neighbourhood(p);
+    for (uint32_t i = 0; i < shared::kEdgeSamples; ++i) {
+        const uint32_t reversed = (i & 1) << 3 | (i & 2) << 1 | (i & 4) >> 1 | (i & 8) >> 3;
+        const dvec2 way((i + 0.5) / 16 - 0.5, reversed / 16.0 + 1 / 32.0 - 0.5);
+        const dvec3 ray(picture.scale * (dvec2(p) + 0.5 + way) + picture.offset, -1);
+        ivec2 seen = p;
+        bool covered = false, nothing_near = false;
+        ivec2 nothing = p;
+        double nearest = 0, second = 0, closest = -1e30, next = -1e30;
+        for (const ivec2 q : around) {
+            if (!picture.has(q)) continue;
+            const SeenFacet& facet = picture.facet(q);
+            if (facet.instance == 0) {
+                if (!nothing_near) nothing = q;
+                nothing_near = true;
+                continue;
+            }
+            const double opaque = 1 + glm::dot(facet.opacity_slope, way - dvec2(q - p));
+            mean.doubt = std::min(mean.doubt, facet.opacity_slope == dvec2(0) ? 1.0 : std::abs(opaque));
+            if (opaque < 0) continue;
+            const Passing passing = pass(facet.corners, ray, picture.scale);
+            const ivec2 as = is_one_surface(picture.facet(p), facet) ? p : q;
+            mean.doubt = std::min(mean.doubt, std::abs(passing.inside));
+            if (!(passing.inverse_depth > 0)) continue;
+            if (passing.inside >= 0) {
+                if (passing.inverse_depth > nearest) {
+                    if (as != seen || !covered) second = nearest;
+                    nearest = passing.inverse_depth, seen = as, covered = true;
+                } else if (as != seen) {
+                    second = std::max(second, passing.inverse_depth);
+                }
+            } else if (!covered) {
+                if (passing.inside > closest) {
+                    if (as != seen) next = closest;
+                    closest = passing.inside, seen = as;
+                } else if (as != seen) {
+                    next = std::max(next, passing.inside);
+                }
+            }
+        }
+        if (covered) mean.doubt = std::min(mean.doubt, 1e3 * (nearest - second) / nearest);
+        if (!covered) {
+            if (nothing_near)
+                seen = nothing;
+            else
+                mean.doubt = std::min(mean.doubt, closest - next);
+        }
+        mean.luminance += picture.light(seen) / double(shared::kEdgeSamples);
+    }
+    return mean;
+}
+
+}  // namespace vesper::reference

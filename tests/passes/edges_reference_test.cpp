@@ -1,0 +1,97 @@
+// Means over pixels whose results are known. SPDX-License-Identifier: MIT
+#include "passes/edges_reference.h"
+
+#include <gtest/gtest.h>
+
+namespace vesper::test::edges_reference_test {
+namespace {
+
+using glm::dvec2, glm::dvec3, glm::ivec2;
+using reference::SeenFacet, reference::SeenPicture;
+
+// A picture of 5 x 5 px, 1 m wide at a distance of 1 m, of which each middle sees the nearest of these facets.
+SeenPicture picture_of(const std::vector<SeenFacet>& facets, const std::vector<double>& luminance) {
+    SeenPicture picture{ivec2(5), dvec2(0.2, -0.2), dvec2(-0.5, 0.5), {}, {}};
+    for (int y = 0; y < 5; ++y)
+        for (int x = 0; x < 5; ++x) {
+            const dvec3 ray(picture.scale * (dvec2(x, y) + 0.5) + picture.offset, -1);
+            SeenFacet seen;
+            double nearest = 0, light = luminance.back();  // of nothing
+            for (size_t i = 0; i < facets.size(); ++i) {
+                const auto [inside, inverse_depth] = reference::pass(facets[i].corners, ray, picture.scale);
+                if (inside < 0 || inverse_depth <= nearest) continue;
+                seen = facets[i], nearest = inverse_depth, light = luminance[i];
+                seen.position = ray / inverse_depth;
+            }
+            picture.facets.push_back(seen);
+            picture.luminance.emplace_back(light);
+        }
+    return picture;
+}
+
+// A rectangle facing the eye, from and to these places at this distance.
+SeenFacet rectangle(uint32_t instance, dvec2 low, dvec2 high, double distance) {
+    return {instance,
+            instance,
+            {{low.x, low.y, -distance},
+             {high.x, low.y, -distance},
+             {high.x, high.y, -distance},
+             {low.x, high.y, -distance}},
+            {0, 0, 1},
+            {},
+            {}};
+}
+
+TEST(EdgesReference, AnEdgeBetweenTwoWallsIsTheirMean) {
+    // The near wall ends 0.3 px right of the middle of the middle pixel.
+    const SeenPicture picture =
+        picture_of({rectangle(1, {-2, -2}, {0.06, 2}, 1), rectangle(2, {-9, -9}, {9, 9}, 3)}, {10, 2, 0});
+    EXPECT_TRUE(reference::is_edge(picture, {2, 2}));
+    EXPECT_FALSE(reference::is_edge(picture, {0, 2}));
+    const double covered = 13 / 16.0;  // of points in columns of 1/16: of 0.8
+    EXPECT_NEAR(reference::edge_mean(picture, {2, 2}).luminance.g, 10 * covered + 2 * (1 - covered), 1e-12);
+    EXPECT_NEAR(reference::edge_mean(picture, {3, 2}).luminance.g, 2, 1e-12);
+}
+
+TEST(EdgesReference, BesideNothingItIsTheMeanWithNothing) {
+    const SeenPicture picture = picture_of({rectangle(1, {-2, -2}, {0.001, 2}, 1)}, {8, 1});
+    EXPECT_NEAR(reference::edge_mean(picture, {2, 2}).luminance.g, (8 + 1) / 2.0, 1e-12);
+}
+
+TEST(EdgesReference, OneSurfaceIsItself) {
+    const SeenPicture picture =
+        picture_of({rectangle(1, {-9, -9}, {0.01, 9}, 2), rectangle(1, {0.01, -9}, {9, 9}, 2)}, {4, 7, 0});
+    EXPECT_FALSE(reference::is_edge(picture, {2, 2})) << "the same instance, plane and normal";
+}
+
+TEST(EdgesReference, ALightBehindAnEdgeKeepsItsShare) {
+    // 1e4 cd/m^2 over a quarter of a pixel, on 1 cd/m^2: 2,501, whatever the display can show.
+    const SeenPicture picture =
+        picture_of({rectangle(1, {0.05, -9}, {9, 9}, 1), rectangle(2, {-9, -9}, {9, 9}, 3)}, {1e4, 1, 0});
+    EXPECT_NEAR(reference::edge_mean(picture, {2, 2}).luminance.g, (4 * 1e4 + 12) / 16, 1e-9);
+}
+
+TEST(EdgesReference, MaskedSurfacesEndWhereTheirOpacityDoes) {
+    SeenFacet leaf = rectangle(1, {-9, -9}, {9, 9}, 1);
+    leaf.opacity_slope = {-4, 0};  // it ends 1/4 px to the right
+    SeenPicture picture = picture_of({leaf, rectangle(2, {-9, -9}, {9, 9}, 3)}, {3, 1, 0});
+    // The pixels to the right see the wall through a hole.
+    for (const size_t i : {8u, 13u, 18u})
+        picture.facets[i] = rectangle(2, {-9, -9}, {9, 9}, 3), picture.luminance[i] = dvec3(1);
+    EXPECT_NEAR(reference::edge_mean(picture, {2, 2}).luminance.g, (3 * 12 + 4) / 16.0, 1e-12);
+}
+
+TEST(EdgesReference, DistancesArePixels) {
+    const auto [inside, inverse_depth] =
+        reference::pass(rectangle(1, {-1, -1}, {0.1, 1}, 2).corners, {0, 0, -1}, {0.01, -0.01});
+    EXPECT_NEAR(inside, 5, 1e-12);
+    EXPECT_NEAR(inverse_depth, 0.5, 1e-12);
+    // From behind it is the same, and to a place behind the eye it goes on.
+    const std::vector<dvec3> road{{-1, -1, 5}, {1, -1, 5}, {1, -1, -50}, {-1, -1, -50}};
+    EXPECT_NEAR(reference::pass(road, {0, -0.1, -1}, {0.01, -0.01}).inverse_depth, 0.1, 1e-12);
+    EXPECT_NEAR(reference::pass(road, {0, -0.1, -1}, {0.01, -0.01}).inside, std::min(8.0, 0.1 / 0.01 / std::sqrt(1.01)),
+                3);
+}
+
+}  // namespace
+}  // namespace vesper::test::edges_reference_test

@@ -13,6 +13,13 @@ View View::of(const vision::ImageAngles& image, const glm::dmat4& world_to_view,
     return {{uint32_t(image.width), uint32_t(image.height)}, world_to_view, image.low, image.high, near};
 }
 
+View View::moved(glm::dvec2 pixels) const {
+    const glm::vec2 by = ray_scale() * glm::vec2(pixels);
+    View view = *this;
+    view.tangent_low += by, view.tangent_high += by;
+    return view;
+}
+
 glm::dvec3 eye_of(const View& view) { return glm::dvec3(glm::inverse(view.world_to_view)[3]); }
 
 vision::ImageAngles angles_of(const View& view) {

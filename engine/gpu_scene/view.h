@@ -22,6 +22,9 @@ struct View {
     static View of(const vision::ImageAngles& image, const glm::dmat4& world_to_view = glm::dmat4(1),
                    float near = 0.1f);
 
+    /// The same, but every pixel sees what lies so many px to the right of its middle, and below it.
+    View moved(glm::dvec2 pixels) const;
+
     /// To the view's frame, from one that has this place in the world.
     glm::mat4 from(const glm::dmat4& to_world) const { return glm::mat4(world_to_view * to_world); }
 

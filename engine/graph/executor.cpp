@@ -123,9 +123,10 @@ void Executor::run(const FrameGraph& graph) {
 
 void Executor::submit(const FrameGraph& graph, const SubmitSemaphores& semaphores) {
     Stopwatch watch;
-    const bool has_external_images =
-        std::ranges::any_of(graph.resources(), [](const auto& r) { return r.external_image.image != VK_NULL_HANDLE; });
-    const bool among_others = has_external_images || !semaphores.wait.empty() || !semaphores.signal.empty() ||
+    const bool goes_on = std::ranges::any_of(graph.resources(), [](const auto& r) {
+        return r.external_image.image != VK_NULL_HANDLE || r.origin == FrameGraph::Origin::Lasting;
+    });
+    const bool among_others = goes_on || !semaphores.wait.empty() || !semaphores.signal.empty() ||
                               std::ranges::any_of(slots_, &FrameSlot::under_way);
     FrameSlot* const last = slot_;
     HostTimes times;

@@ -22,6 +22,12 @@ ChainInputs FrameQueue::inputs(const ToneChainSettings& settings, const gpu_scen
     return inputs;
 }
 
+const std::vector<graph::Timing>& FrameQueue::run(const graph::FrameGraph& graph) {
+    finish();
+    executor_.run(graph);
+    return executor_.timings();
+}
+
 void FrameQueue::submit(Declared frame, const ChainInputs& inputs, const graph::SubmitSemaphores& semaphores) {
     Pending pending{frame.watch, frame.chain, inputs.eye, {}};
     pending.result.extent = frame.extent;

@@ -33,6 +33,10 @@ public:
     /// The eye as a frame of `view` finds it `seconds` after the last one, with its scatter if the settings have any.
     ChainInputs inputs(const ToneChainSettings& settings, const gpu_scene::View& view, float seconds);
 
+    /// Runs a graph that is no frame of its own, and waits for it; nothing remains of frames before it to be finished.
+    /// Returns the time of its passes.
+    const std::vector<graph::Timing>& run(const graph::FrameGraph& graph);
+
     /// A declared frame.
     struct Declared {
         Stopwatch watch;  ///< since its declaration began

@@ -9,6 +9,7 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
+#include "edge_arguments.h"
 #include "indirect_arguments.h"
 #include "io/file_gate.h"
 #include "machine.h"
@@ -33,6 +34,7 @@ struct BenchArguments {
     apps::ToneArguments tone;
     apps::ShadowArguments shadows;
     apps::IndirectArguments indirect{.indirect = "off"};
+    apps::EdgeArguments edges;
     std::string json, picture, growth, tables;
     std::vector<std::string> compared;
     bool no_start = false;
@@ -85,6 +87,8 @@ std::vector<Planned> planned_runs(const BenchArguments& a) {
         s.shadows = run.plan.render.shadows;
         apps::set_indirect(a.indirect, run.plan.render);
         s.indirect = run.plan.render.indirect;
+        apps::set_edges(a.edges, run.plan.render);
+        s.anti_aliasing = run.plan.render.anti_aliasing, s.samples = run.plan.render.samples;
         if (!a.shadows.cache.empty()) run.plan.map_cache = apps::shadow_cache(a.shadows.cache);
         runs.push_back(std::move(run));
     };
@@ -243,6 +247,7 @@ void add_bench(apps::Command program) {
         .shows_default();
     apps::add_shadow_options(program, a->shadows, "all", "off; one that is empty at first for the timing of starts");
     apps::add_indirect_options(program, a->indirect);
+    apps::add_edge_options(program, a->edges);
     program.add_option("--device", a->run.device,
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     apps::Option json = program.add_option("--json", a->json, "Write everything that was measured to a file");

@@ -20,6 +20,8 @@ struct RunSettings {
     double threshold = 0;   ///< lx: lamps count where they give more
     bool shadows = false;   ///< lamps light only what they see
     bool indirect = false;  ///< light between surfaces, which is gathered before
+    bool anti_aliasing = false;
+    uint32_t samples = 1;  ///< of each pixel
     uint32_t frames = 0, laps = 0, warm_up = 0;
 
     /// "1680x1050 rivoli ward".

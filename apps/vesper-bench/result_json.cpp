@@ -32,6 +32,8 @@ Json of(const RunSettings& s) {
             {"threshold_lx", s.threshold},
             {"shadows", s.shadows},
             {"indirect", s.indirect},
+            {"anti_aliasing", s.anti_aliasing},
+            {"samples", s.samples},
             {"frames", s.frames},
             {"laps", s.laps},
             {"warm_up", s.warm_up}};
@@ -81,6 +83,8 @@ RunSettings read_settings(const JsonValue& value) {
             .threshold = amount(value.at("threshold_lx")),
             .shadows = value.boolean_or("shadows", false),
             .indirect = value.boolean_or("indirect", false),
+            .anti_aliasing = value.boolean_or("anti_aliasing", false),
+            .samples = value.find("samples") ? count(value.at("samples")) : 1,
             .frames = count(value.at("frames")),
             .laps = count(value.at("laps")),
             .warm_up = count(value.at("warm_up"))};

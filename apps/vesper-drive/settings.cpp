@@ -9,6 +9,7 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/one_line.h"
+#include "edge_arguments.h"
 #include "indirect_arguments.h"
 #include "shadow_arguments.h"
 #include "tone_arguments.h"
@@ -30,6 +31,7 @@ struct SettingsArguments {
     float threshold = render::ClusterSettings{}.threshold;
     apps::ShadowArguments shadows;
     apps::IndirectArguments indirect;
+    apps::EdgeArguments edges;
 };
 
 void add(apps::Command command, SettingsArguments& a) {
@@ -55,6 +57,7 @@ void add(apps::Command command, SettingsArguments& a) {
     apps::add_shadow_options(command, a.shadows,
                              std::to_string(kWindowShadowBudget) + " in a window, all without one and in replays");
     apps::add_indirect_options(command, a.indirect);
+    apps::add_edge_options(command, a.edges);
     command.help_group();
 }
 
@@ -132,6 +135,7 @@ void DriveSettings::apply(const Values& values) {
     render.clusters.threshold = a.threshold;
     apps::set_shadows(a.shadows, render);
     apps::set_indirect(a.indirect, render);
+    apps::set_edges(a.edges, render);
     const FreeCamera free = free_camera_of(a.free);
     render_ = std::move(render);
     sun_ = command.count("--sun") ? std::optional(a.sun) : std::nullopt;

@@ -9,6 +9,7 @@
 #include "arguments.h"
 #include "base/one_line.h"
 #include "commands.h"
+#include "edge_arguments.h"
 #include "glare_arguments.h"
 #include "indirect_arguments.h"
 #include "io/file_gate.h"
@@ -39,6 +40,7 @@ struct RenderArguments {
     apps::ToneArguments tone;
     apps::ShadowArguments shadows;
     apps::IndirectArguments indirect;
+    apps::EdgeArguments edges;
     unsigned paths = kPathsOfPixel;
     bool traces = false;  // light for each pixel
     transport::TraceSettings tracing;
@@ -78,6 +80,8 @@ io::Header describe_frame(const RenderArguments& arguments, const gpu::Device& d
                       {"vesper:lights", std::to_string(frame.lamps)},
                       {"vesper:illuminanceThreshold", apps::digits(double(arguments.settings.clusters.threshold))},
                       {"vesper:lambert", arguments.lambert},
+                      {"vesper:samples", std::to_string(arguments.settings.samples)},
+                      {"vesper:antiAliasing", arguments.settings.anti_aliasing ? "on" : "off"},
                       {"vesper:device", device.name() + ", " + device.driver()}};
     const io::Header tone = apps::describe_tone(arguments.settings, frame);
     header.insert(header.end(), tone.begin(), tone.end());
@@ -130,17 +134,26 @@ void print_statistics(const RenderArguments& arguments, const gpu::Device& devic
           milliseconds.size(), milliseconds.front());
 }
 
+// What a picture of codes says of its samples.
+io::Header describe_samples(const render::RenderSettings& settings) {
+    if (settings.samples == 1) return {};
+    return {{"vesper:samples", std::to_string(settings.samples)},
+            {"vesper:meanOf", settings.display_average ? "what the display shows" : "luminance"}};
+}
+
 void write_outputs(const RenderArguments& arguments, const gpu::Device& device, const gpu_scene::View& view,
                    const render::Frame& frame, const vision::GlareReport& glare, unsigned index, double seconds) {
     for (const std::string& output : arguments.outputs) {
         const std::string file = file_of_frame(output, index, arguments.frames);
         if (output.ends_with(".png"))
-            apps::write_codes(file, frame, arguments.settings.display);
+            apps::write_codes(file, frame, arguments.settings.display, describe_samples(arguments.settings));
         else
             io::write_exr(file, frame.extent.width, frame.extent.height, frame.scene,
                           describe_frame(arguments, device, view, frame, glare, seconds));
     }
 }
+
+bool is_png(const std::string& output) { return output.ends_with(".png"); }
 
 // Of --indirect exact. All reflections count there unless a number is given.
 void check_paths(RenderArguments& a) {
@@ -151,6 +164,10 @@ void check_paths(RenderArguments& a) {
         throw Error("--indirect exact has no meaning with the ldr operator, which shows the light of lamps alone");
     if (a.traces && a.settings.moving_reflections)
         throw Error("--moving-reflections has no meaning with --indirect exact, which traces light of all lamps");
+    if (a.traces && a.settings.samples > 1)
+        throw Error("--samples has no meaning with --indirect exact, which traces light for the middles of pixels");
+    if (a.settings.display_average && (a.settings.samples == 1 || std::ranges::none_of(a.outputs, is_png)))
+        throw Error("--display-average has a meaning only beside --samples of 2 and more, and -o OUT.png");
     a.tracing.paths = a.paths, a.tracing.lamp_looks = kLampLooks;
     if (command.count("--reflections") > 0) a.tracing.most_reflections = a.indirect.reflections;
     a.tracing.threshold = HUGE_VAL;  // light of lamps directly is the device's
@@ -162,6 +179,7 @@ void check_arguments(RenderArguments& arguments) {
     static_cast<render::ToneChainSettings&>(settings) = apps::tone_settings(arguments.tone);
     apps::check_target(arguments.glare, settings);
     settings.paper_lambert = arguments.lambert == "paper";
+    apps::set_edges(arguments.edges, settings);
     apps::set_shadows(arguments.shadows, settings);
     apps::set_indirect(arguments.indirect, settings);
     check_paths(arguments);
@@ -237,18 +255,21 @@ std::vector<FrameTime> moments_of(const RenderArguments& arguments) {
     return moments;
 }
 
-// Of all frames; where light is traced also within a frame.
+// Of all frames; where light is traced or pixels have samples also within a frame.
 class FrameProgress {
 public:
     explicit FrameProgress(const RenderArguments& a)
-        : steps_(a.traces ? 100 : 1),
+        : steps_(a.traces ? 100 : a.settings.samples * (a.settings.display_average ? 2 : 1)),
           bar_(a.traces ? "tracing light, " + std::to_string(a.paths) + " paths a pixel" : "rendering",
                a.frames * steps_) {}
-    void at(unsigned frame, double share) {
-        for (; done_ < frame * steps_ + unsigned(share * steps_); ++done_) bar_.step();
-    }
+    void at(unsigned frame, double share) { reach(frame * steps_ + unsigned(share * steps_)); }
+    void sampled(unsigned frame, unsigned samples) { reach(frame * steps_ + samples); }
 
 private:
+    void reach(unsigned step) {
+        for (; done_ < step; ++done_) bar_.step();
+    }
+
     unsigned steps_, done_ = 0;
     apps::Progress bar_;
 };
@@ -293,6 +314,8 @@ void run(RenderArguments& arguments) {
         renderer.set_lamp_reflections(
             std::make_shared<const transport::LampReflections>(scene, moment.world, scene::animated_nodes(scene)));
     FrameProgress progress(arguments);
+    unsigned number = 0;  // of the frame
+    if (!arguments.traces) renderer.watch_samples([&](uint32_t done) { progress.sampled(number, done); });
     std::vector<double> milliseconds;
     std::optional<io::GrowingFile> log, sources;
     const auto begin = [](std::optional<io::GrowingFile>& grows, const std::string& file, const std::string& heading) {
@@ -302,6 +325,7 @@ void run(RenderArguments& arguments) {
         begin(sources, arguments.sources_file, apps::glare_sources_heading());
     for (unsigned index = 0; index < arguments.frames; ++index) {
         const auto& [seconds, step, eye] = moments[index];
+        number = index;
         if (eye) renderer.set_eye(*eye);
         moment.world = scene::world_transforms(scene, seconds);
         const gpu_scene::View view = gpu_scene::camera_view(scene, moment, arguments.camera, extent);
@@ -402,12 +426,16 @@ void add_render(apps::Command program) {
             "their root")
         .check(apps::range(1u, kMostPathsOfPixel))
         .shows_default();
+    apps::add_edge_options(command, a->edges);
+    command.add_flag("--display-average", a->settings.display_average,
+                     "With --samples, in a .png: the mean of what the display shows of each sample, as a finer display "
+                     "would; without, what it shows of their mean luminance");
     command.add_flag("--all-lamps,--all-lights", a->settings.all_lamps,
                      "Shade every lamp above the threshold in every pixel (slow, for comparison)");
     command.help_group();
     command.footer(
         "Examples:\n  vesper render night.gltf --camera driver --stats -o night.png\n"
-        "  vesper render night.gltf --camera driver -o night.exr\n"
+        "  vesper render night.gltf --camera driver --samples 64 -o night.exr\n"
         "  vesper render night.gltf --camera driver --size 640x400 --indirect exact --paths 64 -o exact.png\n"
         "  mkdir drive && vesper render night.gltf --camera driver --frames 300 --dt 0.0333 -o drive/%04d.png\n");
     command.callback([a, command] {

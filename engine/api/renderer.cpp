@@ -39,26 +39,37 @@ gpu_scene::View view_of(const VesperView& v, const scene::Scene& scene, const gp
     return gpu_scene::View::symmetric(extent, v.vertical_fov, world_to_view, v.near_plane);
 }
 
-constexpr uint32_t kViewWithoutIndirect = 104;  // size of a VesperView before there was that field, padded
+// Sizes of a VesperView before there was a field that lies where such views have padding.
+constexpr uint32_t kViewWithoutIndirect = 104, kViewWithoutAntiAliasing = 112;
 
 /// What is drawn and from where.
 struct Seen {
     gpu_scene::SceneFrame frame;
     gpu_scene::View view;
-    bool shadows, indirect, moving_reflections;
+    bool shadows, indirect, moving_reflections, anti_aliasing;
+    uint32_t samples;
 };
 void apply(const Seen& seen, render::RenderSettings& how) {
     how.shadows = seen.shadows, how.indirect = seen.indirect, how.moving_reflections = seen.moving_reflections;
+    how.anti_aliasing = seen.anti_aliasing, how.samples = seen.samples;
 }
 Seen see(const VesperRenderer& renderer, const VesperView* view) {
     VesperView v = known(view, "a view without its size");
-    if (v.size <= kViewWithoutIndirect) v.no_indirect = 0;  // it lies where such views have padding
+    if (v.size <= kViewWithoutIndirect) v.no_indirect = 0;
+    if (v.size <= kViewWithoutAntiAliasing) v.no_anti_aliasing = 0;
     require(v.scene_seconds >= 0 && v.scene_seconds <= 1e9, "the scene's time is 0 to 1e9 s");
     require(v.no_shadows == 0 || v.no_shadows == 1, "VesperView::no_shadows is 0 or 1");
     require(v.no_indirect == 0 || v.no_indirect == 1, "VesperView::no_indirect is 0 or 1");
     require(v.moving_reflections == 0 || v.moving_reflections == 1, "VesperView::moving_reflections is 0 or 1");
-    Seen seen{
-        frame_of(renderer, v.scene_seconds), {}, v.no_shadows == 0, v.no_indirect == 0, v.moving_reflections == 1};
+    require(v.no_anti_aliasing == 0 || v.no_anti_aliasing == 1, "VesperView::no_anti_aliasing is 0 or 1");
+    require(v.samples <= render::kMostSamples, "VesperView::samples is at most 65536");
+    Seen seen{frame_of(renderer, v.scene_seconds),
+              {},
+              v.no_shadows == 0,
+              v.no_indirect == 0,
+              v.moving_reflections == 1,
+              v.no_anti_aliasing == 0,
+              std::max(v.samples, 1u)};
     seen.view = view_of(v, renderer.scene.scene, seen.frame);
     return seen;
 }

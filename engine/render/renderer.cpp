@@ -1,17 +1,33 @@
 #include "render/renderer.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
 #include "gpu_scene/retro.h"
 #include "gpu_scene/sky.h"
+#include "render/display_average.h"
+#include "render/passes/edges.h"
 #include "render/passes/luminaires.h"
 
 namespace vesper::render {
 namespace {
 
 constexpr double kReflectionsLeftOut = 0.01;
+
+// Of passes of the same name.
+void add_times(std::vector<graph::Timing>& to, const std::vector<graph::Timing>& times) {
+    for (const graph::Timing& time : times) {
+        const auto same = std::ranges::find(to, time.pass, &graph::Timing::pass);
+        if (same == to.end()) {
+            to.push_back(time);
+            continue;
+        }
+        same->milliseconds += time.milliseconds;
+        same->bytes_read += time.bytes_read, same->bytes_written += time.bytes_written;
+    }
+}
 
 }  // namespace
 
@@ -74,8 +90,7 @@ RenderSettings ldr_baseline(RenderSettings settings) {
 }
 
 Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const RenderSettings& settings,
-                                          const gpu_scene::View& view, const gpu_scene::SceneFrame& poses,
-                                          float seconds) {
+                                          const gpu_scene::View& view, const gpu_scene::SceneFrame& poses) {
     const auto texels = [&graph](const char* name, const TexelBuffer& buffer) {
         if (buffer.bytes == 0) return graph::Resource{};
         return graph.external(name, buffer.buffer.get(), buffer.bytes, VK_FORMAT_R32G32B32A32_SFLOAT);
@@ -87,14 +102,14 @@ Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const Render
     in.luminaires = gpu_scene::luminaire_list(scene_->luminaires, poses, view, white);
     in.tables = {texels("intensity tables", scene_->table_texels), scene_->tables.roads, scene_->tables.roads != 0};
     in.clusters = settings.clusters;
+    in.edges = settings.anti_aliasing && settings.samples == 1;
     in.clusters.far = scene_->resident.farthest_depth(poses, view);
-    if (settings.shadows) add_maps(graph, in, poses, view, settings.shadow_budget);
+    if (settings.shadows)
+        add_maps(graph, in, poses, view, settings.samples > 1 ? kNoShadowBudget : settings.shadow_budget);
     in.shading.all_lamps = settings.all_lamps;
     if (settings.all_lamps) in.shading.merge_tolerance = -1;
     if (settings.paper_lambert) in.shading.lambert = 1;
     if (settings.unit_lamps) in.shading.emission_limit = 1;
-    in.chain = frames_.inputs(settings, view, seconds);
-    in.chain.scatter.lamps = settings.offscreen_lamps;
     if (settings.lamps_alone) {
         in.luminaires.glare_sources.clear();
         return in;
@@ -107,10 +122,17 @@ Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const Render
     in.daylight = {poses.tunnels, ambient.illuminance, in.shading.lambert};
     in.sky = {texels("sky map", scene_->sky), scene_->sky_sharp_side, in.shading.lambert};
     if (settings.indirect) add_indirect_light(graph, in, settings, view, poses, ambient);
+    return in;
+}
+
+ChainInputs Renderer::chain_inputs_of(const FrameInputs& in, const RenderSettings& settings,
+                                      const gpu_scene::View& view, float seconds) {
+    ChainInputs chain = frames_.inputs(settings, view, seconds);
+    chain.scatter.lamps = settings.offscreen_lamps;
     for (const gpu_scene::GlareSource& source : in.luminaires.glare_sources)
         if (source.inside < 1)
-            in.chain.scatter.lamps.push_back({source.direction, (1 - source.inside) * source.illuminance});
-    return in;
+            chain.scatter.lamps.push_back({source.direction, (1 - source.inside) * source.illuminance});
+    return chain;
 }
 
 // In place of the light that is the same everywhere.
@@ -174,8 +196,8 @@ void Renderer::add_maps(graph::FrameGraph& graph, FrameInputs& in, const gpu_sce
     in.directional = directional_maps_->maps(graph, in.lamps, poses, view);
 }
 
-ToneChain Renderer::declare(const FrameContext& frame, const gpu_scene::SceneFrame& poses, const FrameInputs& inputs,
-                            const RenderSettings& settings, const Outputs& outputs, Pending& pending) const {
+Renderer::SceneLight Renderer::declare(const FrameContext& frame, const gpu_scene::SceneFrame& poses,
+                                       const FrameInputs& inputs) const {
     const GBuffer surfaces = add_gbuffer(frame, scene_->resident, poses);
     const Clusters clusters = add_clusters(frame, surfaces.surface, inputs.lamps, inputs.tables, inputs.clusters);
     Blocks blocks = add_blocks(frame, surfaces, clusters);
@@ -188,19 +210,59 @@ ToneChain Renderer::declare(const FrameContext& frame, const gpu_scene::SceneFra
     scene = add_indirect(frame, surfaces, scene, inputs.indirect, moving, inputs.shading.lambert);
     scene = add_illuminance(frame, surfaces, scene, inputs.illuminance, inputs.shading.lambert);
     scene = add_sky(frame, surfaces, scene, inputs.sky);
+    if (inputs.edges) add_edges(frame, scene_->resident, surfaces, scene);
     scene = add_luminaires(frame, scene, surfaces.surface, inputs.luminaires);
-    const ToneChain chain = add_tone_chain(frame, scene, settings, inputs.chain, outputs);
-    pending.clusters = add_readback(frame.graph, "cluster report", clusters.report, sizeof(shared::ClusterReport));
-    pending.visibility =
-        add_readback(frame.graph, "visibility report", blocks.visibility, sizeof(shared::VisibilityReport));
-    pending.frame.far = clusters.push.far;
-    return chain;
+    return {scene, clusters, blocks};
+}
+
+// Samples before the last. Lamps, maps and luminaires are those of the view itself, of which samples see other points.
+Renderer::Pending Renderer::add_samples(const RenderSettings& settings, const gpu_scene::View& view,
+                                        const gpu_scene::SceneFrame& poses, std::span<const glm::dvec2> places) {
+    Pending pending{};
+    if (places.empty()) return pending;
+    frames_.wait();
+    samples_.resize(device_, uint64_t(view.extent.width) * view.extent.height);
+    for (const glm::dvec2& place : places) {
+        const bool first = &place == places.data();
+        graph::FrameGraph graph;
+        const FrameInputs inputs = inputs_of(graph, settings, view, poses);
+        const FrameContext sample = frames_.context(graph, view.moved(place));
+        add_sample(sample, declare(sample, poses, inputs).luminance, samples_.declare(graph), first);
+        add_times(pending.earlier, frames_.run(graph));
+        if (first && settings.shadows) pending.frame.maps = maps_->report();
+        pending.frame.directional_levels += inputs.directional_levels;
+        if (watch_samples_) watch_samples_(uint32_t(&place - places.data() + 1));
+    }
+    return pending;
 }
 
 Frame Renderer::render(const RenderSettings& settings, const gpu_scene::View& view, const gpu_scene::SceneFrame& frame,
                        float seconds, const Outputs& outputs) {
     submit(settings, view, frame, seconds, outputs, {});
-    return *finish();
+    const ChainInputs chain = pending_->chain;
+    Frame rendered = *finish();
+    if (settings.display_average && settings.samples > 1 && outputs.display)
+        average_display(ldr_baseline(settings), view, frame, chain, rendered);
+    return rendered;
+}
+
+// Samples once more, with the curve that their mean led to.
+void Renderer::average_display(const RenderSettings& settings, const gpu_scene::View& view,
+                               const gpu_scene::SceneFrame& poses, const ChainInputs& of_mean, Frame& frame) {
+    ChainInputs chain = of_mean;
+    chain.curve = frame.curve;
+    DisplayAverage average(settings.display, size_t(view.extent.width) * view.extent.height);
+    uint32_t done = settings.samples;
+    for (const glm::dvec2& place : sample_places(settings.samples)) {
+        graph::FrameGraph graph;
+        const FrameInputs inputs = inputs_of(graph, settings, view, poses);
+        const SceneLight light = declare(frames_.context(graph, view.moved(place)), poses, inputs);
+        const ToneChain shown = add_tone_chain(frames_.context(graph, view), light.luminance, settings, chain, {});
+        add_times(frame.timings, frames_.run(graph));
+        average.add(frames_.executor().read_as<uint8_t>(shown.display));
+        if (watch_samples_) watch_samples_(++done);
+    }
+    frame.display = average.codes();
 }
 
 void Renderer::submit(const RenderSettings& given, const gpu_scene::View& view, const gpu_scene::SceneFrame& poses,
@@ -208,17 +270,34 @@ void Renderer::submit(const RenderSettings& given, const gpu_scene::View& view, 
     const RenderSettings settings = ldr_baseline(given);
     frames_.prepare(settings);
     FrameQueue::Declared frame{.extent = view.extent};
-    FrameInputs inputs = inputs_of(frame.graph, settings, view, poses, seconds);
-    Pending pending{};
-    frame.chain = declare(frames_.context(frame.graph, view), poses, inputs, settings, outputs, pending);
-    frames_.submit(std::move(frame), inputs.chain, semaphores);
+    const std::vector<glm::dvec2> places = sample_places(settings.samples);
+    const bool sampled = places.size() > 1;
+    Pending pending = add_samples(settings, view, poses, std::span(places).first(places.size() - 1));
+    const FrameInputs inputs = inputs_of(frame.graph, settings, view, poses);
+    ChainInputs chain = chain_inputs_of(inputs, settings, view, seconds);
+    const FrameContext context = frames_.context(frame.graph, view);
+    const FrameContext sample = sampled ? frames_.context(frame.graph, view.moved(places.back())) : context;
+    SceneLight light = declare(sample, poses, inputs);
+    if (sampled) {
+        const SampleSums sums = samples_.declare(frame.graph);
+        add_sample(sample, light.luminance, sums, false);
+        light.luminance = add_mean_of_samples(context, sums, settings.samples);
+    }
+    frame.chain = add_tone_chain(context, light.luminance, settings, chain, outputs);
+    pending.clusters =
+        add_readback(frame.graph, "cluster report", light.clusters.report, sizeof(shared::ClusterReport));
+    pending.visibility =
+        add_readback(frame.graph, "visibility report", light.blocks.visibility, sizeof(shared::VisibilityReport));
+    pending.frame.far = light.clusters.push.far;
+    frames_.submit(std::move(frame), chain, semaphores);
     // Nothing fails from here on.
-    if (settings.shadows) pending.frame.maps = maps_->report();
-    pending.frame.directional_levels = inputs.directional_levels;
+    if (settings.shadows && !sampled) pending.frame.maps = maps_->report();
+    pending.frame.directional_levels += inputs.directional_levels;
     pending.frame.lamps = uint32_t(inputs.lamps.lamps.size());
     pending.frame.luminaires = uint32_t(inputs.luminaires.luminaires.size());
-    pending.frame.glare_sources = std::move(inputs.luminaires.glare_sources);
-    pending.frame.outside = std::move(inputs.chain.scatter.lamps);
+    pending.frame.glare_sources = inputs.luminaires.glare_sources;
+    pending.frame.outside = chain.scatter.lamps;
+    pending.chain = std::move(chain);
     pending_ = std::move(pending);
 }
 
@@ -229,6 +308,7 @@ std::optional<Frame> Renderer::finish() {
     static_cast<ToneMapped&>(frame) = std::move(*shown);
     frame.clusters = read_one<shared::ClusterReport>(frames_.executor(), pending_->clusters);
     frame.visibility = read_one<shared::VisibilityReport>(frames_.executor(), pending_->visibility);
+    add_times(frame.timings, pending_->earlier);
     return frame;
 }
 

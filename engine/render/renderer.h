@@ -1,8 +1,10 @@
 // The engine: a scene, a view and settings in, cd/m^2 and display codes out. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,7 @@
 #include "render/passes/daylight.h"
 #include "render/passes/shade.h"
 #include "render/passes/sky.h"
+#include "render/sample_buffers.h"
 
 namespace vesper::render {
 
@@ -27,7 +30,13 @@ struct RenderSettings : ToneChainSettings {
     bool shadows = true;                       ///< lamps light only what they see
     uint64_t shadow_budget = kNoShadowBudget;  ///< of tiles of distance maps drawn for a frame, see DistanceMaps
     bool indirect = true;  ///< light of emitting surfaces and of the sky, and reflected light, if the renderer has it
-    uint32_t reflections = 100;       ///< of light, at most: they end where the rest would add less than 1 %
+    uint32_t reflections = 100;  ///< of light, at most: they end where the rest would add less than 1 %
+    bool anti_aliasing = true;   ///< pixels beside edges are means of the surfaces that fill them; of one sample
+    /// Of each pixel, at sample_places(); at least 1. Luminance is their mean, before glare and the eye. With more than
+    /// one all shadows are those of the moment, whatever the budget.
+    uint32_t samples = 1;
+    bool display_average = false;  ///< codes of render() are the mean of what the display shows of each sample, to one
+                                   ///< eye, in place of what it shows of their mean
     bool moving_reflections = false;  ///< with it, the first reflection of lamps that move, if the renderer has them
     ClusterSettings clusters;
     std::vector<gpu_scene::OffscreenLamp>
@@ -85,6 +94,9 @@ public:
     /// That light of each pixel in frames to come, RGB lx, for RenderSettings::indirect: in place of what is known by
     /// set_radiosity(), as long as it is set. Empty, as at first and after set_scene(): it is not known.
     void set_illuminance(std::vector<glm::vec4> illuminance) { illuminance_ = std::move(illuminance); }
+    /// What is called after each sample of a frame but the last with how many are done, and may throw to end the frame;
+    /// null, as at first: nothing. Samples of a mean of what the display shows count again.
+    void watch_samples(std::function<void(uint32_t)> watch) { watch_samples_ = std::move(watch); }
     /// Takes another scene, or the same after a change. The eye goes on.
     void set_scene(const scene::Scene& scene);
 
@@ -99,8 +111,8 @@ public:
     const gpu_scene::GpuScene& scene() const { return scene_->resident; }
     uint64_t device_bytes() const {
         return scene_->resident.bytes() + scene_->table_arena.bytes() + frames_.executor().heap_bytes() +
-               (maps_ ? maps_->report().bytes : 0) + (directional_maps_ ? directional_maps_->bytes() : 0) +
-               (indirect_ ? indirect_->device_bytes() : 0);
+               samples_.bytes() + (maps_ ? maps_->report().bytes : 0) +
+               (directional_maps_ ? directional_maps_->bytes() : 0) + (indirect_ ? indirect_->device_bytes() : 0);
     }
 
 private:
@@ -133,6 +145,7 @@ private:
         gpu_scene::LuminaireList luminaires;
         TableTexels tables;
         ClusterSettings clusters;
+        bool edges = false;
         ShadeSettings shading;
         DaylightSettings daylight;
         SkyTexels sky;
@@ -141,12 +154,19 @@ private:
         graph::Resource illuminance;  // or that
         DirectionalMapsOfFrame directional;
         uint32_t directional_levels = 0;  // drawn for it
-        ChainInputs chain;
+    };
+    /// What a frame shows before glare and the eye.
+    struct SceneLight {
+        graph::Resource luminance;  // cd/m^2
+        Clusters clusters;
+        Blocks blocks;
     };
     /// The results of a submitted frame, as far as they are known.
     struct Pending {
         Frame frame;
         graph::Resource clusters, visibility;  // to be read
+        std::vector<graph::Timing> earlier;    // of samples before the last
+        ChainInputs chain;
     };
 
     void add_maps(graph::FrameGraph& graph, FrameInputs& in, const gpu_scene::SceneFrame& poses,
@@ -156,9 +176,14 @@ private:
                             const gpu_scene::AmbientLight& ambient);
     graph::Resource illuminance_image(graph::FrameGraph& graph, VkExtent2D extent) const;
     FrameInputs inputs_of(graph::FrameGraph& graph, const RenderSettings& settings, const gpu_scene::View& view,
-                          const gpu_scene::SceneFrame& poses, float seconds);
-    ToneChain declare(const FrameContext& frame, const gpu_scene::SceneFrame& poses, const FrameInputs& inputs,
-                      const RenderSettings& settings, const Outputs& outputs, Pending& pending) const;
+                          const gpu_scene::SceneFrame& poses);
+    void average_display(const RenderSettings& settings, const gpu_scene::View& view,
+                         const gpu_scene::SceneFrame& poses, const ChainInputs& chain, Frame& frame);
+    ChainInputs chain_inputs_of(const FrameInputs& in, const RenderSettings& settings, const gpu_scene::View& view,
+                                float seconds);
+    SceneLight declare(const FrameContext& frame, const gpu_scene::SceneFrame& poses, const FrameInputs& inputs) const;
+    Pending add_samples(const RenderSettings& settings, const gpu_scene::View& view, const gpu_scene::SceneFrame& poses,
+                        std::span<const glm::dvec2> places);
 
     gpu::Device& device_;
     std::unique_ptr<const SceneData> scene_;
@@ -168,7 +193,9 @@ private:
     std::unique_ptr<IndirectLight> indirect_;
     std::shared_ptr<const transport::LampReflections> lamp_reflections_;
     std::vector<glm::vec4> illuminance_;  // pixels
-    FrameQueue frames_;                   // waits for its frames, which use the rest
+    SampleBuffers samples_;
+    std::function<void(uint32_t)> watch_samples_;
+    FrameQueue frames_;  // waits for its frames, which use the rest
     std::optional<Pending> pending_;
 };
 

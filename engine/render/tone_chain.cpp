@@ -98,7 +98,11 @@ ToneChain add_tone_chain(const FrameContext& frame, Resource scene, const ToneCh
     const FovealView fovea{level, luminance.extents[level - 1], frame.view.extent};
     const shared::ToneParameters parameters =
         tone_parameters(op, settings.histogram, settings.tone, settings.display, fovea, inputs.seconds);
-    const auto [curve, eye] = add_adaptation(frame, {luminance, level, histogram, colours, inputs.eye}, op, parameters);
+    const auto [curve, eye] =
+        inputs.curve
+            ? Adaptation{frame.graph.upload("tone curve", std::vector{*inputs.curve}, VK_FORMAT_R32G32B32A32_SFLOAT),
+                         {}}
+            : add_adaptation(frame, {luminance, level, histogram, colours, inputs.eye}, op, parameters);
 
     Resource picture = add_acuity(frame, retina, luminance, level, settings.tone.acuity_loss);
     picture = add_bands(frame, picture, luminance, level, curve, {op.bands, tone_of(op, settings.tone), parameters});
@@ -109,9 +113,11 @@ ToneChain add_tone_chain(const FrameContext& frame, Resource scene, const ToneCh
     show(frame.graph, codes, outputs.shown);
 
     chain.foveal_level = level;
-    chain.curve = add_readback(frame.graph, "tone curve", curve, sizeof(shared::ToneCurve));
-    chain.histogram = add_readback(frame.graph, "histogram", histogram, sizeof(shared::Histogram));
-    chain.eye = add_readback(frame.graph, "eye", eye, sizeof(shared::EyeState));
+    if (!inputs.curve) {
+        chain.curve = add_readback(frame.graph, "tone curve", curve, sizeof(shared::ToneCurve));
+        chain.histogram = add_readback(frame.graph, "histogram", histogram, sizeof(shared::Histogram));
+        chain.eye = add_readback(frame.graph, "eye", eye, sizeof(shared::EyeState));
+    }
     chain.display = add_readback(frame.graph, "display", codes, pixels * 4, outputs.display);
     const Resource light = add_display_light(frame, composite, light_of(op, settings), outputs.display_light);
     chain.display_light = add_readback(frame.graph, "display light", light, pixels * 16, outputs.display_light);

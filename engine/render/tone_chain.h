@@ -59,8 +59,9 @@ struct ToneChain {
 struct ChainInputs {
     float seconds = 0;  ///< since the last frame
     EyeState eye = {};
-    ScatterInputs scatter = {};                 ///< without a fit no light is scattered in the eye
-    const gpu_scene::Corona* corona = nullptr;  ///< needles and halo of lamps; needs a fit of the scatter
+    ScatterInputs scatter = {};                   ///< without a fit no light is scattered in the eye
+    const gpu_scene::Corona* corona = nullptr;    ///< needles and halo of lamps; needs a fit of the scatter
+    std::optional<shared::ToneCurve> curve = {};  ///< in place of what the eye adapts to
 };
 
 /// Declares glare, pyramid, histogram, adaptation and composite of `scene` (rgba32f, cd/m^2 RGB; with Operator::Ldr

@@ -78,6 +78,25 @@ TEST_F(CScene, LampsLightWhatTheySee) {
     EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, nullptr, &error), VESPER_BAD_ARGUMENT);
 }
 
+// A caller of before, whose view ends before these fields, has edges that are smooth, and one sample.
+TEST_F(CScene, PixelsMayHaveSamples) {
+    add(candle());
+    VesperView view = down();
+    const std::vector<float> smooth = render(view);
+    view.samples = 1;
+    EXPECT_EQ(render(view), smooth);
+    view.samples = 16;
+    const std::vector<float> many = render(view);
+    EXPECT_NE(many, smooth);
+    EXPECT_NEAR(many[4 * kMiddle], smooth[4 * kMiddle], 1e-3f * smooth[4 * kMiddle]);
+    view.samples = 65537;
+    EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, nullptr, &error), VESPER_BAD_ARGUMENT);
+    view.samples = 0, view.no_anti_aliasing = 2;
+    EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, nullptr, &error), VESPER_BAD_ARGUMENT);
+    view.size = offsetof(VesperView, no_anti_aliasing) + 4;  // with the padding behind it
+    EXPECT_EQ(render(view), smooth);
+}
+
 // Distance maps that a host keeps: a second renderer has the same light.
 TEST_F(CScene, ShadowsMayBeKept) {
     add(candle());

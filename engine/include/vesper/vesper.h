@@ -400,6 +400,8 @@ typedef struct VesperView {
     int32_t no_indirect;  /**< 1: without the light that was gathered */
     int32_t moving_reflections; /**< 1: and with an estimate of what surfaces reflect once of lamps that move; the first
                                  * time, and after gathering, the frame takes longer */
+    int32_t no_anti_aliasing; /**< 1: pixels at edges show one surface, in place of the mean of those that fill them */
+    uint32_t samples;         /**< points of each pixel whose luminance is averaged, at most 65536; 0 and 1: one */
 } VesperView;
 
 /** Renders into arrays. `seconds`: time since the last frame, for the adaptation of the eye. */

@@ -166,6 +166,8 @@ void check_paths(RenderArguments& a) {
         throw Error("--moving-reflections has no meaning with --indirect exact, which traces light of all lamps");
     if (a.traces && a.settings.samples > 1)
         throw Error("--samples has no meaning with --indirect exact, which traces light for the middles of pixels");
+    if (uint64_t{a.frames} * a.settings.samples > UINT32_MAX / 2)
+        throw Error("--frames times --samples is more than 2,147,483,647");
     if (a.settings.display_average && (a.settings.samples == 1 || std::ranges::none_of(a.outputs, is_png)))
         throw Error("--display-average has a meaning only beside --samples of 2 and more, and -o OUT.png");
     a.tracing.paths = a.paths, a.tracing.lamp_looks = kLampLooks;

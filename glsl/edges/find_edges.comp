@@ -12,7 +12,7 @@
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(constant_id = 2) const uint kRows = 1u;  // pixels of a column that an invocation does
 
-layout(binding = 0, rgba32ui) readonly uniform uimage2D triangles;
+layout(binding = 0, rg32ui) readonly uniform uimage2D triangles;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 2, rgba32f) readonly uniform image2D scene_image;
 layout(binding = 3, r32ui) uniform uimageBuffer counts;

@@ -24,21 +24,14 @@ layout(binding = 2) uniform sampler2D emission_texture;            // linear
 layout(location = 0) out vec4 out_reflectance;
 layout(location = 1) out vec4 out_surface;
 layout(location = 2) out vec4 out_emission;
-layout(location = 3) out uvec4 out_triangle;
+layout(location = 3) out uvec2 out_triangle;
 
 // The nearest halves: a device may cut off instead when it writes them, which takes 0.03 % of every reflectance.
 vec3 halves(vec3 v) { return vec3(unpackHalf2x16(packHalf2x16(v.rg)), unpackHalf2x16(packHalf2x16(v.bb)).x); }
 
-// How much opacity over the cutoff changes to the right and down, 1/px, over what it is: where 1 + slope . way is 0 the surface ends.
-vec2 opacity_slope(float over) {
-    const vec2 change = vec2(dFdx(over), dFdy(over));
-    return change == vec2(0.0) ? vec2(0.0) : clamp(change / max(over, 1e-6), -6e4, 6e4);
-}
-
 void main() {
     vec4 base = base_colour;
     if (kBaseTexture != 0u) base *= texture(base_texture, texture_uv);
-    const vec2 slope = kMask != 0u ? opacity_slope(base.a - emission_cutoff.a) : vec2(0.0);
     if (kMask != 0u && base.a < emission_cutoff.a) discard;
 
     vec2 m = metallic_roughness;
@@ -50,5 +43,5 @@ void main() {
     out_reflectance = vec4(halves(base.rgb), m.x);
     out_surface = vec4(encode_normal(normal), 1.0 / gl_FragCoord.w, m.y);
     out_emission = vec4(emission, 1.0);
-    out_triangle = uvec4(triangle, kMask != 0u ? packHalf2x16(slope) : 0u, 0u);
+    out_triangle = triangle;
 }

@@ -23,7 +23,7 @@ struct SeenFacet {
     uint32_t instance = 0, triangle = 0;  ///< 0: nothing
     std::vector<dvec3> corners;           ///< of its facet, in turn, m
     dvec3 normal{0, 0, 1}, position{0};   ///< unit; m
-    dvec2 opacity_slope{0};               ///< 1/px: 1 + slope . way is 0 where a masked surface ends
+    bool masked = false;                  ///< it may have holes
 };
 
 /// A picture of such pixels: pixel (x, y), y down, sees along (scale (pixel + 1/2) + offset, -1).
@@ -89,6 +89,26 @@ inline Passing pass(const std::vector<dvec3>& corners, dvec3 ray, dvec2 scale) {
     return passing;
 }
 
+/// The least width of a facet where a ray meets it, px: between opposite sides, or half of the least height.
+inline double width_of(const std::vector<dvec3>& corners, dvec3 ray, dvec2 scale) {
+    // px from the image of a line to the ray, or to the image of a place.
+    const auto distance = [&](dvec3 from, dvec3 to, dvec3 place) {
+        const dvec3 plane = glm::cross(from, to);
+        return std::abs(glm::dot(plane, place)) / (-place.z * glm::length(dvec2(plane) * scale));
+    };
+    if (corners.size() == 4) {
+        const auto across = [&](size_t k) {
+            return distance(corners[k], corners[k + 1], ray) + distance(corners[k + 2], corners[(k + 3) % 4], ray);
+        };
+        return std::min(across(0), across(1));
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (size_t k = 0; k < 3; ++k)
+        if (corners[(k + 2) % 3].z < 0)
+            least = std::min(least, distance(corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]));
+    return least / 2;
+}
+
 struct EdgeMean {
     dvec3 luminance{0};
     double doubt = std::numeric_limits<double>::infinity();  ///< px: how near some point was to another choice
@@ -114,10 +134,12 @@ inline EdgeMean edge_mean(const SeenPicture& picture, ivec2 p) {
                 nothing_near = true;
                 continue;
             }
-            const double opaque = 1 + glm::dot(facet.opacity_slope, way - dvec2(q - p));
-            mean.doubt = std::min(mean.doubt, facet.opacity_slope == dvec2(0) ? 1.0 : std::abs(opaque));
-            if (opaque < 0) continue;
-            const Passing passing = pass(facet.corners, ray, picture.scale);
+            const dvec3 middle(picture.scale * (dvec2(q) + 0.5) + picture.offset, -1);
+            const double width = width_of(facet.corners, middle, picture.scale);
+            mean.doubt = std::min(mean.doubt, facet.masked ? 1 : std::abs(width - 1));
+            const bool fills = facet.masked || width < 1;
+            if (fills && q != p) continue;
+            const Passing passing = fills ? Passing{1, -1 / facet.position.z} : pass(facet.corners, ray, picture.scale);
             const ivec2 as = is_one_surface(picture.facet(p), facet) ? p : q;
             mean.doubt = std::min(mean.doubt, std::abs(passing.inside));
             if (!(passing.inverse_depth > 0)) continue;

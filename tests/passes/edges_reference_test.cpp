@@ -71,14 +71,17 @@ TEST(EdgesReference, ALightBehindAnEdgeKeepsItsShare) {
     EXPECT_NEAR(reference::edge_mean(picture, {2, 2}).luminance.g, (4 * 1e4 + 12) / 16, 1e-9);
 }
 
-TEST(EdgesReference, MaskedSurfacesEndWhereTheirOpacityDoes) {
-    SeenFacet leaf = rectangle(1, {-9, -9}, {9, 9}, 1);
-    leaf.opacity_slope = {-4, 0};  // it ends 1/4 px to the right
-    SeenPicture picture = picture_of({leaf, rectangle(2, {-9, -9}, {9, 9}, 3)}, {3, 1, 0});
-    // The pixels to the right see the wall through a hole.
-    for (const size_t i : {8u, 13u, 18u})
-        picture.facets[i] = rectangle(2, {-9, -9}, {9, 9}, 3), picture.luminance[i] = dvec3(1);
-    EXPECT_NEAR(reference::edge_mean(picture, {2, 2}).luminance.g, (3 * 12 + 4) / 16.0, 1e-12);
+// What has holes, and what is narrower than a pixel, is in its pixels as a whole, and in no others.
+TEST(EdgesReference, HolesAndNarrowThingsFillTheirPixels) {
+    for (const bool masked : {false, true}) {
+        const double half = masked ? 0.25 : 0.08;  // 2.5 or 0.8 px wide
+        SeenFacet thing = rectangle(1, {-half, -9}, {half, 9}, 1);
+        thing.masked = masked;
+        const SeenPicture picture = picture_of({thing, rectangle(2, {-9, -9}, {9, 9}, 3)}, {3, 1, 0});
+        const int beside = masked ? 4 : 3;
+        EXPECT_EQ(reference::edge_mean(picture, {2, 2}).luminance.g, 3) << masked;
+        EXPECT_EQ(reference::edge_mean(picture, {beside, 2}).luminance.g, 1) << masked;
+    }
 }
 
 TEST(EdgesReference, DistancesArePixels) {

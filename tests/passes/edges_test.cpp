@@ -50,7 +50,7 @@ Edged draw(PassRig& rig, const Scene& scene, const View& view, const std::vector
     const render::GBuffer g = render::add_gbuffer(context, resident, frame);
     const graph::Resource light = rig.image(graph, "scene", render::kSceneFormat, view.extent, luminance);
     render::add_edges(context, resident, g, light);
-    const graph::Resource triangles = keep<glm::uvec4>(graph, g.triangle), surfaces = keep<glm::vec4>(graph, g.surface),
+    const graph::Resource triangles = keep<glm::uvec2>(graph, g.triangle), surfaces = keep<glm::vec4>(graph, g.surface),
                           instances = keep<shared::Instance>(graph, g.instances), kept = keep<glm::vec4>(graph, light);
     rig.run(graph);
 
@@ -61,7 +61,7 @@ Edged draw(PassRig& rig, const Scene& scene, const View& view, const std::vector
                  {}},
                 rig.got<glm::vec4>(kept)};
     const auto facets = facets_on_the_device(scene);
-    const auto seen = rig.got<glm::uvec4>(triangles);
+    const auto seen = rig.got<glm::uvec2>(triangles);
     const auto surface = rig.got<glm::vec4>(surfaces);
     const auto rows = rig.got<shared::Instance>(instances);
     for (size_t i = 0; i < seen.size(); ++i) {
@@ -79,7 +79,7 @@ Edged draw(PassRig& rig, const Scene& scene, const View& view, const std::vector
         const glm::dvec2 middle = glm::dvec2(i % view.extent.width, i / view.extent.width) + 0.5;
         facet.normal = reference::octahedral_decode({surface[i].x, surface[i].y});
         facet.position = double(surface[i].z) * glm::dvec3(edged.seen.scale * middle + edged.seen.offset, -1);
-        facet.opacity_slope = glm::dvec2(glm::unpackHalf2x16(seen[i].z));
+        facet.masked = instance.masked != 0;
     }
     return edged;
 }

@@ -100,6 +100,14 @@ TEST(Samples, WhatIsNotFiniteStaysInItsPixel) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+TEST(Samples, APictureThatTheDeviceCannotHoldIsRefused) {
+    PassRig rig;
+    render::SampleBuffers buffers;
+    EXPECT_THROW(buffers.resize(rig.device(), uint64_t{1} << 40), Error);
+    EXPECT_EQ(buffers.bytes(), 0u);
+    EXPECT_EQ(rig.complaints(), "");
+}
+
 TEST(Samples, LieEvenlyInThePixel) {
     EXPECT_EQ(render::sample_places(1), std::vector{glm::dvec2(0)});
     for (uint32_t count : {2u, 3u, 16u, 64u, 100u, 4096u}) {

@@ -1,5 +1,7 @@
 #include "render/passes/edges.h"
 
+#include <algorithm>
+
 #include "render/pixel_groups.h"
 #include "shaders/edges/edge_means.comp.inc"
 #include "shaders/edges/find_edges.comp.inc"
@@ -21,10 +23,11 @@ static_assert(sizeof(scene::Vertex) == shared::kTexelsPerVertex * sizeof(glm::ve
 
 void add_edges(const FrameContext& frame, const gpu_scene::GpuScene& scene, const GBuffer& surfaces,
                graph::Resource luminance) {
-    if (scene.vertex_count() == 0) return;
     graph::FrameGraph& graph = frame.graph;
     const gpu_scene::View& view = frame.view;
     const uint64_t pixels = uint64_t(view.extent.width) * view.extent.height;
+    const uint64_t texels = std::max(pixels, scene.vertex_count() * shared::kTexelsPerVertex);
+    if (scene.vertex_count() == 0 || texels > frame.kernels.device().limits().maxTexelBufferElements) return;
     const graph::Resource counts =
         graph.transient("edge counts", graph::buffer_shape(shared::kEdgeCounts * sizeof(uint32_t), VK_FORMAT_R32_UINT));
     const graph::Resource edges =

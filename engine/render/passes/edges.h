@@ -7,8 +7,10 @@ namespace vesper::render {
 
 /// Replaces the luminance of pixels beside edges, cd/m^2, by the mean over what fills them, at shared::kEdgeSamples
 /// points: whose facet each point sees is found among those that the pixel and its eight neighbours see in their
-/// middles, and what these middles show is its luminance. A pixel that sees a single surface keeps its bits. What no
-/// middle sees is not found; it may hide light, so that the sum over all pixels is not quite what it was.
+/// middles, and what these middles show is its luminance. A facet that is narrower than a pixel, or masked, fills the
+/// pixel whose middle sees it: what is thin is seen by some middles only, and so keeps its light in the mean over many.
+/// A pixel that sees a single surface keeps its bits. Nothing is done where the device has no room for texel buffers of
+/// all pixels, or of five texels a vertex.
 void add_edges(const FrameContext& frame, const gpu_scene::GpuScene& scene, const GBuffer& surfaces,
                graph::Resource luminance);
 

@@ -145,6 +145,38 @@ TEST(AntiAliasing, AThinStripKeepsItsArea) {
     }
 }
 
+// A panel of 10.4 x 10.4 px before a wall, in pieces of a quarter of a pixel; and one of 40 x 40 px whose texture has
+// holes of 3 px. Not all that they are made of is seen by the middle of some pixel: light must not be lost for that.
+TEST(AntiAliasing, FineMeshesAndHolesKeepTheirLight) {
+    Frames frames;
+    for (const bool masked : {false, true}) {
+        Scene scene;
+        const uint32_t panel = add_material(scene, 0, 1000), pieces = masked ? 1 : 40;
+        const double side = masked ? 40 : 10.4;
+        if (masked) {
+            scene.images = {{"fence", 16, 1, {}}};
+            for (int i = 0; i < 16; ++i)
+                scene.images[0].rgba.insert(scene.images[0].rgba.end(), {0, 0, 0, uint8_t(i % 2 ? 255 : 0)});
+            scene.materials[panel].base_colour = {1, 1, 1, 1};
+            scene.materials[panel].base_colour_texture.image = 0;
+            scene.materials[panel].alpha = scene::Material::Alpha::Mask, scene.materials[panel].alpha_cutoff = 0.5f;
+        }
+        for (uint32_t y = 0; y < pieces; ++y)
+            for (uint32_t x = 0; x < pieces; ++x) {
+                const glm::dvec2 low = glm::dvec2(0.3) + side * (glm::dvec2(x, y) / double(pieces) - 0.5),
+                                 high = low + side / pieces;
+                add_sheet(scene, panel, {low, {high.x, low.y}, high, {low.x, high.y}});
+                std::vector<scene::Vertex>& v = scene.meshes.back().primitives[0].vertices;
+                v[1].uv = {1, 0}, v[2].uv = {1, 1}, v[3].uv = {0, 1};
+            }
+        add_rectangle(scene, add_material(scene, 0, 1), {-5, -5, -2}, {10, 0, 0}, {0, 10, 0});
+        const double with = sum_of(frames.of(scene, 1)), without = sum_of(frames.of(scene, 1, false)),
+                     many = sum_of(frames.of(scene, 64));
+        EXPECT_NEAR(with, without, 0.01 * without) << (masked ? "holes" : "fine mesh");
+        EXPECT_NEAR(with, many, 0.25 * many) << "bars of whole pixels";
+    }
+}
+
 // A grating of 0.37 px, half of it bright: its mean.
 TEST(AntiAliasing, AGratingTooFineIsItsMean) {
     Frames frames;

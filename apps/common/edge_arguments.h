@@ -5,6 +5,7 @@
 
 #include "command_line.h"
 
+#include "io/image_file.h"
 #include "render/renderer.h"
 
 namespace vesper::apps {
@@ -16,5 +17,7 @@ struct EdgeArguments {
 /// --anti-aliasing and --samples.
 void add_edge_options(Command, EdgeArguments&);
 void set_edges(const EdgeArguments&, render::RenderSettings&);
+/// What a picture's header should say of them.
+io::Header describe_edges(const render::RenderSettings&);
 
 }  // namespace vesper::apps

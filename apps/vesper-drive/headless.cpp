@@ -10,6 +10,7 @@
 #include "drive.h"
 #include "drive_file.h"
 #include "drive_log.h"
+#include "edge_arguments.h"
 #include "indirect_arguments.h"
 #include "io/file_gate.h"
 #include "io/image_file.h"
@@ -156,8 +157,9 @@ private:
                         {"vesper:options", options},
                         {"vesper:seconds", apps::digits(session.world().seconds())},
                         {"vesper:lights", std::to_string(lamps)}};
-        const io::Header tone = apps::describe_tone(session.settings().render(), frame);
-        made.insert(made.end(), tone.begin(), tone.end());
+        const render::RenderSettings& settings = session.settings().render();
+        for (const io::Header& part : {apps::describe_edges(settings), apps::describe_tone(settings, frame)})
+            made.insert(made.end(), part.begin(), part.end());
         return made;
     }
 

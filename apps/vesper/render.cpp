@@ -80,11 +80,11 @@ io::Header describe_frame(const RenderArguments& arguments, const gpu::Device& d
                       {"vesper:lights", std::to_string(frame.lamps)},
                       {"vesper:illuminanceThreshold", apps::digits(double(arguments.settings.clusters.threshold))},
                       {"vesper:lambert", arguments.lambert},
-                      {"vesper:samples", std::to_string(arguments.settings.samples)},
-                      {"vesper:antiAliasing", arguments.settings.anti_aliasing ? "on" : "off"},
                       {"vesper:device", device.name() + ", " + device.driver()}};
-    const io::Header tone = apps::describe_tone(arguments.settings, frame);
-    header.insert(header.end(), tone.begin(), tone.end());
+    render::RenderSettings luminance = arguments.settings;
+    luminance.display_average = false;  // of codes
+    for (const io::Header& part : {apps::describe_edges(luminance), apps::describe_tone(arguments.settings, frame)})
+        header.insert(header.end(), part.begin(), part.end());
     const io::Header dazzled = apps::describe_glare(arguments.settings, glare);
     header.insert(header.end(), dazzled.begin(), dazzled.end());
     return header;
@@ -134,19 +134,12 @@ void print_statistics(const RenderArguments& arguments, const gpu::Device& devic
           milliseconds.size(), milliseconds.front());
 }
 
-// What a picture of codes says of its samples.
-io::Header describe_samples(const render::RenderSettings& settings) {
-    if (settings.samples == 1) return {};
-    return {{"vesper:samples", std::to_string(settings.samples)},
-            {"vesper:meanOf", settings.display_average ? "what the display shows" : "luminance"}};
-}
-
 void write_outputs(const RenderArguments& arguments, const gpu::Device& device, const gpu_scene::View& view,
                    const render::Frame& frame, const vision::GlareReport& glare, unsigned index, double seconds) {
     for (const std::string& output : arguments.outputs) {
         const std::string file = file_of_frame(output, index, arguments.frames);
         if (output.ends_with(".png"))
-            apps::write_codes(file, frame, arguments.settings.display, describe_samples(arguments.settings));
+            apps::write_codes(file, frame, arguments.settings.display, apps::describe_edges(arguments.settings));
         else
             io::write_exr(file, frame.extent.width, frame.extent.height, frame.scene,
                           describe_frame(arguments, device, view, frame, glare, seconds));

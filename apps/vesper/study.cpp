@@ -70,6 +70,7 @@ void add_pictures(Command command, StudyArguments& a) {
     command.add_option("--start", a.source.start, "Of a scene: its time, s")
         .check(apps::between(0.0, 1e6))
         .shows_default();
+    apps::add_edge_options(command, a.source.edges);
     command.add_allow_outside();
     command.add_option("--layer", a.source.layer, apps::kLayerHelp);
     apps::add_scale_options(command, a.source.scale);

@@ -98,7 +98,7 @@ class Oracle:
         """RGB of vesper's picture as illuminance, lx."""
         began, made = time.perf_counter(), self.folder / "picture.exr"
         run(self.a.vesper, "render", self.folder / scene, "--camera", camera, "--size", f"{self.a.size[0]}x{self.a.size[1]}", "--shadows", shadows,
-            "--glare", "none", "--threshold", self.a.threshold, "--indirect", "off", *self.a.render_option, "-o", made)
+            "--glare", "none", "--anti-aliasing", "off", "--threshold", self.a.threshold, "--indirect", "off", *self.a.render_option, "-o", made)
         self.render_seconds += time.perf_counter() - began
         return read_exr(made) * (np.pi / GREY)
 
@@ -106,8 +106,8 @@ class Oracle:
         """RGB of vesper's picture of a scene, cd/m^2."""
         made = self.folder / "picture.exr"
         run(self.a.vesper, "render", scene, "--camera", camera, "--size", f"{self.a.size[0]}x{self.a.size[1]}",
-            "--glare", "none", "--threshold", self.a.threshold, "--indirect", indirect, *self.a.render_option,
-            "-o", made)
+            "--glare", "none", "--anti-aliasing", "off", "--threshold", self.a.threshold, "--indirect", indirect,
+            *self.a.render_option, "-o", made)
         return read_exr(made)
 
     def check_triangles(self, table):

@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/stopwatch.h"
+#include "graph/times.h"
 #include "indirect_arguments.h"
 #include "machine.h"
 #include "scene/placement.h"
@@ -79,7 +80,7 @@ public:
             const double parts[]{times.declare, times.plan, times.record, times.submit, times.wait};
             for (size_t i = 0; i < std::size(parts); ++i) host[1 + i] += parts[i];
             host.back() += watch.lap() - (times.declare + times.plan + times.record + times.submit + times.wait);
-            for (const graph::Timing& timing : last_.timings) add(timings, timing);
+            graph::add_times(timings, last_.timings);  // channels are counted together
         }
         if (samples) samples->add(whole.milliseconds(), host, timings);
     }
@@ -88,17 +89,6 @@ public:
     render::Frame& last() { return last_; }
 
 private:
-    // Channels are counted together.
-    static void add(std::vector<graph::Timing>& all, const graph::Timing& timing) {
-        for (graph::Timing& known : all)
-            if (known.pass == timing.pass) {
-                known.milliseconds += timing.milliseconds, known.bytes_read += timing.bytes_read,
-                    known.bytes_written += timing.bytes_written;
-                return;
-            }
-        all.push_back(timing);
-    }
-
     const RunPlan& plan_;
     const scene::Scene& scene_;
     double seconds_;

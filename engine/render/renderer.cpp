@@ -1,12 +1,12 @@
 #include "render/renderer.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
 #include "gpu_scene/retro.h"
 #include "gpu_scene/sky.h"
+#include "graph/times.h"
 #include "render/display_average.h"
 #include "render/passes/edges.h"
 #include "render/passes/luminaires.h"
@@ -15,19 +15,6 @@ namespace vesper::render {
 namespace {
 
 constexpr double kReflectionsLeftOut = 0.01;
-
-// Of passes of the same name.
-void add_times(std::vector<graph::Timing>& to, const std::vector<graph::Timing>& times) {
-    for (const graph::Timing& time : times) {
-        const auto same = std::ranges::find(to, time.pass, &graph::Timing::pass);
-        if (same == to.end()) {
-            to.push_back(time);
-            continue;
-        }
-        same->milliseconds += time.milliseconds;
-        same->bytes_read += time.bytes_read, same->bytes_written += time.bytes_written;
-    }
-}
 
 }  // namespace
 
@@ -228,7 +215,7 @@ Renderer::Pending Renderer::add_samples(const RenderSettings& settings, const gp
         const FrameInputs inputs = inputs_of(graph, settings, view, poses);
         const FrameContext sample = frames_.context(graph, view.moved(place));
         add_sample(sample, declare(sample, poses, inputs).luminance, samples_.declare(graph), first);
-        add_times(pending.earlier, frames_.run(graph));
+        graph::add_times(pending.earlier, frames_.run(graph));
         if (first && settings.shadows) pending.frame.maps = maps_->report();
         pending.frame.directional_levels += inputs.directional_levels;
         if (watch_samples_) watch_samples_(uint32_t(&place - places.data() + 1));
@@ -258,7 +245,7 @@ void Renderer::average_display(const RenderSettings& settings, const gpu_scene::
         const FrameInputs inputs = inputs_of(graph, settings, view, poses);
         const SceneLight light = declare(frames_.context(graph, view.moved(place)), poses, inputs);
         const ToneChain shown = add_tone_chain(frames_.context(graph, view), light.luminance, settings, chain, {});
-        add_times(frame.timings, frames_.run(graph));
+        graph::add_times(frame.timings, frames_.run(graph));
         average.add(frames_.executor().read_as<uint8_t>(shown.display));
         if (watch_samples_) watch_samples_(++done);
     }
@@ -308,7 +295,7 @@ std::optional<Frame> Renderer::finish() {
     static_cast<ToneMapped&>(frame) = std::move(*shown);
     frame.clusters = read_one<shared::ClusterReport>(frames_.executor(), pending_->clusters);
     frame.visibility = read_one<shared::VisibilityReport>(frames_.executor(), pending_->visibility);
-    add_times(frame.timings, pending_->earlier);
+    graph::add_times(frame.timings, pending_->earlier);
     return frame;
 }
 

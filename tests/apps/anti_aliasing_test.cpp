@@ -59,25 +59,45 @@ double sum_of(const std::vector<double>& light) {
     return sum;
 }
 
+/// A sheet of 100 cd/m^2 over the half of the plane where normal . place <= off, px.
+class HalfPlane {
+public:
+    explicit HalfPlane(std::mt19937& random) {
+        std::uniform_real_distribution<double> unit(-1, 1);
+        const double angle = 3.1 * unit(random);
+        off_ = 5 * unit(random), normal_ = {std::cos(angle), std::sin(angle)};
+    }
+    Scene scene() const {
+        const glm::dvec2 along = 300.0 * glm::dvec2(-normal_.y, normal_.x), edge = off_ * normal_,
+                         far = (off_ - 300) * normal_;
+        Scene scene;
+        add_sheet(scene, add_material(scene, 0, 100), {edge - along, edge + along, far + along, far - along});
+        return scene;
+    }
+    /// Part of a pixel.
+    double covers(uint32_t i) const {
+        const glm::dvec2 middle = glm::dvec2(i % kSide, i / kSide) + 0.5 - kSide / 2.0;
+        return reference::covered_by_half_plane(normal_, off_ - glm::dot(normal_, middle));
+    }
+
+private:
+    double off_;
+    glm::dvec2 normal_;
+};
+
 // A half plane at random places and angles: each pixel holds the part of it that is covered, to the steps that points
 // of a net allow, whose number on one side of a line is off by a few.
 TEST(AntiAliasing, AHalfPlaneCoversWhatItDoes) {
     Frames frames;
     std::mt19937 random(1);
-    std::uniform_real_distribution<double> unit(-1, 1);
     for (int round = 0; round < 6; ++round) {
-        const double angle = 3.1 * unit(random), off = 5 * unit(random);
-        const glm::dvec2 normal(std::cos(angle), std::sin(angle)), along(-normal.y, normal.x);
-        Scene scene;
-        add_sheet(scene, add_material(scene, 0, 100),
-                  {off * normal - 300.0 * along, off * normal + 300.0 * along, (off - 300) * normal + 300.0 * along,
-                   (off - 300) * normal - 300.0 * along});
+        const HalfPlane half(random);
+        const Scene scene = half.scene();
         for (const auto& [samples, most] : {std::pair(1u, 0.14), {64u, 0.06}}) {  // two points, four
             const std::vector<double> got = frames.of(scene, samples);
             double sum = 0;
             for (uint32_t i = 0; i < kSide * kSide; ++i) {
-                const glm::dvec2 middle = glm::dvec2(i % kSide, i / kSide) + 0.5 - kSide / 2.0;
-                const double want = reference::covered_by_half_plane(normal, off - glm::dot(normal, middle));
+                const double want = half.covers(i);
                 sum += got[i] / 100 - want;
                 // Rounding of the sum where there is one surface, or nothing.
                 ASSERT_NEAR(got[i] / 100, want, want == 0 || want == 1 ? 1e-6 : most) << "round " << round;
@@ -91,20 +111,14 @@ TEST(AntiAliasing, AHalfPlaneCoversWhatItDoes) {
 TEST(AntiAliasing, AHalfPlaneBeforeAWallCoversWhatItDoes) {
     Frames frames;
     std::mt19937 random(2);
-    std::uniform_real_distribution<double> unit(-1, 1);
     for (int round = 0; round < 6; ++round) {
-        const double angle = 3.1 * unit(random), off = 5 * unit(random);
-        const glm::dvec2 normal(std::cos(angle), std::sin(angle)), along(-normal.y, normal.x);
-        Scene scene;
-        add_sheet(scene, add_material(scene, 0, 100),
-                  {off * normal - 300.0 * along, off * normal + 300.0 * along, (off - 300) * normal + 300.0 * along,
-                   (off - 300) * normal - 300.0 * along});
+        const HalfPlane half(random);
+        Scene scene = half.scene();
         add_rectangle(scene, add_material(scene, 0, 10), {-5, -5, -2}, {10, 0, 0}, {0, 10, 0});
         const std::vector<double> got = frames.of(scene, 1), jagged = frames.of(scene, 1, false);
         double largest = 0, sum = 0, before = 0;
         for (uint32_t i = 0; i < kSide * kSide; ++i) {
-            const glm::dvec2 middle = glm::dvec2(i % kSide, i / kSide) + 0.5 - kSide / 2.0;
-            const double want = reference::covered_by_half_plane(normal, off - glm::dot(normal, middle));
+            const double want = half.covers(i);
             largest = std::max(largest, std::abs((got[i] - 10) / 90 - want));
             sum += (got[i] - 10) / 90 - want, before = std::max(before, std::abs((jagged[i] - 10) / 90 - want));
         }

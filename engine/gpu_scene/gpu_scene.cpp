@@ -91,6 +91,16 @@ Sphere sphere_of(const GpuScene::Part& part, const glm::mat4& m) {
     return {glm::vec3(m * glm::vec4(part.centre, 1)), part.radius * largest_stretch(m)};
 }
 
+bool is_seen(const View& view, const Sphere& sphere) {
+    const auto [centre, radius] = sphere;
+    if (-centre.z + radius < view.near) return false;
+    const auto beyond = [z = centre.z, r = radius](float tangent, float across, float sign) {
+        return sign * (across + tangent * z) > r * std::sqrt(1 + tangent * tangent);
+    };
+    return !beyond(view.tangent_high.x, centre.x, 1) && !beyond(view.tangent_low.x, centre.x, -1) &&
+           !beyond(view.tangent_high.y, centre.y, 1) && !beyond(view.tangent_low.y, centre.y, -1);
+}
+
 WorldSphere world_sphere_of(const GpuScene::Part& part, const glm::dmat4& to_world) {
     const glm::dvec3 centre(to_world * glm::dvec4(part.centre, 1));
     return {centre, double(sphere_of(part, glm::mat4(glm::dmat4(glm::dmat3(to_world)))).radius)};

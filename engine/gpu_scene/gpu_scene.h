@@ -91,7 +91,9 @@ struct Sphere {
 };
 /// A sphere around a part of a mesh after a transform.
 Sphere sphere_of(const GpuScene::Part& part, const glm::mat4& transform);
-/// The same where things are far from the origin.
+/// Whether a sphere of the view frame may be seen: it reaches beyond the near plane and into the four sides.
+bool is_seen(const View& view, const Sphere& sphere);
+/// A sphere around a part of a mesh where things are far from the origin.
 struct WorldSphere {
     glm::dvec3 centre;  ///< m
     double radius;      ///< m

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include <glm/gtc/quaternion.hpp>
@@ -108,68 +107,13 @@ double middle_inside(const Aim& aim, const View& view) {
     return part.x * part.y;
 }
 
-// Where a convex polygon crosses a horizontal line: empty (low > high) outside it.
-struct Span {
-    double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
-    void add(double x) { low = std::min(low, x), high = std::max(high, x); }
-};
-
-Span span_at(const std::vector<dvec2>& polygon, double y) {
-    Span span;
-    for (size_t i = 0; i < polygon.size(); ++i) {
-        const dvec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-        if (std::min(a.y, b.y) > y || std::max(a.y, b.y) < y) continue;
-        span.add(a.y == b.y ? a.x : a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y));
-        if (a.y == b.y) span.add(b.x);
-    }
-    return span;
-}
-
-// Calls touch(column, row, whole) for every tile the polygon touches.
-template <class Touch>
-void for_each_tile(const std::vector<dvec2>& polygon, VkExtent2D image, Touch touch) {
-    constexpr double kTile = shared::kLuminaireTile;
-    const auto higher = [](dvec2 a, dvec2 b) { return a.y < b.y; };
-    const auto [top, bottom] = std::minmax_element(polygon.begin(), polygon.end(), higher);
-    const uint32_t columns = (image.width + shared::kLuminaireTile - 1) / shared::kLuminaireTile;
-    const uint32_t rows = (image.height + shared::kLuminaireTile - 1) / shared::kLuminaireTile;
-    const uint32_t last_row = std::min(rows - 1, uint32_t(bottom->y / kTile));
-    for (uint32_t row = uint32_t(top->y / kTile); row <= last_row; ++row) {
-        const double y0 = row * kTile, y1 = y0 + kTile;
-        const Span above = span_at(polygon, y0), below = span_at(polygon, y1);
-        Span touched{std::min(above.low, below.low), std::max(above.high, below.high)};
-        for (const dvec2& v : polygon)
-            if (v.y >= y0 && v.y <= y1) touched.add(v.x);
-        if (touched.low > touched.high) continue;
-        const double whole_low = std::max(above.low, below.low), whole_high = std::min(above.high, below.high);
-        const uint32_t last = std::min(columns - 1, uint32_t(touched.high / kTile));
-        for (uint32_t column = uint32_t(touched.low / kTile); column <= last; ++column)
-            touch(column, row, whole_low <= column * kTile && whole_high >= (column + 1) * kTile);
-    }
-}
-
 // The shader's loops over the silhouettes of a tile end by themselves well before lavapipe silently ends them, after
 // 65,535 turns of the lanes of two tiles together.
-constexpr uint64_t kMostTurns = 30000;
+constexpr uint32_t kMostTurns = 30000;
 
-// A tile (row, column), and an entry of it.
-struct Touched {
-    uint64_t tile;
-    uint32_t entry;
-};
-
-void add(LuminaireList& list, std::vector<Touched>& touched, const Seen& seen, glm::vec3 luminance, VkExtent2D image) {
-    const std::vector<dvec2>& polygon = seen.silhouette.vertices;
-    dvec2 low = polygon.front();
-    for (const dvec2& v : polygon) low = glm::min(low, v);
-    const dvec2 origin = glm::floor(low);
-    const auto source = uint32_t(list.luminaires.size());
-    list.luminaires.push_back(
-        {luminance, float(seen.hidden), glm::vec2(origin), float(list.silhouettes.size()), float(polygon.size())});
-    for (const dvec2& v : polygon) list.silhouettes.emplace_back(v - origin);
-    for_each_tile(polygon, image, [&](uint32_t column, uint32_t row, bool whole) {
-        touched.push_back({uint64_t(row) << 32 | column, source | (whole ? shared::kCoversTile : 0)});
-    });
+void add(LuminaireList& list, SilhouetteTiles& tiles, const Seen& seen, glm::vec3 luminance) {
+    const SilhouetteTiles::Place place = tiles.add(seen.silhouette.vertices);
+    list.luminaires.push_back({luminance, float(seen.hidden), place.origin, float(place.first), float(place.vertices)});
 }
 
 }  // namespace
@@ -185,7 +129,7 @@ LuminaireSet placed_luminaires(const scene::Scene& scene) {
 LuminaireList luminaire_list(const LuminaireSet& set, const SceneFrame& frame, const View& view,
                              std::optional<float> white) {
     LuminaireList list;
-    std::vector<Touched> touched;
+    SilhouetteTiles tiles(view.extent);
     for (const PlacedLamp& placed : set.lamps) {
         const scene::Lamp& lamp = placed.lamp;
         const uint32_t node = placed.node;
@@ -210,23 +154,17 @@ LuminaireList luminaire_list(const LuminaireSet& set, const SceneFrame& frame, c
         const double largest = std::max({c.r, c.g, c.b, 1e-6f});
         const double scale = white ? *white / (largest * seen.silhouette.widening) : seen.luminance;
         const glm::vec3 luminance(scale * dvec3(c));
-        if (std::isfinite(luminance.r + luminance.g + luminance.b)) add(list, touched, seen, luminance, view.extent);
+        if (std::isfinite(luminance.r + luminance.g + luminance.b)) add(list, tiles, seen, luminance);
     }
-    std::stable_sort(touched.begin(), touched.end(),
-                     [](const Touched& a, const Touched& b) { return a.tile < b.tile; });
-    uint64_t turns = 0;
-    for (const Touched& t : touched) {
-        const uint32_t row = uint32_t(t.tile >> 32), column = uint32_t(t.tile);
-        if (list.tiles.empty() || list.tiles.back().x != column || list.tiles.back().y != row)
-            list.tiles.emplace_back(column, row, list.entries.size(), 0), turns = 0;
-        turns += 2 + uint64_t(list.luminaires[t.entry & ~shared::kCoversTile].vertices);
+    static_cast<SilhouetteList&>(list) = tiles.list();
+    for (const glm::uvec4& tile : list.tiles) {
+        uint32_t turns = 0;
+        for (uint32_t i = tile.z; i < tile.z + tile.w; ++i)
+            turns += 2 + uint32_t(list.luminaires[list.entries[i] & ~shared::kCoversTile].vertices);
         if (turns > kMostTurns)
-            throw Error("more than " + std::to_string(list.tiles.back().w) +
-                        " lamps are seen within the same pixels (column " +
-                        std::to_string(column * shared::kLuminaireTile) + ", row " +
-                        std::to_string(row * shared::kLuminaireTile) + "): too many to draw their openings");
-        list.entries.push_back(t.entry);
-        ++list.tiles.back().w;
+            throw Error(std::to_string(tile.w) + " lamps are seen within the same pixels (column " +
+                        std::to_string(tile.x * shared::kLuminaireTile) + ", row " +
+                        std::to_string(tile.y * shared::kLuminaireTile) + "): too many to draw their openings");
     }
     return list;
 }

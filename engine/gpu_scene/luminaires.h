@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gpu_scene/lamps.h"
+#include "gpu_scene/silhouette_tiles.h"
 #include "shared/luminaire.h"
 
 namespace vesper::gpu_scene {
@@ -38,13 +39,9 @@ struct GlareSource {
     double inside;
 };
 
-/// Silhouettes in the image, and which squares of kLuminaireTile px they touch.
-struct LuminaireList {
+/// The openings in the image: silhouette i is that of luminaire i.
+struct LuminaireList : SilhouetteList {
     std::vector<shared::Luminaire> luminaires;
-    std::vector<glm::vec2>
-        silhouettes;  ///< vertices of all, px from the luminaire's origin, x right and y down, of positive area
-    std::vector<glm::uvec4> tiles;           ///< column, row, first entry, entries; row by row
-    std::vector<uint32_t> entries;           ///< a luminaire, ascending in a tile, and kCoversTile
     std::vector<GlareSource> glare_sources;  ///< all lamps before the eye, in the order of the scene
 };
 

@@ -10,6 +10,7 @@
 #include "render/display_average.h"
 #include "render/passes/edges.h"
 #include "render/passes/luminaires.h"
+#include "render/passes/small_emitters.h"
 
 namespace vesper::render {
 namespace {
@@ -27,6 +28,7 @@ Renderer::SceneData::SceneData(const gpu::Device& device, const scene::Scene& sc
       maps(gpu_scene::map_plan(scene, resident, lamps)),
       directional(gpu_scene::directional_plan(lamps)),
       luminaires(gpu_scene::placed_luminaires(scene)),
+      emitting(gpu_scene::emitting_parts(scene)),
       tables(gpu_scene::intensity_tables(scene)),
       table_arena(device),
       table_texels(upload(device, tables.texels)),
@@ -90,6 +92,8 @@ Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const Render
     in.tables = {texels("intensity tables", scene_->table_texels), scene_->tables.roads, scene_->tables.roads != 0};
     in.clusters = settings.clusters;
     in.edges = settings.anti_aliasing && settings.samples == 1;
+    if (in.edges && !settings.unit_lamps && has_facets(device_, scene_->resident))
+        in.small_emitters = gpu_scene::small_emitter_list(scene_->emitting, scene_->resident, poses, view);
     in.clusters.far = scene_->resident.farthest_depth(poses, view);
     if (settings.shadows)
         add_maps(graph, in, poses, view, settings.samples > 1 ? kNoShadowBudget : settings.shadow_budget);
@@ -185,7 +189,7 @@ void Renderer::add_maps(graph::FrameGraph& graph, FrameInputs& in, const gpu_sce
 
 Renderer::SceneLight Renderer::declare(const FrameContext& frame, const gpu_scene::SceneFrame& poses,
                                        const FrameInputs& inputs) const {
-    const GBuffer surfaces = add_gbuffer(frame, scene_->resident, poses);
+    const GBuffer surfaces = add_gbuffer(frame, scene_->resident, poses, inputs.small_emitters.parts);
     const Clusters clusters = add_clusters(frame, surfaces.surface, inputs.lamps, inputs.tables, inputs.clusters);
     Blocks blocks = add_blocks(frame, surfaces, clusters);
     blocks = add_visibility(frame, surfaces, clusters, blocks, inputs.shading.maps, inputs.shading.faint);
@@ -197,7 +201,8 @@ Renderer::SceneLight Renderer::declare(const FrameContext& frame, const gpu_scen
     scene = add_indirect(frame, surfaces, scene, inputs.indirect, moving, inputs.shading.lambert);
     scene = add_illuminance(frame, surfaces, scene, inputs.illuminance, inputs.shading.lambert);
     scene = add_sky(frame, surfaces, scene, inputs.sky);
-    if (inputs.edges) add_edges(frame, scene_->resident, surfaces, scene);
+    if (inputs.edges) add_edges(frame, surfaces, scene);
+    scene = add_small_emitters(frame, surfaces, scene, inputs.small_emitters);
     scene = add_luminaires(frame, scene, surfaces.surface, inputs.luminaires);
     return {scene, clusters, blocks};
 }

@@ -13,6 +13,7 @@
 #include "gpu_scene/gpu_scene.h"
 #include "gpu_scene/lamps.h"
 #include "gpu_scene/luminaires.h"
+#include "gpu_scene/small_emitters.h"
 #include "render/directional_maps.h"
 #include "render/distance_maps.h"
 #include "render/frame_queue.h"
@@ -128,7 +129,8 @@ private:
         gpu_scene::MapPlan maps;
         gpu_scene::DirectionalPlan directional;
         gpu_scene::LuminaireSet luminaires;
-        gpu_scene::IntensityTables tables;  // without its texels, which are uploaded
+        std::vector<gpu_scene::EmittingPart> emitting;  // by part
+        gpu_scene::IntensityTables tables;              // without its texels, which are uploaded
         gpu::Arena table_arena;
         TexelBuffer table_texels;
         TexelBuffer sky, retro;
@@ -143,6 +145,7 @@ private:
     struct FrameInputs {
         gpu_scene::LampList lamps;
         gpu_scene::LuminaireList luminaires;
+        gpu_scene::SmallEmitterList small_emitters;
         TableTexels tables;
         ClusterSettings clusters;
         bool edges = false;

@@ -1,10 +1,6 @@
 // What pixels see. Wants `triangles`, `surface_image` and `push` of EdgesPush.
 
-// The pixel itself, those beside it, those at its corners.
-ivec2 neighbour(uint k) {
-    const uint place = k == 0u ? 4u : k <= 4u ? 2u * k - 1u : k == 5u ? 0u : k == 6u ? 2u : k == 7u ? 6u : 8u;
-    return ivec2(place % 3u, place / 3u) - 1;
-}
+#include "neighbours.glsl"
 
 struct Seen {
     uint instance;  // 0: nothing

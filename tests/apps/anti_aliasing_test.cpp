@@ -1,9 +1,11 @@
 // Whole frames at edges: areas that are known, light that must not come or go, and the mean of many samples.
 // SPDX-License-Identifier: MIT
 #include <random>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
+#include "base/angle.h"
 #include "passes/samples_reference.h"
 #include "render/renderer.h"
 #include "support/rooms.h"
@@ -159,13 +161,17 @@ TEST(AntiAliasing, AThinStripKeepsItsArea) {
     }
 }
 
-// A panel of 10.4 x 10.4 px before a wall, in pieces of a quarter of a pixel; and one of 40 x 40 px whose texture has
-// holes of 3 px. Not all that they are made of is seen by the middle of some pixel: light must not be lost for that.
+// A panel of 10.4 x 10.4 px before a wall, in pieces of a quarter of a pixel, lit or emitting; and one of 40 x 40 px
+// whose texture has holes of 3 px. Not all that they are made of is seen by the middle of some pixel: light must not be
+// lost for that. What emits is drawn by its area.
 TEST(AntiAliasing, FineMeshesAndHolesKeepTheirLight) {
     Frames frames;
-    for (const bool masked : {false, true}) {
+    for (const auto& [what, masked, lit] :
+         {std::tuple("fine mesh", false, true), {"fine mesh that emits", false, false}, {"holes", true, false}}) {
+        SCOPED_TRACE(what);
         Scene scene;
-        const uint32_t panel = add_material(scene, 0, 1000), pieces = masked ? 1 : 40;
+        scene.ambient_illuminance = lit ? float(1000 * kPi) : 0;
+        const uint32_t panel = add_material(scene, lit ? 1 : 0, lit ? 0 : 1000), pieces = masked ? 1 : 40;
         const double side = masked ? 40 : 10.4;
         if (masked) {
             scene.images = {{"fence", 16, 1, {}}};
@@ -186,9 +192,59 @@ TEST(AntiAliasing, FineMeshesAndHolesKeepTheirLight) {
         add_rectangle(scene, add_material(scene, 0, 1), {-5, -5, -2}, {10, 0, 0}, {0, 10, 0});
         const double with = sum_of(frames.of(scene, 1)), without = sum_of(frames.of(scene, 1, false)),
                      many = sum_of(frames.of(scene, 64));
-        EXPECT_NEAR(with, without, 0.01 * without) << (masked ? "holes" : "fine mesh");
-        EXPECT_NEAR(with, many, 0.25 * many) << "bars of whole pixels";
+        if (masked || lit) {
+            EXPECT_NEAR(with, without, 0.01 * without);
+        }
+        EXPECT_NEAR(with, many, (masked || lit ? 0.25 : 0.02) * many) << "bars of whole pixels";
     }
+}
+
+// Signs and windows that are about as small as a pixel: as they move by eighths of a pixel, their
+// light does not change.
+TEST(AntiAliasing, SmallEmittersKeepTheirLightAsTheyMove) {
+    Frames frames;
+    for (const glm::dvec2 size : {glm::dvec2(0.3, 0.3), {2.5, 0.4}, {3, 4}}) {
+        SCOPED_TRACE(std::to_string(size.x) + " x " + std::to_string(size.y) + " px");
+        std::vector<double> sums, jagged;
+        for (int step = 0; step <= 8; ++step) {
+            const glm::dvec2 low(-4.37 + step / 8.0, 0.2 + step / 16.0), high = low + size;
+            Scene scene;
+            add_sheet(scene, add_material(scene, 0, 1e4f), {low, {high.x, low.y}, high, {low.x, high.y}});
+            add_rectangle(scene, add_material(scene, 0, 1), {-5, -5, -2}, {10, 0, 0}, {0, 10, 0});
+            sums.push_back(sum_of(frames.of(scene, 1)) - kSide * kSide);
+            if (step % 4 == 0 && size.y == 0.4) jagged.push_back(sum_of(frames.of(scene, 1, false)) - kSide * kSide);
+        }
+        const auto [least, largest] = std::ranges::minmax(sums);
+        EXPECT_LT(largest / least, 1.001);
+        EXPECT_NEAR(sums[0], 1e4 * size.x * size.y, 1e2 * size.x * size.y);
+        if (!jagged.empty()) {
+            EXPECT_GT(std::ranges::max(jagged), 1.5 * std::ranges::min(jagged)) << "without it comes and goes";
+        }
+    }
+}
+
+// One that a post hides to a third, and one behind a wall.
+TEST(AntiAliasing, SmallEmittersAreHidden) {
+    Frames frames;
+    Scene scene;
+    const uint32_t sign = add_material(scene, 0, 1e4f);
+    add_rectangle(scene, sign, {-0.03f, 0, -1}, {0.015f, 0, 0}, {0, 0.015f, 0});
+    add_rectangle(scene, sign, {0.03f, 0, -1}, {0.015f, 0, 0}, {0, 0.015f, 0});
+    const uint32_t dark = add_material(scene, 0, 0);
+    const auto visible = [&] { return sum_of(frames.of(scene, 1)); };
+    const double all = visible();
+    EXPECT_NEAR(all, 2 * 1e4 * 0.96 * 0.96, 100);
+    add_rectangle(scene, dark, {-0.125f, -0.2f, -0.5f}, {0.12f, 0, 0}, {0, 0.4f, 0});  // to -0.01 at 1 m
+    EXPECT_NEAR(visible(), all / 2, 0.01 * all);
+    add_rectangle(scene, dark, {-0.2f, -0.2f, -1.02f}, {0.4f, 0, 0}, {0, 0.4f, 0});
+    EXPECT_NEAR(visible(), all / 2, 0.01 * all) << "a wall behind hides nothing";
+    scene.meshes[2].primitives[0].vertices[1].position.x = scene.meshes[2].primitives[0].vertices[2].position.x =
+        -0.0125f;  // to -0.025 at 1 m: a third of it
+    EXPECT_NEAR(visible(), all * 5 / 6, 0.04 * all);
+    scene.nodes[3].translation.z = 0.022;
+    EXPECT_NEAR(visible(), 0, 1e-3 * all) << "the wall 2 mm before it";
+    scene.materials[dark].alpha = scene::Material::Alpha::Mask;
+    EXPECT_NEAR(visible(), 0, 1e-3 * all) << "the same as if it could have holes";
 }
 
 // A grating of 0.37 px, half of it bright: its mean.

@@ -16,28 +16,20 @@ using graph::load, graph::sample, graph::store, graph::update;
 constexpr gpu::Shader kFindEdges{"find_edges.comp", find_edges_comp}, kEdgeMeans{"edge_means.comp", edge_means_comp},
     kShowEdges{"show_edges.comp", show_edges_comp};
 
-static_assert(sizeof(scene::Vertex) == shared::kTexelsPerVertex * sizeof(glm::vec2) &&
-              offsetof(scene::Vertex, position) == 0);
-
 }  // namespace
 
-void add_edges(const FrameContext& frame, const gpu_scene::GpuScene& scene, const GBuffer& surfaces,
-               graph::Resource luminance) {
+void add_edges(const FrameContext& frame, const GBuffer& surfaces, graph::Resource luminance) {
+    if (surfaces.facets == graph::Resource{}) return;
     graph::FrameGraph& graph = frame.graph;
     const gpu_scene::View& view = frame.view;
     const uint64_t pixels = uint64_t(view.extent.width) * view.extent.height;
-    const uint64_t texels = std::max(pixels, scene.vertex_count() * shared::kTexelsPerVertex);
-    if (scene.vertex_count() == 0 || texels > frame.kernels.device().limits().maxTexelBufferElements) return;
+    if (pixels > frame.kernels.device().limits().maxTexelBufferElements) return;
     const graph::Resource counts =
         graph.transient("edge counts", graph::buffer_shape(shared::kEdgeCounts * sizeof(uint32_t), VK_FORMAT_R32_UINT));
     const graph::Resource edges =
         graph.transient("edges", graph::buffer_shape(pixels * sizeof(uint32_t), VK_FORMAT_R32_UINT));
     const graph::Resource means = graph.transient(
         "means at edges", graph::buffer_shape(pixels * sizeof(glm::vec4), VK_FORMAT_R32G32B32A32_SFLOAT));
-    const graph::Resource vertices = graph.external(
-        "vertices", scene.vertices(), scene.vertex_count() * sizeof(scene::Vertex), VK_FORMAT_R32G32_SFLOAT);
-    const graph::Resource facets = graph.external(
-        "facets", scene.facets(), scene.vertex_count() * sizeof(shared::Facet), VK_FORMAT_R32G32B32A32_UINT);
     const shared::EdgesPush push{{view.extent.width, view.extent.height}, view.ray_scale(), view.ray_offset()};
     const PixelGroups groups = pixel_groups(frame.kernels.device());
     const graph::Arguments listed{counts};
@@ -48,7 +40,7 @@ void add_edges(const FrameContext& frame, const gpu_scene::GpuScene& scene, cons
                    push, cover(view.extent, groups));
     graph.dispatch("edge means", frame.kernels.get(kEdgeMeans),
                    {load(surfaces.triangle), load(surfaces.surface), load(luminance), sample(counts), sample(edges),
-                    sample(surfaces.instances), sample(vertices), sample(facets), store(means)},
+                    sample(surfaces.instances), sample(surfaces.vertices), sample(surfaces.facets), store(means)},
                    push, listed);
     graph.dispatch("show edges", frame.kernels.get(kShowEdges),
                    {sample(counts), sample(edges), sample(means), update(luminance)}, push, listed);

@@ -10,8 +10,7 @@ namespace vesper::render {
 /// middles, and what these middles show is its luminance. A facet that is narrower than a pixel, or masked, fills the
 /// pixel whose middle sees it: what is thin is seen by some middles only, and so keeps its light in the mean over many.
 /// A pixel that sees a single surface keeps its bits. Nothing is done where the device has no room for texel buffers of
-/// all pixels, or of five texels a vertex.
-void add_edges(const FrameContext& frame, const gpu_scene::GpuScene& scene, const GBuffer& surfaces,
-               graph::Resource luminance);
+/// all pixels, or has_facets() says no.
+void add_edges(const FrameContext& frame, const GBuffer& surfaces, graph::Resource luminance);
 
 }  // namespace vesper::render

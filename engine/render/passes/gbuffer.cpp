@@ -9,6 +9,7 @@
 #include "gpu_scene/gpu_scene.h"
 #include "shaders/gbuffer/gbuffer.frag.inc"
 #include "shaders/gbuffer/gbuffer.vert.inc"
+#include "shared/edges.h"
 #include "shared/gbuffer.h"
 
 namespace vesper::render {
@@ -99,17 +100,6 @@ struct DrawnPart {
     shared::Instance instance;
 };
 
-// Whether a sphere of the view frame may be seen: it is in front of the near plane and inside the four sides.
-bool visible(const gpu_scene::View& view, const gpu_scene::Sphere& sphere) {
-    const auto [centre, radius] = sphere;
-    if (-centre.z + radius < view.near) return false;
-    const auto beyond = [z = centre.z, r = radius](float tangent, float across, float sign) {
-        return sign * (across + tangent * z) > r * std::sqrt(1 + tangent * tangent);
-    };
-    return !beyond(view.tangent_high.x, centre.x, 1) && !beyond(view.tangent_low.x, centre.x, -1) &&
-           !beyond(view.tangent_high.y, centre.y, 1) && !beyond(view.tangent_low.y, centre.y, -1);
-}
-
 // A rough order from front to back, in shells of distance of a ratio of 1.5, so that few instances are drawn apart:
 // what is beside the eye, such as one's own bonnet, hides most; sheets under everything, such as terrain, are hidden by
 // most.
@@ -121,20 +111,26 @@ uint32_t layer_of(const gpu_scene::Sphere& sphere) {
     return std::min(kFarthest - 1, uint32_t(1 + std::max(0.0f, std::log(depth / 10) / std::log(1.5f))));
 }
 
-std::vector<DrawnPart> cull(const GpuScene& scene, const gpu_scene::SceneFrame& frame, const gpu_scene::View& view) {
+std::vector<DrawnPart> cull(const GpuScene& scene, const gpu_scene::SceneFrame& frame, const gpu_scene::View& view,
+                            std::span<const uint32_t> without_emission) {
     std::vector<DrawnPart> drawn;
+    uint32_t number = 0;
     for (const GpuScene::Placement& placement : scene.placements()) {
         const glm::mat4 m = view.from(frame.world[placement.node]);
         const bool mirrored = glm::determinant(glm::mat3(m)) < 0;
         const glm::mat4 rows = glm::transpose(m);
         const float dimming = frame.dimming_of(placement.node);
-        for (uint32_t i = placement.first_part; i < placement.first_part + placement.part_count; ++i) {
+        for (uint32_t i = placement.first_part; i < placement.first_part + placement.part_count; ++i, ++number) {
             const GpuScene::Part& part = scene.parts()[i];
+            const bool apart = !without_emission.empty() && without_emission.front() == number;
+            if (apart) without_emission = without_emission.subspan(1);
             const gpu_scene::Sphere sphere = gpu_scene::sphere_of(part, m);
-            if (part.index_count == 0 || !visible(view, sphere)) continue;
+            if (part.index_count == 0 || !gpu_scene::is_seen(view, sphere)) continue;
             const bool masked = scene.surfaces()[part.material].material.alpha == scene::Material::Alpha::Mask;
-            drawn.push_back(
-                {i, mirrored, layer_of(sphere), {rows[0], rows[1], rows[2], dimming, masked ? 1.0f : 0.0f, {}}});
+            drawn.push_back({i,
+                             mirrored,
+                             layer_of(sphere),
+                             {rows[0], rows[1], rows[2], apart ? 0 : dimming, masked ? 1.0f : 0.0f, {}}});
         }
     }
     return drawn;
@@ -180,13 +176,22 @@ void record_batches(const graph::Recording& recording, const gpu::Device& device
     }
 }
 
+static_assert(sizeof(scene::Vertex) == shared::kTexelsPerVertex * sizeof(glm::vec2) &&
+              offsetof(scene::Vertex, position) == 0);
+
 }  // namespace
 
-GBuffer add_gbuffer(const FrameContext& frame, const GpuScene& scene, const gpu_scene::SceneFrame& poses) {
+bool has_facets(const gpu::Device& device, const GpuScene& scene) {
+    return scene.vertex_count() > 0 &&
+           scene.vertex_count() * shared::kTexelsPerVertex <= device.limits().maxTexelBufferElements;
+}
+
+GBuffer add_gbuffer(const FrameContext& frame, const GpuScene& scene, const gpu_scene::SceneFrame& poses,
+                    std::span<const uint32_t> without_emission) {
     graph::FrameGraph& graph = frame.graph;
     const gpu_scene::View& view = frame.view;
     const std::vector<SurfacePipeline> pipelines = pipelines_of(frame.pipelines, scene);
-    std::vector<DrawnPart> drawn = cull(scene, poses, view);
+    std::vector<DrawnPart> drawn = cull(scene, poses, view, without_emission);
     std::stable_sort(drawn.begin(), drawn.end(), [&](const DrawnPart& a, const DrawnPart& b) {
         const auto key = [&](const DrawnPart& d) {
             const uint32_t material = scene.parts()[d.part].material, variant = pipelines[material].variant;
@@ -207,12 +212,20 @@ GBuffer add_gbuffer(const FrameContext& frame, const GpuScene& scene, const gpu_
     if (instances.empty()) instances.emplace_back();  // an upload is never empty
 
     const graph::Resource placed = graph.upload("instances", instances, VK_FORMAT_R32G32B32A32_SFLOAT);
-    const GBuffer g{graph.transient("reflectance", graph::image_shape(kReflectanceFormat, view.extent)),
-                    graph.transient("surface", graph::image_shape(kSurfaceFormat, view.extent)),
-                    graph.transient("emission", graph::image_shape(kEmissionFormat, view.extent)),
-                    graph.transient("depth", graph::image_shape(kDepthFormat, view.extent)),
-                    graph.transient("triangle", graph::image_shape(kTriangleFormat, view.extent)),
-                    placed};
+    GBuffer g{graph.transient("reflectance", graph::image_shape(kReflectanceFormat, view.extent)),
+              graph.transient("surface", graph::image_shape(kSurfaceFormat, view.extent)),
+              graph.transient("emission", graph::image_shape(kEmissionFormat, view.extent)),
+              graph.transient("depth", graph::image_shape(kDepthFormat, view.extent)),
+              graph.transient("triangle", graph::image_shape(kTriangleFormat, view.extent)),
+              placed,
+              {},
+              {}};
+    if (has_facets(frame.kernels.device(), scene)) {
+        const uint64_t count = scene.vertex_count();
+        g.vertices =
+            graph.external("vertices", scene.vertices(), count * sizeof(scene::Vertex), VK_FORMAT_R32G32_SFLOAT);
+        g.facets = graph.external("facets", scene.facets(), count * sizeof(shared::Facet), VK_FORMAT_R32G32B32A32_UINT);
+    }
     graph.raster("gbuffer",
                  {{placed, graph::Access::Vertices},
                   {g.reflectance, graph::Access::ColorTarget},

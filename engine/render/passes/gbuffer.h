@@ -16,10 +16,16 @@ struct GBuffer {
     graph::Resource depth;     ///< d32: near / depth, 0 at infinity
     graph::Resource
         triangle;  ///< rg32ui: 1 + its instance, 0 where nothing is drawn; its first vertex, see LeadingVertices
-    graph::Resource instances;  ///< shared::Instance, as rgba32f texels
+    graph::Resource instances;         ///< shared::Instance, as rgba32f texels
+    graph::Resource vertices, facets;  ///< of the scene, as rg32f and rgba32ui texels; if has_facets()
 };
 
+/// Whether the device has room for texel buffers of all vertices and facets.
+bool has_facets(const gpu::Device& device, const gpu_scene::GpuScene& scene);
+
 /// Rasterizes the parts of the scene in view, at the poses of `poses`. Textures are filtered as linear reflectance.
-GBuffer add_gbuffer(const FrameContext& frame, const gpu_scene::GpuScene& scene, const gpu_scene::SceneFrame& poses);
+/// `without_emission`: parts that emit nothing, by number, counted over all parts of GpuScene::placements(), ascending.
+GBuffer add_gbuffer(const FrameContext& frame, const gpu_scene::GpuScene& scene, const gpu_scene::SceneFrame& poses,
+                    std::span<const uint32_t> without_emission = {});
 
 }  // namespace vesper::render

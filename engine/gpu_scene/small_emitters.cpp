@@ -1,0 +1,257 @@
+#include "gpu_scene/small_emitters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <span>
+
+#include "gpu_scene/facets.h"
+#include "gpu_scene/luminaires.h"
+#include "gpu_scene/silhouette.h"
+#include "rays/texture_lookup.h"
+#include "scene/reflectance.h"
+
+namespace vesper::gpu_scene {
+namespace {
+
+using glm::dvec2, glm::dvec3;
+
+// Of a triangle: at each corner, and in the middle.
+template <class Point>
+std::array<std::array<Point, 3>, 4> quarters(const std::array<Point, 3>& t) {
+    const Point ab = (t[0] + t[1]) / 2.0, bc = (t[1] + t[2]) / 2.0, ca = (t[2] + t[0]) / 2.0;
+    return {{{t[0], ab, ca}, {ab, t[1], bc}, {ca, bc, t[2]}, {bc, ca, ab}}};
+}
+
+// Looks up what surfaces emit.
+class Emission {
+public:
+    explicit Emission(const scene::Scene& scene) : scene_(scene), codes_(scene::linear_codes(scene::Transfer{})) {}
+
+    static bool has_texture(const scene::Material& m) {
+        return m.emission_picture.image != scene::kNone || m.emission_texture.image != scene::kNone;
+    }
+    // The means over the quarters of a triangle, RGB cd/m^2.
+    std::array<glm::vec3, 4> means(const scene::Primitive& primitive, uint32_t triangle) const {
+        const scene::Material& m = scene_.materials[primitive.material];
+        std::array<glm::vec3, 4> luminance;
+        luminance.fill(m.emission);
+        if (!has_texture(m)) return luminance;
+        std::array<dvec2, 3> uv;
+        for (size_t k = 0; k < 3; ++k) uv[k] = primitive.vertices[primitive.indices[3 * size_t(triangle) + k]].uv;
+        const auto parts = quarters(uv);
+        for (size_t i = 0; i < 4; ++i) luminance[i] *= glm::vec3(mean(m, parts[i]));
+        return luminance;
+    }
+
+private:
+    // Of kRows^2 places, each of as much area.
+    dvec3 mean(const scene::Material& m, const std::array<dvec2, 3>& uv) const {
+        constexpr int kRows = 6;
+        dvec3 sum(0);
+        for (int row = 0; row < kRows; ++row)
+            for (int i = 0; i < 2 * row + 1; ++i) {  // small triangles: i / 2 along the row, every other one turned
+                const double first = (row + (i % 2 ? 1 / 3.0 : 2 / 3.0)) / kRows;
+                const double second = (i / 2 + (i % 2 ? 2 / 3.0 : 1 / 3.0)) / kRows;
+                sum += at(m, uv[0] + first * (uv[1] - uv[0]) + second * (uv[2] - uv[1]));
+            }
+        return sum / double(kRows * kRows);
+    }
+    dvec3 at(const scene::Material& m, dvec2 uv) const {
+        if (!std::isfinite(uv.x + uv.y)) return dvec3(0);
+        if (m.emission_picture.image != scene::kNone) {
+            const photometry::LuminancePicture& picture = scene_.luminance_pictures[m.emission_picture.image];
+            return rays::texture_at({picture.width, picture.height}, m.emission_picture, uv, [&](size_t i) {
+                return dvec3(picture.rgb[3 * i], picture.rgb[3 * i + 1], picture.rgb[3 * i + 2]);
+            });
+        }
+        const Image& image = scene_.images[m.emission_texture.image];
+        return rays::texture_at({image.width, image.height}, m.emission_texture, uv, [&](size_t i) {
+            return dvec3(codes_[image.rgba[4 * i]], codes_[image.rgba[4 * i + 1]], codes_[image.rgba[4 * i + 2]]);
+        });
+    }
+
+    const scene::Scene& scene_;
+    std::array<double, 256> codes_;
+};
+
+// Whether all lie in one plane, to 1 % of the distance between their corners.
+bool is_flat(const std::vector<EmittingPart::Triangle>& triangles) {
+    const auto& [a, b, c] = triangles.front().corners;
+    const glm::vec3 normal = glm::normalize(glm::cross(b - a, c - a));
+    for (const EmittingPart::Triangle& triangle : triangles)
+        for (const glm::vec3& corner : triangle.corners)
+            if (!(std::abs(glm::dot(normal, corner - a)) <= 0.01f * glm::distance(corner, a))) return false;
+    return true;
+}
+
+std::array<glm::vec3, 3> corners_of(const scene::Primitive& primitive, size_t triangle) {
+    std::array<glm::vec3, 3> corners;
+    for (size_t k = 0; k < 3; ++k) corners[k] = primitive.vertices[primitive.indices[3 * triangle + k]].position;
+    return corners;
+}
+
+EmittingPart emitting_part(const scene::Primitive& primitive, const scene::Material& material,
+                           const Emission& emission) {
+    EmittingPart part{{}, material.double_sided, !Emission::has_texture(material), {}};
+    const size_t count = primitive.indices.size() / 3;
+    if (material.emission == glm::vec3(0) || material.alpha == scene::Material::Alpha::Mask ||
+        count > kMostTrianglesOfSmallEmitter)
+        return part;
+    for (uint32_t i = 0; i < count; ++i)
+        part.triangles.push_back({corners_of(primitive, i), emission.means(primitive, i)});
+    if (part.double_sided && count > 0 && !is_flat(part.triangles)) part.triangles.clear();
+    return part;
+}
+
+// The facets of a primitive that reach into a box, each once.
+void add_facets(const scene::Primitive& primitive, glm::vec3 low, glm::vec3 high,
+                std::vector<std::vector<glm::vec3>>& to) {
+    std::set<std::array<uint32_t, 4>> known;
+    for (const Facet& facet : facets(primitive)) {
+        std::array<uint32_t, 4> sorted = facet.corners;
+        std::sort(sorted.begin(), sorted.begin() + facet.count);
+        if (!known.insert(sorted).second) continue;
+        std::vector<glm::vec3> corners;
+        glm::vec3 from(std::numeric_limits<float>::infinity()), end = -from;
+        for (uint32_t k = 0; k < facet.count; ++k) {
+            corners.push_back(primitive.vertices[facet.corners[k]].position);
+            from = glm::min(from, corners.back()), end = glm::max(end, corners.back());
+        }
+        if (glm::all(glm::lessThanEqual(from, high)) && glm::all(glm::greaterThanEqual(end, low)))
+            to.push_back(std::move(corners));
+    }
+}
+
+// What is within a tenth of a part's size of its box, of the other parts of its mesh.
+void add_frame(const scene::Scene& scene, const scene::Mesh& mesh, size_t number, EmittingPart& part) {
+    if (part.triangles.empty()) return;
+    const scene::Bounds box = mesh.primitives[number].bounds;
+    const glm::vec3 margin(0.1f * glm::distance(box.low, box.high));
+    for (size_t p = 0; p < mesh.primitives.size(); ++p) {
+        const scene::Primitive& other = mesh.primitives[p];
+        if (p != number && scene.materials[other.material].alpha != scene::Material::Alpha::Mask)
+            add_facets(other, box.low - margin, box.high + margin, part.frame);
+        if (part.frame.size() > kMostFacetsOfFrame) part.triangles.clear(), part.frame.clear();
+    }
+}
+
+// A triangle as the eye sees it.
+struct Seen {
+    std::array<dvec3, 3> corners;  // view frame
+    Silhouette silhouette;
+    dvec3 luminance;
+    bool hides;
+};
+
+// Linear over the image: the inverse of the depth of a plane, 1/m, at a place from `origin`, px.
+dvec3 inverse_depth(const std::array<dvec3, 3>& corners, dvec2 origin, const View& view) {
+    const dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    const dvec2 scale(view.ray_scale()), offset(view.ray_offset());
+    const dvec3 at_origin(scale * origin + offset, -1);
+    return dvec3(dvec2(normal) * scale, glm::dot(normal, at_origin)) / glm::dot(normal, corners[0]);
+}
+
+// How a part lies before the eye.
+struct Pose {
+    glm::dmat4 to_view;
+    double front;  // -1: mirrored
+
+    dvec3 place(glm::vec3 at) const { return dvec3(to_view * glm::dvec4(at, 1)); }
+    // Above 0 if the eye sees the front of a facet.
+    double facing(std::span<const dvec3> c) const {
+        return -front * glm::dot(glm::cross(c[1] - c[0], c[2] - c[0]), c[0]);
+    }
+};
+
+// Adds what the view sees of a triangle, unless it is behind the eye or too wide.
+bool add_seen(const std::array<dvec3, 3>& corners, dvec3 luminance, const View& view, std::vector<Seen>& all) {
+    Seen seen{corners, project(corners, view, kSmallest), {}, false};
+    if (!(seen.silhouette.width < kSmallEmitter)) return false;
+    seen.luminance = luminance / seen.silhouette.widening;
+    if (!std::isfinite(seen.luminance.r + seen.luminance.g + seen.luminance.b)) return false;
+    if (!seen.silhouette.vertices.empty()) all.push_back(std::move(seen));
+    return true;
+}
+
+// What the view sees of a part, if all of it is small.
+std::vector<Seen> look_at(const EmittingPart& part, const Pose& pose, float dimming, const View& view) {
+    std::vector<Seen> all;
+    for (const EmittingPart::Triangle& triangle : part.triangles) {
+        const std::array<dvec3, 3> corners{pose.place(triangle.corners[0]), pose.place(triangle.corners[1]),
+                                           pose.place(triangle.corners[2])};
+        const double facing = pose.facing(corners);
+        if (!(facing > 0) && !(part.double_sided && facing < 0)) continue;  // seen from behind, or along it
+        if (std::ranges::any_of(corners, [&](const dvec3& v) { return !(-v.z > view.near); })) return {};
+        std::array<dvec3, 4> luminance;
+        for (size_t i = 0; i < 4; ++i) luminance[i] = double(dimming) * dvec3(triangle.luminance[i]);
+        const size_t before = all.size();
+        if (!add_seen(corners, (luminance[0] + luminance[1] + luminance[2] + luminance[3]) / 4.0, view, all)) return {};
+        if (part.plain || all.size() == before || all.back().silhouette.width < kOneLuminance) continue;
+        all.pop_back();
+        const auto parts = quarters(corners);
+        for (size_t i = 0; i < 4; ++i)
+            if (!add_seen(parts[i], luminance[i], view, all)) return {};
+    }
+    if (all.empty()) return all;
+    double deepest = 0;  // of what emits, m
+    for (const Seen& seen : all)
+        for (const dvec3& corner : seen.corners) deepest = std::max(deepest, -corner.z);
+    std::vector<dvec3> corners;
+    for (const std::vector<glm::vec3>& facet : part.frame) {
+        corners.clear();
+        for (const glm::vec3& corner : facet) corners.push_back(pose.place(corner));
+        const bool behind = std::ranges::all_of(corners, [&](const dvec3& v) { return -v.z > deepest; });
+        if (behind || !(pose.facing(corners) > 0)) continue;
+        Seen seen{{corners[0], corners[1], corners[2]}, project(corners, view, 0), dvec3(0), true};
+        if (seen.silhouette.width < kFrameWidth && !seen.silhouette.vertices.empty()) all.push_back(std::move(seen));
+    }
+    return all;
+}
+
+}  // namespace
+
+std::vector<EmittingPart> emitting_parts(const scene::Scene& scene) {
+    const Emission emission(scene);
+    std::vector<EmittingPart> parts;
+    for (const scene::Mesh& mesh : scene.meshes)
+        for (const scene::Primitive& primitive : mesh.primitives)
+            parts.push_back(emitting_part(primitive, scene.materials[primitive.material], emission));
+    size_t part = 0;
+    for (const scene::Mesh& mesh : scene.meshes)
+        for (size_t i = 0; i < mesh.primitives.size(); ++i, ++part) add_frame(scene, mesh, i, parts[part]);
+    return parts;
+}
+
+SmallEmitterList small_emitter_list(const std::vector<EmittingPart>& parts, const GpuScene& scene,
+                                    const SceneFrame& frame, const View& view) {
+    SmallEmitterList list;
+    SilhouetteTiles tiles(view.extent);
+    uint32_t number = 0;
+    for (const GpuScene::Placement& placement : scene.placements()) {
+        Pose pose{view.world_to_view * frame.world[placement.node], 1};
+        if (glm::determinant(glm::dmat3(pose.to_view)) < 0) pose.front = -1;
+        for (uint32_t i = 0; i < placement.part_count; ++i, ++number) {
+            const uint32_t p = placement.first_part + i;
+            if (parts[p].triangles.empty() || !is_seen(view, sphere_of(scene.parts()[p], glm::mat4(pose.to_view))))
+                continue;
+            const std::vector<Seen> all = look_at(parts[p], pose, frame.dimming_of(placement.node), view);
+            const bool crowded = std::ranges::any_of(all, [&](const Seen& seen) {
+                return tiles.most_beside(seen.silhouette.vertices) + all.size() > kMostSmallEmittersOfTile;
+            });
+            if (all.empty() || crowded) continue;
+            for (const Seen& seen : all) {
+                const SilhouetteTiles::Place place = tiles.add(seen.silhouette.vertices);
+                list.emitters.push_back({glm::vec3(seen.luminance), float(place.first),
+                                         glm::vec3(inverse_depth(seen.corners, place.origin, view)),
+                                         float(place.vertices), place.origin, seen.hides ? 1.0f : 0.0f, 0});
+            }
+            list.parts.push_back(number);
+        }
+    }
+    static_cast<SilhouetteList&>(list) = tiles.list();
+    return list;
+}
+
+}  // namespace vesper::gpu_scene

@@ -1,0 +1,53 @@
+// Emitting surfaces that are about as small as a pixel. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "gpu_scene/gpu_scene.h"
+#include "gpu_scene/silhouette_tiles.h"
+#include "shared/small_emitter.h"
+
+namespace vesper::gpu_scene {
+
+/// Parts whose triangles are all narrower than this are drawn by the area that these cover, px.
+constexpr double kSmallEmitter = 8;
+/// Wider triangles with a texture are drawn as four: of each the mean luminance is shown. px
+constexpr double kOneLuminance = 1.5;
+/// Facets of a frame that are wider are not listed: the middle of some pixel sees them. px
+constexpr double kFrameWidth = 3;
+/// Parts of more triangles, or with more facets at them, are drawn as other surfaces are,
+constexpr size_t kMostTrianglesOfSmallEmitter = 128, kMostFacetsOfFrame = 512;
+/// and so are those of which a tile would get more.
+constexpr uint32_t kMostSmallEmittersOfTile = 1000;
+
+/// The triangles of a part that emits.
+struct EmittingPart {
+    struct Triangle {
+        std::array<glm::vec3, 3> corners;  ///< m, mesh frame, counter-clockwise seen from the front
+        /// RGB cd/m^2, the means over its quarters: at each corner, and in the middle.
+        std::array<glm::vec3, 4> luminance;
+    };
+    std::vector<Triangle> triangles;  ///< none: it emits nothing, has holes, has too many, or emits to both sides and
+                                      ///< is not flat, so that one side may hide the other
+    bool double_sided = false;
+    bool plain = true;  ///< luminance is the same all over each triangle
+    /// Facets of its mesh that may hide it, of three or four corners: bars of its frame, seen from their front.
+    std::vector<std::vector<glm::vec3>> frame;
+};
+
+/// Of each GpuScene::parts().
+std::vector<EmittingPart> emitting_parts(const scene::Scene& scene);
+
+/// Small emitters in view, and what may hide them. Silhouette i is that of emitter i.
+struct SmallEmitterList : SilhouetteList {
+    std::vector<shared::SmallEmitter> emitters;
+    /// Parts that it has, which are to be drawn without their emission: by number, counted over all parts of
+    /// GpuScene::placements(), ascending.
+    std::vector<uint32_t> parts;
+};
+
+SmallEmitterList small_emitter_list(const std::vector<EmittingPart>& parts, const GpuScene& scene,
+                                    const SceneFrame& frame, const View& view);
+
+}  // namespace vesper::gpu_scene

@@ -1,0 +1,99 @@
+// What pixels of a drawn scene see, for the references of edges and small emitters. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <random>
+
+#include "gpu_scene/facets.h"
+#include "gpu_scene/leading_vertices.h"
+#include "gpu_scene/view.h"
+#include "passes/edges_reference.h"
+#include "passes/shade_reference.h"
+#include "shared/gbuffer.h"
+#include "support/rooms.h"
+
+namespace vesper::test {
+
+/// What each vertex of the device leads, in its mesh's frame.
+inline std::vector<std::vector<glm::dvec3>> facets_on_the_device(const scene::Scene& scene) {
+    std::vector<std::vector<glm::dvec3>> all;
+    for (const scene::Mesh& mesh : scene.meshes)
+        for (const scene::Primitive& primitive : mesh.primitives) {
+            const gpu_scene::LeadingVertices leading(primitive);
+            const std::vector<gpu_scene::Facet> facets = gpu_scene::facets(primitive);
+            const size_t first = all.size();
+            all.resize(first + leading.vertices().size());
+            for (size_t i = 0; i < facets.size(); ++i)
+                for (uint32_t k = 0; k < facets[i].count; ++k)
+                    all[first + leading.indices()[3 * i]].emplace_back(
+                        primitive.vertices[facets[i].corners[k]].position);
+        }
+    return all;
+}
+
+/// What its pixels see, from the layers of its G-buffer; `luminance` of each.
+inline reference::SeenPicture seen_picture(const scene::Scene& scene, const gpu_scene::View& view,
+                                           const std::vector<glm::uvec2>& triangles,
+                                           const std::vector<glm::vec4>& surfaces,
+                                           const std::vector<shared::Instance>& instances,
+                                           const std::vector<glm::vec4>& luminance) {
+    reference::SeenPicture picture{glm::ivec2(view.extent.width, view.extent.height),
+                                   glm::dvec2(view.ray_scale()),
+                                   glm::dvec2(view.ray_offset()),
+                                   {},
+                                   {}};
+    const auto facets = facets_on_the_device(scene);
+    for (size_t i = 0; i < triangles.size(); ++i) {
+        reference::SeenFacet& facet = picture.facets.emplace_back();
+        picture.luminance.emplace_back(glm::vec3(luminance[i]));
+        facet.instance = triangles[i].x;
+        if (triangles[i].x == 0) continue;
+        facet.triangle = triangles[i].y;
+        const shared::Instance& instance = instances[triangles[i].x - 1];
+        for (const glm::dvec3& corner : facets.at(triangles[i].y)) {
+            const glm::dvec4 p(corner, 1);
+            facet.corners.emplace_back(glm::dot(glm::dvec4(instance.row_x), p), glm::dot(glm::dvec4(instance.row_y), p),
+                                       glm::dot(glm::dvec4(instance.row_z), p));
+        }
+        const glm::dvec2 middle = glm::dvec2(i % view.extent.width, i / view.extent.width) + 0.5;
+        facet.normal = reference::octahedral_decode({surfaces[i].x, surfaces[i].y});
+        facet.position = double(surfaces[i].z) * glm::dvec3(picture.scale * middle + picture.offset, -1);
+        facet.masked = instance.masked != 0;
+    }
+    return picture;
+}
+
+/// Boxes and sheets of all sizes and turns before a wall and the sky, some mirrored, some with holes, some beside and
+/// behind the eye.
+inline scene::Scene clutter(uint32_t seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    scene::Scene scene;
+    add_material(scene, 0.5f);
+    scene.materials[0].double_sided = true;
+    scene.images = {{"", 8, 8, {}}};
+    for (int i = 0; i < 64; ++i)
+        scene.images[0].rgba.insert(scene.images[0].rgba.end(), {200, 200, 200, uint8_t(random() % 256)});
+    add_material(scene, 0.5f);
+    scene.materials[1].alpha = scene::Material::Alpha::Mask, scene.materials[1].alpha_cutoff = 0.5f;
+    scene.materials[1].base_colour_texture.image = 0, scene.materials[1].double_sided = true;
+    add_rectangle(scene, 0, {-30, -30, -40}, {60, 0, 0}, {0, 40, 0});
+    add_rectangle(scene, 0, {-30, -3, 20}, {60, 0, 0}, {0, 0, -60});  // a road under the eye, and behind it
+    for (int i = 0; i < 30; ++i) {
+        const float size = std::pow(10.0f, unit(random));
+        const glm::vec3 place(12 * unit(random), 8 * unit(random), -14 + 12 * unit(random));
+        if (i % 3 == 0)
+            add_rectangle(scene, i % 2, place, size * glm::vec3(unit(random), unit(random), unit(random)),
+                          size * glm::vec3(unit(random), unit(random), unit(random)));
+        else
+            add_box(scene, 0, size * glm::vec3(0.1f, 1, 0.3f), glm::vec3(0));
+        for (size_t n = scene.nodes.size() - 6; i % 3 != 0 && n < scene.nodes.size(); ++n)
+            scene.nodes[n].translation = place, scene.nodes[n].scale = {i % 2 ? -1.0 : 1.0, 1.0, 1.0};
+    }
+    for (scene::Mesh& mesh : scene.meshes)
+        for (scene::Primitive& p : mesh.primitives)
+            for (size_t k = 0; k < p.vertices.size(); ++k) p.vertices[k].uv = {float(k % 2), float(k / 2)};
+    return scene;
+}
+
+}  // namespace vesper::test

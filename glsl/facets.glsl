@@ -31,6 +31,7 @@ struct SeenFacet {
     vec3 inverse_depth;  // of a place (px, 1) of its plane, 1/m
     bool narrow;         // narrower than a pixel
     bool has_holes;
+    float placement;     // number of its mesh
 };
 
 // The facet of the triangle (of GBuffer::triangle) that the middle `there` px away sees.
@@ -47,7 +48,7 @@ SeenFacet facet_of(uvec2 triangle, vec2 there) {
     const vec3 p = vec3(there, 1.0);
     const float width = triangular ? kTriangleWidth * min(min(height(ab, c), height(bc, a)), height(da, b)) : min(dot(ab + cd, p), dot(bc + da, p));
     const vec3 inverse_depth = (cross(a, b) + cross(b, c) + cross(c, a)) / dot(c, cross(a, b));
-    return SeenFacet(vec3[](ab, bc, cd, da), inverse_depth, width < 1.0, kind.y != 0.0);
+    return SeenFacet(vec3[](ab, bc, cd, da), inverse_depth, width < 1.0, kind.y != 0.0, kind.z);
 }
 
 // Of a place (px, 1): how far it is from the nearest line along an edge, px; negative outside.

@@ -80,7 +80,7 @@ void widen(Silhouette& silhouette, const Axes& axes, dvec2 centre, double smalle
     const dmat2 wider = widening_of(axes, smallest);
     for (dvec2& v : silhouette.vertices) v = centre + wider * (v - centre);
     silhouette.widening = glm::determinant(wider);
-    silhouette.width = 2 * axes.short_half;
+    silhouette.width = 2 * axes.short_half, silhouette.length = 2 * axes.long_half;
 }
 
 // Leaves what is within the image, with y down, if anything is.

@@ -18,7 +18,7 @@ struct Opening {
 struct Silhouette {
     std::vector<glm::dvec2> vertices;  ///< px, convex, of positive area with y down; empty: nothing to see
     double widening = 1;               ///< drawn area over true area
-    double width = 0;                  ///< px, of the true one where it is least; 0 if part of it is behind the eye
+    double width = 0, length = 0;      ///< px, of the true one across and along; 0 if part of it is behind the eye
 };
 
 /// What the view sees of an opening: before its near plane and within its image. An ellipse becomes a polygon of the

@@ -71,12 +71,12 @@ SilhouetteTiles::Place SilhouetteTiles::add(std::span<const dvec2> polygon) {
     return place;
 }
 
-uint32_t SilhouetteTiles::most_beside(std::span<const dvec2> polygon) const {
-    uint32_t most = 0;
+SilhouetteTiles::Load SilhouetteTiles::load_of(std::span<const dvec2> polygon) const {
+    Load load{};
     for_each_tile(polygon, image_, [&](uint32_t column, uint32_t row, bool) {
-        most = std::max(most, counts_[row * columns_ + column]);
+        ++load.tiles, load.most = std::max(load.most, counts_[row * columns_ + column]);
     });
-    return most;
+    return load;
 }
 
 SilhouetteList SilhouetteTiles::list() const {

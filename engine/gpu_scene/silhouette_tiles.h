@@ -29,8 +29,13 @@ public:
     };
     /// The next silhouette: convex, not empty, within the image, px.
     Place add(std::span<const glm::dvec2> polygon);
-    /// Most silhouettes that a tile has of those that this one touches.
-    uint32_t most_beside(std::span<const glm::dvec2> polygon) const;
+    /// The tiles that a silhouette would touch, and the most silhouettes that one of them has.
+    struct Load {
+        size_t tiles;
+        uint32_t most;
+    };
+    Load load_of(std::span<const glm::dvec2> polygon) const;
+    size_t entries() const { return touched_.size(); }
     SilhouetteList list() const;
 
 private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <span>
 
@@ -46,17 +47,28 @@ public:
     }
 
 private:
-    // Of kRows^2 places, each of as much area.
+    // Of rows^2 places, each of as much area: four along a texel, as far as they go.
     dvec3 mean(const scene::Material& m, const std::array<dvec2, 3>& uv) const {
-        constexpr int kRows = 6;
+        const dvec2 size = size_of(m);
+        const double texels = std::max(glm::length(size * (uv[1] - uv[0])), glm::length(size * (uv[2] - uv[0])));
+        const int most = looks_ < kMostLooks ? 64 : 6;
+        const int rows = std::isfinite(texels) ? int(std::clamp(std::ceil(4 * texels), 6.0, double(most))) : 6;
+        looks_ += uint64_t(rows) * uint64_t(rows);
         dvec3 sum(0);
-        for (int row = 0; row < kRows; ++row)
+        for (int row = 0; row < rows; ++row)
             for (int i = 0; i < 2 * row + 1; ++i) {  // small triangles: i / 2 along the row, every other one turned
-                const double first = (row + (i % 2 ? 1 / 3.0 : 2 / 3.0)) / kRows;
-                const double second = (i / 2 + (i % 2 ? 2 / 3.0 : 1 / 3.0)) / kRows;
+                const double first = (row + (i % 2 ? 1 / 3.0 : 2 / 3.0)) / rows;
+                const double second = (i / 2 + (i % 2 ? 2 / 3.0 : 1 / 3.0)) / rows;
                 sum += at(m, uv[0] + first * (uv[1] - uv[0]) + second * (uv[2] - uv[1]));
             }
-        return sum / double(kRows * kRows);
+        return sum / double(rows * rows);
+    }
+    dvec2 size_of(const scene::Material& m) const {
+        if (m.emission_picture.image != scene::kNone) {
+            const photometry::LuminancePicture& picture = scene_.luminance_pictures[m.emission_picture.image];
+            return {picture.width, picture.height};
+        }
+        return {scene_.images[m.emission_texture.image].width, scene_.images[m.emission_texture.image].height};
     }
     dvec3 at(const scene::Material& m, dvec2 uv) const {
         if (!std::isfinite(uv.x + uv.y)) return dvec3(0);
@@ -72,17 +84,22 @@ private:
         });
     }
 
+    static constexpr uint64_t kMostLooks = 5'000'000;  // a second
     const scene::Scene& scene_;
     std::array<double, 256> codes_;
+    mutable uint64_t looks_ = 0;
 };
 
-// Whether all lie in one plane, to 1 % of the distance between their corners.
+// Whether all lie in one plane, to 1 % of the distance between their corners, and face the same way.
 bool is_flat(const std::vector<EmittingPart::Triangle>& triangles) {
     const auto& [a, b, c] = triangles.front().corners;
     const glm::vec3 normal = glm::normalize(glm::cross(b - a, c - a));
-    for (const EmittingPart::Triangle& triangle : triangles)
+    for (const EmittingPart::Triangle& triangle : triangles) {
+        const auto& [d, e, f] = triangle.corners;
+        if (glm::dot(normal, glm::cross(e - d, f - d)) < 0) return false;
         for (const glm::vec3& corner : triangle.corners)
             if (!(std::abs(glm::dot(normal, corner - a)) <= 0.01f * glm::distance(corner, a))) return false;
+    }
     return true;
 }
 
@@ -94,7 +111,7 @@ std::array<glm::vec3, 3> corners_of(const scene::Primitive& primitive, size_t tr
 
 EmittingPart emitting_part(const scene::Primitive& primitive, const scene::Material& material,
                            const Emission& emission) {
-    EmittingPart part{{}, material.double_sided, !Emission::has_texture(material), {}};
+    EmittingPart part{{}, material.double_sided, !Emission::has_texture(material), 0, {}};
     const size_t count = primitive.indices.size() / 3;
     if (material.emission == glm::vec3(0) || material.alpha == scene::Material::Alpha::Mask ||
         count > kMostTrianglesOfSmallEmitter)
@@ -105,35 +122,60 @@ EmittingPart emitting_part(const scene::Primitive& primitive, const scene::Mater
     return part;
 }
 
-// The facets of a primitive that reach into a box, each once.
-void add_facets(const scene::Primitive& primitive, glm::vec3 low, glm::vec3 high,
-                std::vector<std::vector<glm::vec3>>& to) {
+// A facet of a mesh and its box.
+struct BoxedFacet {
+    std::vector<glm::vec3> corners;
+    scene::Bounds box;
+};
+
+// The facets of a primitive, each once.
+std::vector<BoxedFacet> boxed_facets(const scene::Primitive& primitive) {
+    std::vector<BoxedFacet> list;
     std::set<std::array<uint32_t, 4>> known;
     for (const Facet& facet : facets(primitive)) {
         std::array<uint32_t, 4> sorted = facet.corners;
         std::sort(sorted.begin(), sorted.begin() + facet.count);
         if (!known.insert(sorted).second) continue;
-        std::vector<glm::vec3> corners;
-        glm::vec3 from(std::numeric_limits<float>::infinity()), end = -from;
+        BoxedFacet& boxed = list.emplace_back();
         for (uint32_t k = 0; k < facet.count; ++k) {
-            corners.push_back(primitive.vertices[facet.corners[k]].position);
-            from = glm::min(from, corners.back()), end = glm::max(end, corners.back());
+            boxed.corners.push_back(primitive.vertices[facet.corners[k]].position);
+            boxed.box.add(boxed.corners.back());
         }
-        if (glm::all(glm::lessThanEqual(from, high)) && glm::all(glm::greaterThanEqual(end, low)))
-            to.push_back(std::move(corners));
     }
+    return list;
 }
 
-// What is within a tenth of a part's size of its box, of the other parts of its mesh.
-void add_frame(const scene::Scene& scene, const scene::Mesh& mesh, size_t number, EmittingPart& part) {
-    if (part.triangles.empty()) return;
-    const scene::Bounds box = mesh.primitives[number].bounds;
-    const glm::vec3 margin(0.1f * glm::distance(box.low, box.high));
-    for (size_t p = 0; p < mesh.primitives.size(); ++p) {
-        const scene::Primitive& other = mesh.primitives[p];
-        if (p != number && scene.materials[other.material].alpha != scene::Material::Alpha::Mask)
-            add_facets(other, box.low - margin, box.high + margin, part.frame);
-        if (part.frame.size() > kMostFacetsOfFrame) part.triangles.clear(), part.frame.clear();
+bool meet(const scene::Bounds& a, const scene::Bounds& b) {
+    return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
+}
+
+// Gives the emitting parts of a mesh what is within half their size of their box, of its other parts.
+void add_frames(const scene::Scene& scene, const scene::Mesh& mesh, std::span<EmittingPart> parts) {
+    const auto emitting =
+        size_t(std::ranges::count_if(parts, [](const auto& part) { return !part.triangles.empty(); }));
+    size_t triangles = 0;
+    for (const scene::Primitive& primitive : mesh.primitives) triangles += primitive.indices.size() / 3;
+    if (emitting * (triangles + parts.size()) > kMostLooksOfMesh)
+        for (EmittingPart& part : parts) part.triangles.clear();
+    if (emitting == 0 || parts.size() == 1) return;
+    std::vector<std::optional<std::vector<BoxedFacet>>> known(mesh.primitives.size());
+    for (size_t i = 0; i < parts.size(); ++i) {
+        if (parts[i].triangles.empty()) continue;
+        scene::Bounds box = mesh.primitives[i].bounds;
+        parts[i].reach = 0.5f * glm::distance(box.low, box.high);
+        box.low -= parts[i].reach, box.high += parts[i].reach;
+        for (size_t p = 0; p < mesh.primitives.size(); ++p) {
+            const scene::Primitive& other = mesh.primitives[p];
+            if (p == i || scene.materials[other.material].alpha == scene::Material::Alpha::Mask ||
+                !meet(other.bounds, box))
+                continue;
+            if (!known[p]) known[p] = boxed_facets(other);
+            for (const BoxedFacet& facet : *known[p])
+                if (meet(facet.box, box)) parts[i].frame.push_back(facet.corners);
+            if (parts[i].frame.size() <= kMostFacetsOfFrame) continue;
+            parts[i].triangles.clear(), parts[i].frame.clear();
+            break;
+        }
     }
 }
 
@@ -142,7 +184,7 @@ struct Seen {
     std::array<dvec3, 3> corners;  // view frame
     Silhouette silhouette;
     dvec3 luminance;
-    bool hides;
+    double widening;  // 0: it emits nothing
 };
 
 // Linear over the image: the inverse of the depth of a plane, 1/m, at a place from `origin`, px.
@@ -165,18 +207,23 @@ struct Pose {
     }
 };
 
-// Adds what the view sees of a triangle, unless it is behind the eye or too wide.
-bool add_seen(const std::array<dvec3, 3>& corners, dvec3 luminance, const View& view, std::vector<Seen>& all) {
-    Seen seen{corners, project(corners, view, kSmallest), {}, false};
-    if (!(seen.silhouette.width < kSmallEmitter)) return false;
-    seen.luminance = luminance / seen.silhouette.widening;
-    if (!std::isfinite(seen.luminance.r + seen.luminance.g + seen.luminance.b)) return false;
-    if (!seen.silhouette.vertices.empty()) all.push_back(std::move(seen));
+// Adds what the view sees of a triangle, unless it is too large.
+bool add_seen(const std::array<dvec3, 3>& corners, dvec3 luminance, double longest, const View& view,
+              std::vector<Seen>& all) {
+    Seen seen{corners, project(corners, view, kSmallest), luminance, 0};
+    const Silhouette& s = seen.silhouette;
+    if (!(s.width < kSmallEmitter) || !(s.length < longest)) return false;
+    if (!std::isfinite(luminance.r + luminance.g + luminance.b)) return false;
+    seen.widening = s.widening;
+    if (!s.vertices.empty()) all.push_back(std::move(seen));
     return true;
 }
 
 // What the view sees of a part, if all of it is small.
 std::vector<Seen> look_at(const EmittingPart& part, const Pose& pose, float dimming, const View& view) {
+    const double longest = part.plain           ? std::numeric_limits<double>::infinity()
+                           : part.frame.empty() ? kLongestTextured
+                                                : kLongestFramed;
     std::vector<Seen> all;
     for (const EmittingPart::Triangle& triangle : part.triangles) {
         const std::array<dvec3, 3> corners{pose.place(triangle.corners[0]), pose.place(triangle.corners[1]),
@@ -187,12 +234,13 @@ std::vector<Seen> look_at(const EmittingPart& part, const Pose& pose, float dimm
         std::array<dvec3, 4> luminance;
         for (size_t i = 0; i < 4; ++i) luminance[i] = double(dimming) * dvec3(triangle.luminance[i]);
         const size_t before = all.size();
-        if (!add_seen(corners, (luminance[0] + luminance[1] + luminance[2] + luminance[3]) / 4.0, view, all)) return {};
+        if (!add_seen(corners, (luminance[0] + luminance[1] + luminance[2] + luminance[3]) / 4.0, longest, view, all))
+            return {};
         if (part.plain || all.size() == before || all.back().silhouette.width < kOneLuminance) continue;
         all.pop_back();
         const auto parts = quarters(corners);
         for (size_t i = 0; i < 4; ++i)
-            if (!add_seen(parts[i], luminance[i], view, all)) return {};
+            if (!add_seen(parts[i], luminance[i], longest, view, all)) return {};
     }
     if (all.empty()) return all;
     double deepest = 0;  // of what emits, m
@@ -204,10 +252,21 @@ std::vector<Seen> look_at(const EmittingPart& part, const Pose& pose, float dimm
         for (const glm::vec3& corner : facet) corners.push_back(pose.place(corner));
         const bool behind = std::ranges::all_of(corners, [&](const dvec3& v) { return -v.z > deepest; });
         if (behind || !(pose.facing(corners) > 0)) continue;
-        Seen seen{{corners[0], corners[1], corners[2]}, project(corners, view, 0), dvec3(0), true};
+        Seen seen{{corners[0], corners[1], corners[2]}, project(corners, view, 0), dvec3(0), 0};
         if (seen.silhouette.width < kFrameWidth && !seen.silhouette.vertices.empty()) all.push_back(std::move(seen));
     }
     return all;
+}
+
+// Whether a frame takes so many more.
+bool have_room(const SilhouetteTiles& tiles, size_t listed, const std::vector<Seen>& more) {
+    size_t entries = tiles.entries();
+    for (const Seen& seen : more) {
+        const SilhouetteTiles::Load load = tiles.load_of(seen.silhouette.vertices);
+        if (load.most + more.size() > kMostSmallEmittersOfTile) return false;
+        entries += load.tiles;
+    }
+    return entries <= kMostEntries && listed + more.size() <= kMostSmallEmitters;
 }
 
 }  // namespace
@@ -218,9 +277,11 @@ std::vector<EmittingPart> emitting_parts(const scene::Scene& scene) {
     for (const scene::Mesh& mesh : scene.meshes)
         for (const scene::Primitive& primitive : mesh.primitives)
             parts.push_back(emitting_part(primitive, scene.materials[primitive.material], emission));
-    size_t part = 0;
-    for (const scene::Mesh& mesh : scene.meshes)
-        for (size_t i = 0; i < mesh.primitives.size(); ++i, ++part) add_frame(scene, mesh, i, parts[part]);
+    size_t first = 0;
+    for (const scene::Mesh& mesh : scene.meshes) {
+        add_frames(scene, mesh, std::span(parts).subspan(first, mesh.primitives.size()));
+        first += mesh.primitives.size();
+    }
     return parts;
 }
 
@@ -228,24 +289,25 @@ SmallEmitterList small_emitter_list(const std::vector<EmittingPart>& parts, cons
                                     const SceneFrame& frame, const View& view) {
     SmallEmitterList list;
     SilhouetteTiles tiles(view.extent);
-    uint32_t number = 0;
+    uint32_t number = 0, mesh = 0;
     for (const GpuScene::Placement& placement : scene.placements()) {
+        ++mesh;
         Pose pose{view.world_to_view * frame.world[placement.node], 1};
         if (glm::determinant(glm::dmat3(pose.to_view)) < 0) pose.front = -1;
         for (uint32_t i = 0; i < placement.part_count; ++i, ++number) {
             const uint32_t p = placement.first_part + i;
-            if (parts[p].triangles.empty() || !is_seen(view, sphere_of(scene.parts()[p], glm::mat4(pose.to_view))))
-                continue;
+            if (parts[p].triangles.empty()) continue;
+            const Sphere sphere = sphere_of(scene.parts()[p], glm::mat4(pose.to_view));
+            if (!is_seen(view, sphere)) continue;
             const std::vector<Seen> all = look_at(parts[p], pose, frame.dimming_of(placement.node), view);
-            const bool crowded = std::ranges::any_of(all, [&](const Seen& seen) {
-                return tiles.most_beside(seen.silhouette.vertices) + all.size() > kMostSmallEmittersOfTile;
-            });
-            if (all.empty() || crowded) continue;
+            if (all.empty() || !have_room(tiles, list.emitters.size(), all)) continue;
+            const float scale = sphere.radius / std::max(scene.parts()[p].radius, 1e-30f);
             for (const Seen& seen : all) {
                 const SilhouetteTiles::Place place = tiles.add(seen.silhouette.vertices);
                 list.emitters.push_back({glm::vec3(seen.luminance), float(place.first),
                                          glm::vec3(inverse_depth(seen.corners, place.origin, view)),
-                                         float(place.vertices), place.origin, seen.hides ? 1.0f : 0.0f, 0});
+                                         float(place.vertices), place.origin, float(mesh), float(seen.widening),
+                                         parts[p].reach * scale, glm::vec3(0)});
             }
             list.parts.push_back(number);
         }

@@ -10,16 +10,21 @@
 
 namespace vesper::gpu_scene {
 
-/// Parts whose triangles are all narrower than this are drawn by the area that these cover, px.
+/// Parts whose triangles are all narrower than this are drawn by the area that these cover, px: by the ellipse of a
+/// triangle, so that a square has 10.
 constexpr double kSmallEmitter = 8;
+/// With a texture they must also be less long than this, px; with bars before it, which come and go otherwise, than
+/// that.
+constexpr double kLongestTextured = 4, kLongestFramed = 12;
 /// Wider triangles with a texture are drawn as four: of each the mean luminance is shown. px
 constexpr double kOneLuminance = 1.5;
 /// Facets of a frame that are wider are not listed: the middle of some pixel sees them. px
 constexpr double kFrameWidth = 3;
-/// Parts of more triangles, or with more facets at them, are drawn as other surfaces are,
-constexpr size_t kMostTrianglesOfSmallEmitter = 128, kMostFacetsOfFrame = 512;
-/// and so are those of which a tile would get more.
-constexpr uint32_t kMostSmallEmittersOfTile = 1000;
+/// Parts of more triangles, or with more facets near them, are drawn as other surfaces are, and so are those of meshes
+/// of which so many triangles would have to be looked at,
+constexpr size_t kMostTrianglesOfSmallEmitter = 128, kMostFacetsOfFrame = 512, kMostLooksOfMesh = 20'000'000;
+/// and so are those of which a tile, or a frame, would get more, or which would give the tiles more entries.
+constexpr uint32_t kMostSmallEmittersOfTile = 1000, kMostSmallEmitters = 16'384, kMostEntries = 1u << 18;
 
 /// The triangles of a part that emits.
 struct EmittingPart {
@@ -29,9 +34,10 @@ struct EmittingPart {
         std::array<glm::vec3, 4> luminance;
     };
     std::vector<Triangle> triangles;  ///< none: it emits nothing, has holes, has too many, or emits to both sides and
-                                      ///< is not flat, so that one side may hide the other
+                                      ///< is not flat or has a front on both, so that one may hide the other
     bool double_sided = false;
     bool plain = true;  ///< luminance is the same all over each triangle
+    float reach = 0;    ///< m, mesh frame: what is so near to its box is listed
     /// Facets of its mesh that may hide it, of three or four corners: bars of its frame, seen from their front.
     std::vector<std::vector<glm::vec3>> frame;
 };

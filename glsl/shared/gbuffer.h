@@ -23,7 +23,8 @@ struct Instance {
     vec4 row_z;
     float dimming;   // factor on its emission
     float masked;    // 1: its surface has holes
-    vec2 unused;     // so that it is kTexelsPerInstance texels of rgba32f
+    float placement; // 1 + number of the mesh that it is a part of
+    float unused;    // so that it is kTexelsPerInstance texels of rgba32f
 };
 SHARED_SIZE(Instance, 64)
 const uint kTexelsPerInstance = 4u;

@@ -4,22 +4,24 @@
 #include "types.h"
 SHARED_BEGIN
 
-// A triangle that emits, or a facet that hides those that do: its silhouette. Read as a texel buffer of three rgba32f texels.
+// A triangle that emits, or a facet that hides those that do: its silhouette. Read as a texel buffer of four rgba32f texels.
 struct SmallEmitter {
-    vec3 luminance;      // cd/m^2 RGB, of what the silhouette covers
+    vec3 luminance;      // cd/m^2 RGB
     float first;         // of its vertices
     vec3 inverse_depth;  // of its plane, 1/m, at a place: dot(inverse_depth, vec3(px from the origin, 1))
     float vertices;      // how many
     vec2 origin;         // px, whole: vertices count from here
-    float hides;         // 1: it emits nothing, but hides what is behind it
-    float unused;
+    float placement;     // as of its Instance
+    float widening;      // drawn area over true area; 0: it emits nothing
+    float reach;         // facets of its mesh that are less than so much before it are listed, m
+    vec3 unused;
 };
-SHARED_SIZE(SmallEmitter, 48)
+SHARED_SIZE(SmallEmitter, 64)
 
-const uint kTexelsPerSmallEmitter = 3u;
+const uint kTexelsPerSmallEmitter = 4u;
 
 // What is nearer than an emitter by so much of its depth hides it: rounding does not.
-const float kInFront = 1e-5f;
+const float kInFront = 3e-6f;
 
 struct SmallEmittersPush {
     uvec2 size;       // px

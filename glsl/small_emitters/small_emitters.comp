@@ -5,8 +5,8 @@
 
 // Adds what small emitters emit: luminance times the part of each pixel that their silhouette covers, exactly, times the part of
 // that which nothing hides, at the points that edge_means.comp asks, too. What hides it is found among the facets that the pixel and
-// its neighbours see in their middles, and among the facets of its frame. A facet that has holes hides the pixel whose middle
-// sees it, and no other.
+// its neighbours see in their middles, among those of its own mesh that are near it, and among the emitters that are a pixel wide.
+// Of other meshes a facet that is narrower than a pixel, or has holes, hides the pixel whose middle sees it and no other.
 
 #include "shared/edges.h"
 #include "shared/gbuffer.h"
@@ -32,7 +32,8 @@ layout(push_constant, scalar) uniform Push { SmallEmittersPush push; };
 #include "neighbours.glsl"
 
 float nearest[kEdgeSamples];  // inverse depth of what covers a point of the pixel, 1/m; 0: nothing known
-float filling;                // of what has holes and is seen in its middle; 0: nothing
+float filling;                // of what is narrow or has holes and is seen in its middle; 0: nothing
+float filling_placement;      // of it; 0: it has holes
 
 void find_nearest(ivec2 pixel) {
     middle = push.ray_scale * (vec2(pixel) + 0.5) + push.ray_offset;
@@ -44,8 +45,8 @@ void find_nearest(ivec2 pixel) {
         const uvec2 triangle = imageLoad(triangles, at).rg;
         if (triangle.r == 0u) continue;
         const SeenFacet facet = facet_of(triangle, vec2(neighbour(k)));
-        if (facet.has_holes) {
-            if (k == 0u) filling = 1.0 / imageLoad(surface_image, pixel).z;
+        if (facet.has_holes || facet.narrow) {
+            if (k == 0u) filling = 1.0 / imageLoad(surface_image, pixel).z, filling_placement = facet.has_holes ? 0.0 : facet.placement;
             continue;
         }
         [[unroll]] for (uint i = 0u; i < kEdgeSamples; ++i) {
@@ -59,13 +60,13 @@ struct Piece {
     vec3 luminance, inverse_depth;
     vec2 corner;  // of the pixel, px from its origin
     int first, count;
-    bool hides;
+    float placement, widening, reach;
 };
 
 Piece piece_of(uint entry, ivec2 pixel) {
     const int at = int((entry & ~kCoversTile) * kTexelsPerSmallEmitter);
     const vec4 a = texelFetch(emitters, at), b = texelFetch(emitters, at + 1), c = texelFetch(emitters, at + 2);
-    return Piece(a.rgb, b.xyz, vec2(pixel) - c.xy, int(a.w), int(b.w), c.z != 0.0);
+    return Piece(a.rgb, b.xyz, vec2(pixel) - c.xy, int(a.w), int(b.w), c.z, c.w, texelFetch(emitters, at + 3).x);
 }
 
 float depth_at(Piece piece, uint i) { return dot(piece.inverse_depth, vec3(piece.corner + 0.5 + place_of(i), 1.0)); }
@@ -87,8 +88,9 @@ void find_within(Piece piece) {
 
 // The part of a silhouette within the pixel that nothing hides: of the points in it; where there is none, what the closest sees.
 float seen_part(Piece piece) {
-    const float rounding = 1.0 + kInFront;
-    if (filling > rounding * dot(piece.inverse_depth, vec3(piece.corner + 0.5, 1.0))) return 0.0;
+    const float rounding = 1.0 + kInFront, here = dot(piece.inverse_depth, vec3(piece.corner + 0.5, 1.0));
+    const bool is_listed = filling_placement == piece.placement && filling * (1.0 - piece.reach * here) <= here;
+    if (filling > rounding * here && !is_listed) return 0.0;
     find_within(piece);
     float points = 0.0, seen = 0.0, closest = -1e30, seen_closest = 0.0;
     [[unroll]] for (uint i = 0u; i < kEdgeSamples; ++i) {
@@ -111,22 +113,26 @@ void main() {
     bool is_covered = false;
     for (uint i = 0u; i < tile.w && !is_covered; ++i) {
         const Piece piece = piece_of(texelFetch(entries, int(tile.z + i)).r, pixel);
-        is_covered = !piece.hides && coverage(piece.corner, piece.first, piece.count) > 0.0;
+        is_covered = piece.widening > 0.0 && coverage(piece.corner, piece.first, piece.count) > 0.0;
     }
     if (!is_covered) return;
     find_nearest(pixel);
     for (uint i = 0u; i < tile.w; ++i) {
         const Piece piece = piece_of(texelFetch(entries, int(tile.z + i)).r, pixel);
-        if (!piece.hides) continue;
+        if (piece.widening > 1.0) continue;  // others hide what is behind them
         find_within(piece);
         [[unroll]] for (uint k = 0u; k < kEdgeSamples; ++k) nearest[k] = within[k] >= 0.0 ? max(nearest[k], depth_at(piece, k)) : nearest[k];
     }
     vec3 sum = vec3(0.0);
+    float share = 0.0;  // of the pixel
     for (uint i = 0u; i < tile.w; ++i) {
         const Piece piece = piece_of(texelFetch(entries, int(tile.z + i)).r, pixel);
-        const float covered = piece.hides ? 0.0 : coverage(piece.corner, piece.first, piece.count);
-        if (covered > 0.0) sum += piece.luminance * (covered * seen_part(piece));
+        const float covered = piece.widening > 0.0 ? coverage(piece.corner, piece.first, piece.count) : 0.0;
+        if (covered == 0.0) continue;
+        const float seen = covered / piece.widening * seen_part(piece);
+        sum += piece.luminance * seen;
+        share += seen;
     }
     const vec4 scene = imageLoad(scene_image, pixel);
-    imageStore(scene_image, pixel, vec4(scene.rgb + sum, scene.a));
+    imageStore(scene_image, pixel, vec4(scene.rgb + sum / max(share, 1.0), scene.a));
 }

@@ -223,6 +223,19 @@ TEST(AntiAliasing, SmallEmittersKeepTheirLightAsTheyMove) {
     }
 }
 
+// Behind a post of strips that are all narrower than a pixel, as round ones are.
+TEST(AntiAliasing, SmallEmittersAreHiddenByFineMeshes) {
+    Frames frames;
+    Scene scene;
+    const uint32_t sign = add_material(scene, 0, 1e4f), dark = add_material(scene, 0, 0);
+    add_rectangle(scene, sign, {-0.03f, 0, -1}, {0.03f, 0, 0}, {0, 0.015f, 0});  // 1.9 px wide
+    const double all = sum_of(frames.of(scene, 1));
+    EXPECT_NEAR(all, 1e4 * 1.92 * 0.96, 100);
+    for (int i = 0; i < 80; ++i)
+        add_rectangle(scene, dark, {-0.05f + 0.001f * float(i), -0.2f, -0.5f}, {0.001f, 0, 0}, {0, 0.4f, 0});
+    EXPECT_NEAR(sum_of(frames.of(scene, 1)), 0, 1e-3 * all);
+}
+
 // One that a post hides to a third, and one behind a wall.
 TEST(AntiAliasing, SmallEmittersAreHidden) {
     Frames frames;

@@ -24,6 +24,7 @@ struct SeenFacet {
     std::vector<dvec3> corners;           ///< of its facet, in turn, m
     dvec3 normal{0, 0, 1}, position{0};   ///< unit; m
     bool masked = false;                  ///< it may have holes
+    double placement = 0;                 ///< number of its mesh
 };
 
 /// A picture of such pixels: pixel (x, y), y down, sees along (scale (pixel + 1/2) + offset, -1).

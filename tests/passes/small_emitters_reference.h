@@ -13,7 +13,7 @@ struct SmallTriangle {
     std::vector<dvec2> silhouette;  ///< px
     dvec3 luminance, inverse_depth;
     dvec2 origin;
-    bool hides;
+    double widening = 1, placement = 0, reach = 0;  ///< as of shared::SmallEmitter
 
     /// How far inside a place is, px; negative: outside.
     double inside(dvec2 place) const {
@@ -30,7 +30,13 @@ struct SmallTriangle {
 inline std::vector<SmallTriangle> triangles_of(const gpu_scene::SmallEmitterList& list) {
     std::vector<SmallTriangle> triangles;
     for (const shared::SmallEmitter& e : list.emitters) {
-        SmallTriangle triangle{{}, dvec3(e.luminance), dvec3(e.inverse_depth), dvec2(e.origin), e.hides != 0};
+        SmallTriangle triangle{{},
+                               dvec3(e.luminance),
+                               dvec3(e.inverse_depth),
+                               dvec2(e.origin),
+                               double(e.widening),
+                               double(e.placement),
+                               double(e.reach)};
         for (size_t i = 0; i < size_t(e.vertices); ++i)
             triangle.silhouette.push_back(triangle.origin + dvec2(list.silhouettes[size_t(e.first) + i]));
         triangles.push_back(triangle);
@@ -52,12 +58,15 @@ inline Emitted emitted(const std::vector<SmallTriangle>& triangles, const SeenPi
         const uint32_t reversed = (i & 1) << 3 | (i & 2) << 1 | (i & 4) >> 1 | (i & 8) >> 3;
         places[i] = dvec2(p) + dvec2((i + 0.5) / 16, reversed / 16.0 + 1 / 32.0);
     }
-    double filling = 0;
+    double filling = 0, filling_placement = 0;
     for (const ivec2 q : neighbourhood(p)) {
         if (!picture.has(q) || picture.facet(q).instance == 0) continue;
         const SeenFacet& facet = picture.facet(q);
-        if (facet.masked) {
-            if (q == p) filling = -1 / facet.position.z;
+        const dvec3 middle(picture.scale * (dvec2(q) + 0.5) + picture.offset, -1);
+        const double width = width_of(facet.corners, middle, picture.scale);
+        if (!facet.masked) sum.doubt = std::min(sum.doubt, std::abs(width - 1));
+        if (facet.masked || width < 1) {
+            if (q == p) filling = -1 / facet.position.z, filling_placement = facet.masked ? 0 : facet.placement;
             continue;
         }
         for (uint32_t i = 0; i < shared::kEdgeSamples; ++i) {
@@ -68,7 +77,7 @@ inline Emitted emitted(const std::vector<SmallTriangle>& triangles, const SeenPi
         }
     }
     for (const SmallTriangle& t : triangles) {
-        if (!t.hides) continue;
+        if (t.widening > 1) continue;
         for (uint32_t i = 0; i < shared::kEdgeSamples; ++i) {
             const double inside = t.inside(places[i]);
             sum.doubt = std::min(sum.doubt, std::abs(inside));
@@ -81,8 +90,9 @@ inline Emitted emitted(const std::vector<SmallTriangle>& triangles, const SeenPi
         if (inverse_depth > 0) sum.doubt = std::min(sum.doubt, std::abs(before) * 1e3);
         return before > 0;
     };
+    double share = 0;
     for (const SmallTriangle& t : triangles) {
-        const double area = t.hides ? 0 : area_within(t.silhouette, p.x, p.y);
+        const double area = t.widening > 0 ? area_within(t.silhouette, p.x, p.y) / t.widening : 0;
         if (!(area > 0)) continue;
         double within = 0, seen = 0, closest = -1e30, next = -1e30, of_closest = 0;
         for (uint32_t i = 0; i < shared::kEdgeSamples; ++i) {
@@ -94,9 +104,15 @@ inline Emitted emitted(const std::vector<SmallTriangle>& triangles, const SeenPi
             if (inside > closest) closest = inside, of_closest = visible;
         }
         if (within == 0) sum.doubt = std::min(sum.doubt, closest - next);
-        if (hides(filling, t.depth(dvec2(p) + 0.5))) continue;
-        sum.luminance += t.luminance * area * (within > 0 ? seen / within : of_closest);
+        const double here = t.depth(dvec2(p) + 0.5);
+        const bool is_listed = filling_placement == t.placement && 1 / here - 1 / filling <= t.reach;
+        if (filling > 0) sum.doubt = std::min(sum.doubt, std::abs((1 / here - 1 / filling) / t.reach - 1) * 1e2);
+        if (!is_listed && hides(filling, here)) continue;
+        const double visible = area * (within > 0 ? seen / within : of_closest);
+        sum.luminance += t.luminance * visible;
+        share += visible;
     }
+    sum.luminance /= std::max(share, 1.0);
     return sum;
 }
 

@@ -21,23 +21,27 @@ SeenPicture picture(bool wall) {
 }
 
 // A square of 0.5 px in the middle pixel, at a depth, m.
-SmallTriangle square(double depth, bool hides = false) {
-    return {{{1.25, 1.25}, {1.75, 1.25}, {1.75, 1.75}, {1.25, 1.75}}, dvec3(100), {0, 0, 1 / depth}, {1, 1}, hides};
+SmallTriangle square(double depth, double widening = 1) {
+    return {{{1.25, 1.25}, {1.75, 1.25}, {1.75, 1.75}, {1.25, 1.75}}, dvec3(100), {0, 0, 1 / depth}, {1, 1}, widening};
 }
 
 TEST(SmallEmittersReference, LuminanceCountsByArea) {
     for (const bool wall : {false, true})
         EXPECT_NEAR(reference::emitted({square(3)}, picture(wall), {1, 1}).luminance.g, 25, 1e-12);
     EXPECT_EQ(reference::emitted({square(3)}, picture(true), {0, 1}).luminance.g, 0);
-    EXPECT_NEAR(reference::emitted({square(3), square(2)}, picture(true), {1, 1}).luminance.g, 50, 1e-12)
-        << "emitters hide no others";
+    EXPECT_NEAR(reference::emitted({square(3), square(2)}, picture(true), {1, 1}).luminance.g, 25, 1e-12)
+        << "what is before it hides it";
+    const std::vector<SmallTriangle> widened(12, square(3, 2));
+    EXPECT_NEAR(reference::emitted(std::vector(3, square(3, 2)), picture(true), {1, 1}).luminance.g, 37.5, 1e-12)
+        << "but for what was widened";
+    EXPECT_NEAR(reference::emitted(widened, picture(true), {1, 1}).luminance.g, 100, 1e-12) << "their own luminance";
 }
 
 TEST(SmallEmittersReference, WhatIsBeforeThemHidesThem) {
     EXPECT_EQ(reference::emitted({square(5)}, picture(true), {1, 1}).luminance.g, 0);
     EXPECT_NEAR(reference::emitted({square(4)}, picture(true), {1, 1}).luminance.g, 25, 1e-12) << "on the wall itself";
     // A bar over the right half of it: two of the four columns of points within.
-    SmallTriangle bar = square(2, true);
+    SmallTriangle bar = square(2, 0);
     bar.silhouette = {{1.5, 0}, {1.6, 0}, {1.6, 3}, {1.5, 3}};
     EXPECT_NEAR(reference::emitted({square(3), bar}, picture(true), {1, 1}).luminance.g, 25 * 0.75, 25 * 0.13);
     bar.inverse_depth.z = 1 / 3.5;

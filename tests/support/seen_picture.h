@@ -58,7 +58,7 @@ inline reference::SeenPicture seen_picture(const scene::Scene& scene, const gpu_
         const glm::dvec2 middle = glm::dvec2(i % view.extent.width, i / view.extent.width) + 0.5;
         facet.normal = reference::octahedral_decode({surfaces[i].x, surfaces[i].y});
         facet.position = double(surfaces[i].z) * glm::dvec3(picture.scale * middle + picture.offset, -1);
-        facet.masked = instance.masked != 0;
+        facet.masked = instance.masked != 0, facet.placement = double(instance.placement);
     }
     return picture;
 }

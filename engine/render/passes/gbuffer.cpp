@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "gpu_scene/gpu_scene.h"
+#include "gpu_scene/small_emitters.h"
 #include "shaders/gbuffer/gbuffer.frag.inc"
 #include "shaders/gbuffer/gbuffer.vert.inc"
 #include "shared/edges.h"
@@ -114,8 +115,9 @@ uint32_t layer_of(const gpu_scene::Sphere& sphere) {
 std::vector<DrawnPart> cull(const GpuScene& scene, const gpu_scene::SceneFrame& frame, const gpu_scene::View& view,
                             std::span<const uint32_t> without_emission) {
     std::vector<DrawnPart> drawn;
-    uint32_t number = 0;
+    uint32_t number = 0, mesh = 0;
     for (const GpuScene::Placement& placement : scene.placements()) {
+        ++mesh;
         const glm::mat4 m = view.from(frame.world[placement.node]);
         const bool mirrored = glm::determinant(glm::mat3(m)) < 0;
         const glm::mat4 rows = glm::transpose(m);
@@ -130,7 +132,7 @@ std::vector<DrawnPart> cull(const GpuScene& scene, const gpu_scene::SceneFrame& 
             drawn.push_back({i,
                              mirrored,
                              layer_of(sphere),
-                             {rows[0], rows[1], rows[2], apart ? 0 : dimming, masked ? 1.0f : 0.0f, {}}});
+                             {rows[0], rows[1], rows[2], apart ? 0 : dimming, masked ? 1.0f : 0.0f, float(mesh), 0}});
         }
     }
     return drawn;
@@ -183,7 +185,8 @@ static_assert(sizeof(scene::Vertex) == shared::kTexelsPerVertex * sizeof(glm::ve
 
 bool has_facets(const gpu::Device& device, const GpuScene& scene) {
     return scene.vertex_count() > 0 &&
-           scene.vertex_count() * shared::kTexelsPerVertex <= device.limits().maxTexelBufferElements;
+           std::max(scene.vertex_count() * shared::kTexelsPerVertex, uint64_t(gpu_scene::kMostEntries)) <=
+               device.limits().maxTexelBufferElements;
 }
 
 GBuffer add_gbuffer(const FrameContext& frame, const GpuScene& scene, const gpu_scene::SceneFrame& poses,

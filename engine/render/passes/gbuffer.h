@@ -20,7 +20,8 @@ struct GBuffer {
     graph::Resource vertices, facets;  ///< of the scene, as rg32f and rgba32ui texels; if has_facets()
 };
 
-/// Whether the device has room for texel buffers of all vertices and facets.
+/// Whether the device has room for texel buffers of all vertices and facets, and of as many small emitters as there
+/// may be.
 bool has_facets(const gpu::Device& device, const gpu_scene::GpuScene& scene);
 
 /// Rasterizes the parts of the scene in view, at the poses of `poses`. Textures are filtered as linear reflectance.

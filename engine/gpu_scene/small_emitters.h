@@ -1,9 +1,9 @@
 // Emitting surfaces that are about as small as a pixel. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <vector>
 
+#include "gpu_scene/emitting_parts.h"
 #include "gpu_scene/gpu_scene.h"
 #include "gpu_scene/silhouette_tiles.h"
 #include "shared/small_emitter.h"
@@ -20,30 +20,9 @@ constexpr double kLongestTextured = 4, kLongestFramed = 12;
 constexpr double kOneLuminance = 1.5;
 /// Facets of a frame that are wider are not listed: the middle of some pixel sees them. px
 constexpr double kFrameWidth = 3;
-/// Parts of more triangles, or with more facets near them, are drawn as other surfaces are, and so are those of meshes
-/// of which so many triangles would have to be looked at,
-constexpr size_t kMostTrianglesOfSmallEmitter = 128, kMostFacetsOfFrame = 512, kMostLooksOfMesh = 20'000'000;
-/// and so are those of which a tile, or a frame, would get more, or which would give the tiles more entries.
+/// Parts of which a tile, or a frame, would get more, or which would give the tiles more entries, are drawn as other
+/// surfaces are.
 constexpr uint32_t kMostSmallEmittersOfTile = 1000, kMostSmallEmitters = 16'384, kMostEntries = 1u << 18;
-
-/// The triangles of a part that emits.
-struct EmittingPart {
-    struct Triangle {
-        std::array<glm::vec3, 3> corners;  ///< m, mesh frame, counter-clockwise seen from the front
-        /// RGB cd/m^2, the means over its quarters: at each corner, and in the middle.
-        std::array<glm::vec3, 4> luminance;
-    };
-    std::vector<Triangle> triangles;  ///< none: it emits nothing, has holes, has too many, or emits to both sides and
-                                      ///< is not flat or has a front on both, so that one may hide the other
-    bool double_sided = false;
-    bool plain = true;  ///< luminance is the same all over each triangle
-    float reach = 0;    ///< m, mesh frame: what is so near to its box is listed
-    /// Facets of its mesh that may hide it, of three or four corners: bars of its frame, seen from their front.
-    std::vector<std::vector<glm::vec3>> frame;
-};
-
-/// Of each GpuScene::parts().
-std::vector<EmittingPart> emitting_parts(const scene::Scene& scene);
 
 /// Small emitters in view, and what may hide them. Silhouette i is that of emitter i.
 struct SmallEmitterList : SilhouetteList {

@@ -66,9 +66,7 @@ TEST(LuminousPicture, APixelShowsTheLuminanceOfThePicture) {
         double seen = 0, shown = 0;
         for (size_t i = 0; i < small.size(); i += 4) seen += double(small[i + 1]) / (kTexels / 4) / (kTexels / 4);
         for (size_t i = 0; i < image.rgb.size(); i += 3) shown += scale * double(image.rgb[i + 1]) / kTexels / kTexels;
-        // Its triangles are small emitters, whose luminance is the mean over places four to a texel; texels differ by
-        // up to eleven powers of ten.
-        EXPECT_NEAR(seen / shown, 1, 5e-3);
+        EXPECT_NEAR(seen / shown, 1, 1e-3);
     }
 }
 

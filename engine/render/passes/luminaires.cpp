@@ -1,7 +1,6 @@
 #include "render/passes/luminaires.h"
 
-#include <algorithm>
-
+#include "render/silhouettes.h"
 #include "shaders/luminaires/luminaires.comp.inc"
 
 namespace vesper::render {
@@ -18,17 +17,12 @@ graph::Resource add_luminaires(const FrameContext& frame, graph::Resource scene,
     if (list.tiles.empty()) return scene;
     graph::FrameGraph& graph = frame.graph;
     const VkExtent2D image = frame.view.extent;
-    const auto tiles = uint32_t(list.tiles.size());
     const graph::Resource luminaires = graph.upload("luminaires", list.luminaires, VK_FORMAT_R32G32B32A32_SFLOAT);
-    const graph::Resource silhouettes =
-        graph.upload("luminaire silhouettes", list.silhouettes, VK_FORMAT_R32G32_SFLOAT);
-    const graph::Resource touched = graph.upload("luminaire tiles", list.tiles, VK_FORMAT_R32G32B32A32_UINT);
-    const graph::Resource entries = graph.upload("luminaire entries", list.entries, VK_FORMAT_R32_UINT);
-    graph.dispatch(
-        "luminaires", frame.kernels.get(kLuminaires),
-        {load(surface), update(scene), sample(luminaires), sample(silhouettes), sample(touched), sample(entries)},
-        shared::LuminairesPush{{image.width, image.height}, tiles},
-        {std::min(tiles, shared::kTilesPerRow), (tiles + shared::kTilesPerRow - 1) / shared::kTilesPerRow, 1});
+    const SilhouetteTexels in_image = upload(graph, list, "luminaire");
+    graph.dispatch("luminaires", frame.kernels.get(kLuminaires),
+                   {load(surface), update(scene), sample(luminaires), sample(in_image.silhouettes),
+                    sample(in_image.tiles), sample(in_image.entries)},
+                   shared::LuminairesPush{{image.width, image.height}, in_image.count}, in_image.groups);
     return scene;
 }
 

@@ -32,6 +32,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"rays", {"base", "photometry", "scene"}},
     {"transport", {"base", "photometry", "scene", "rays"}},
     {"roads", {"base", "io", "photometry", "vision", "scene", "rays"}},
+    {"osi", {"base", "io", "roads"}},
     {"traffic", {"base", "io", "photometry", "vision", "scene"}},
     {"gpu", {"base"}},
     {"window", {"base", "gpu", "glsl"}},

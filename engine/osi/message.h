@@ -1,0 +1,79 @@
+// What a simulator says of one moment, by ASAM Open Simulation Interface (OSI) 3. SPDX-License-Identifier: MIT
+// Lengths m, angles rad, in the frame of the messages: z up, yaw counter-clockwise from x.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace vesper::osi {
+
+constexpr uint64_t kMostMessageBytes = uint64_t{16} << 20;
+constexpr int kMostObjects = 10'000;  ///< of a message, and as many traffic lights
+
+/// What is stated of a lamp.
+enum class LampState : uint8_t { Unknown, Off, On, Flashing };
+
+/// LightState of a vehicle, a lamp each.
+struct LightStates {
+    LampState low = LampState::Unknown, high = LampState::Unknown, tail = LampState::Unknown,
+              brake = LampState::Unknown, left = LampState::Unknown, right = LampState::Unknown,
+              front_fog = LampState::Unknown, rear_fog = LampState::Unknown, reversing = LampState::Unknown;
+    bool operator==(const LightStates&) const = default;
+};
+
+struct MovingObject {
+    enum class Kind : uint8_t { Car, Truck, Bus, Motorcycle, Bicycle, Trailer, Pedestrian, Animal, Object };
+    uint64_t id = 0;
+    Kind kind = Kind::Object;
+    std::string model;                    ///< model_reference
+    glm::dvec3 size{0};                   ///< length, width, height of the bounding box; 0: not stated
+    glm::dvec3 centre{0};                 ///< middle of that box
+    double yaw = 0, pitch = 0, roll = 0;  ///< turned in that order; nose down and right side down positive
+    std::optional<glm::dvec3> velocity;   ///< m/s
+    LightStates lights;
+};
+
+/// Length, width and height where none are stated, m.
+glm::dvec3 usual_size(MovingObject::Kind);
+
+/// One lens of a traffic light.
+struct TrafficLight {
+    enum class Colour : uint8_t { Other, Red, Yellow, Green };
+    uint64_t id = 0;
+    std::string signal;  ///< its signal's id in the OpenDRIVE file (source_reference); empty: not stated
+    glm::dvec3 position{0};
+    Colour colour = Colour::Other;
+    LampState state = LampState::Unknown;
+};
+
+/// What is stated of sky and weather.
+struct Environment {
+    std::optional<double> sun_elevation;  ///< rad
+    std::optional<double> time_of_day;    ///< s since midnight, local
+    int ambient_level = 0;                ///< AmbientIllumination: 1 .. 9, LEVEL1 .. LEVEL9; 0: not stated
+    bool fog = false;                     ///< visibility below 1000 m
+    bool precipitation = false;
+    bool operator==(const Environment&) const = default;
+};
+
+struct Message {
+    int64_t nanoseconds = 0;  ///< timestamp
+    std::optional<uint64_t> host;
+    std::vector<MovingObject> objects;
+    std::vector<TrafficLight> traffic_lights;
+    std::optional<Environment> environment;
+};
+
+/// Reads a GroundTruth, or that of a SensorView. Objects without a place or with a pose that is no number are left out,
+/// and sizes that cannot be count as not stated. Throws Error with the reason.
+Message parse_message(std::span<const uint8_t> bytes);
+
+/// The message as a GroundTruth: parse_message() gives it back, apart from what it leaves out.
+std::string bytes_of(const Message&);
+
+}  // namespace vesper::osi

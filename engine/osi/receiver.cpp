@@ -1,0 +1,177 @@
+#include "osi/receiver.h"
+
+#include <arpa/inet.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <charconv>
+#include <condition_variable>
+#include <cstring>
+#include <deque>
+#include <mutex>
+#include <thread>
+
+#include "base/error.h"
+#include "base/one_line.h"
+#include "io/descriptor.h"
+
+namespace vesper::osi {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr size_t kMostQueued = size_t{64} << 20;  // bytes
+constexpr size_t kLargestDatagram = 65536;
+constexpr int kBuffer = 4 << 20, kWake = 50;        // bytes that the system keeps; ms between looks at the end
+constexpr auto kSilence = std::chrono::seconds(5);  // of a sender, after which another is listened to
+constexpr int64_t kBack = 1'000'000'000, kStep = 50'000'000;  // ns: back by more is another run, which goes on after
+constexpr int kBackInTurn = 5;
+
+sockaddr_in socket_address(const Address& address) {
+    sockaddr_in made{};
+    made.sin_family = AF_INET, made.sin_port = htons(address.port);
+    if (::inet_pton(AF_INET, address.host.c_str(), &made.sin_addr) != 1)
+        throw Error("--osi-udp " + one_line(address.host) + ": an address such as 127.0.0.1 is expected");
+    return made;
+}
+
+}  // namespace
+
+Address parse_address(const std::string& text) {
+    Address address;
+    const size_t colon = text.rfind(':');
+    if (colon != text.npos) address.host = text.substr(0, colon);
+    const std::string port = colon == text.npos ? text : text.substr(colon + 1);
+    const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), address.port);
+    if (error != std::errc() || end != port.data() + port.size())
+        throw Error("--osi-udp " + one_line(text) + ": [ADDRESS:]PORT is expected, such as 48198");
+    socket_address(address);
+    return address;
+}
+
+struct Receiver::Impl {
+    explicit Impl(const Address& address) : socket(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+        const std::string place = "--osi-udp " + address.host + ":" + std::to_string(address.port) + ": ";
+        if (!socket.is_open()) throw Error(place + std::strerror(errno));
+        sockaddr_in own = socket_address(address);
+        ::setsockopt(socket.number(), SOL_SOCKET, SO_RCVBUF, &kBuffer, sizeof kBuffer);  // less is no failure
+        if (::bind(socket.number(), reinterpret_cast<const sockaddr*>(&own), sizeof own) != 0)
+            throw Error(place + std::strerror(errno));
+        socklen_t size = sizeof own;
+        ::getsockname(socket.number(), reinterpret_cast<sockaddr*>(&own), &size);
+        port = ntohs(own.sin_port);
+        listener = std::thread([this] { listen(); });
+    }
+    ~Impl() {
+        ends = true;
+        listener.join();
+    }
+
+    void listen() {
+        std::vector<uint8_t> buffer(kLargestDatagram);
+        while (!ends) {
+            pollfd waits{.fd = socket.number(), .events = POLLIN, .revents = 0};
+            if (::poll(&waits, 1, kWake) <= 0) continue;
+            sockaddr_in from{};
+            socklen_t size = sizeof from;
+            const ssize_t bytes =
+                ::recvfrom(socket.number(), buffer.data(), buffer.size(), 0, reinterpret_cast<sockaddr*>(&from), &size);
+            if (bytes >= 0) hear({buffer.data(), size_t(bytes)}, from);
+        }
+    }
+
+    void hear(std::span<const uint8_t> datagram, const sockaddr_in& from) {
+        const Clock::time_point now = Clock::now();
+        const bool same =
+            sender && sender->sin_addr.s_addr == from.sin_addr.s_addr && sender->sin_port == from.sin_port;
+        if (!same && sender && now - heard < kSilence) {
+            const std::lock_guard lock(mutex);
+            ++counts.foreign;
+            return;
+        }
+        if (!same) sender = from, dropped += datagrams.incomplete(), datagrams = {};
+        heard = now;
+        const auto bytes = datagrams.take(datagram);
+        std::optional<Message> message;
+        try {
+            if (bytes) message = parse_message(*bytes);
+        } catch (const std::exception&) {  // also of memory: it never ends the drive
+        }
+        const std::lock_guard lock(mutex);
+        counts.incomplete = dropped + datagrams.incomplete();
+        if (!bytes) return;
+        if (!message) {
+            ++counts.malformed;
+            return;
+        }
+        ++counts.messages;
+        if (queued + bytes->size() > kMostQueued) {
+            ++counts.crowded_out;
+            return;
+        }
+        move_time(*message);
+        queued += bytes->size();
+        queue.push_back({{std::move(*message), now}, bytes->size()});
+        arrived.notify_one();
+    }
+
+    // A sender that begins again has times before those that it had, and goes on from there.
+    void move_time(Message& message) {
+        message.nanoseconds += moved;
+        behind = latest && message.nanoseconds < *latest - kBack ? behind + 1 : 0;
+        if (behind >= kBackInTurn) {
+            const int64_t by = *latest + kStep - message.nanoseconds;
+            moved += by, message.nanoseconds += by, behind = 0;
+            ++counts.restarts;
+        }
+        if (behind == 0) latest = std::max(latest.value_or(message.nanoseconds), message.nanoseconds);
+    }
+
+    struct Queued {
+        Arrival arrival;
+        size_t bytes;
+    };
+    io::Descriptor socket;
+    uint16_t port = 0;
+    // Of the listener.
+    std::optional<sockaddr_in> sender;
+    Clock::time_point heard;
+    DatagramReader datagrams;
+    uint64_t dropped = 0;
+    std::optional<int64_t> latest;
+    int64_t moved = 0;
+    int behind = 0;
+    // Of both.
+    std::mutex mutex;
+    std::condition_variable arrived;
+    std::deque<Queued> queue;
+    size_t queued = 0;
+    StreamCounts counts;
+    std::atomic<bool> ends{false};
+    std::thread listener;
+};
+
+Receiver::Receiver(const Address& address) : impl_(std::make_unique<Impl>(address)) {}
+Receiver::~Receiver() = default;
+
+std::optional<Receiver::Arrival> Receiver::take(std::chrono::milliseconds longest) {
+    std::unique_lock lock(impl_->mutex);
+    if (!impl_->arrived.wait_for(lock, longest, [&] { return !impl_->queue.empty(); })) return std::nullopt;
+    Impl::Queued oldest = std::move(impl_->queue.front());
+    impl_->queue.pop_front();
+    impl_->queued -= oldest.bytes;
+    return std::move(oldest.arrival);
+}
+
+uint16_t Receiver::port() const { return impl_->port; }
+
+StreamCounts Receiver::counts() const {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->counts;
+}
+
+}  // namespace vesper::osi

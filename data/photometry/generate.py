@@ -51,6 +51,12 @@ def high_beam(h, v):
     return 45000 * gauss(h, 4) * gauss(v, 1.8) + 12000 * gauss(h, 12) * gauss(v, 3)
 
 
+def front_fog(h, v):
+    """Front fog lamp, cd: wide, with a cut-off 1 deg below the horizon."""
+    pool = 4000 * gauss(h, 26) * gauss(v + 2.5, 2.6)
+    return pool / (1 + math.exp(max(min((v + 1) / 0.15, 500), -500))) + 60 * gauss(h, 30) * gauss(max(v, 0), 6)
+
+
 def flux(c_step, gamma_step, value):
     total = 0.0
     for c in range(0, 360, c_step):
@@ -151,6 +157,9 @@ def main():
     write_beam("low-beam.csv", "Passing beam, right-hand traffic, cut-off at -0.57 deg on the left", low_beam, hs, vs)
     hs = axis((0, 5, 0.25), (5, 12, 0.5), (12, 30, 1), (30, 40, 2.5))
     write_beam("high-beam.csv", "Driving beam", high_beam, hs, axis((0, 3, 0.25), (3, 6, 0.5), (6, 11, 1)))
+    hs = axis((0, 40, 2), (40, 60, 4))
+    vs = axis((-15, -6, 1), (-6, -2, 0.5), (-2, 0, 0.1), (0, 5, 0.5), (5, 15, 1))
+    write_beam("front-fog.csv", "Front fog lamp, cut-off at -1 deg", front_fog, hs, vs)
 
 
 if __name__ == "__main__":

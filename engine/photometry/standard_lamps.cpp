@@ -24,7 +24,7 @@ Distribution standard_lamp(const std::string& name) {
         const std::span<const uint8_t> bytes(reinterpret_cast<const uint8_t*>(text.data()), text.size());
         return text.starts_with("IES") ? parse_ies(bytes, name) : parse_grid_csv(bytes, name);
     }
-    throw Error("there is no lamp '" + name + "': street-lamp, low-beam and high-beam are built in");
+    throw Error("there is no lamp '" + name + "': street-lamp, low-beam, high-beam and front-fog are built in");
 }
 
 }  // namespace vesper::photometry

@@ -7,7 +7,8 @@
 
 namespace vesper::photometry {
 
-/// "street-lamp" (type C), "low-beam", "high-beam" (type A, right-hand traffic). Throws Error for other names.
+/// "street-lamp" (type C), "low-beam", "high-beam", "front-fog" (type A, right-hand traffic). Throws Error for other
+/// names.
 Distribution standard_lamp(const std::string& name);
 
 }  // namespace vesper::photometry

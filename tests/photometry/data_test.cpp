@@ -88,6 +88,28 @@ TEST(HighBeam, IsStrongAhead) {
     }
 }
 
+// UN R19, class F3 (03 series, 6.4.3): lines 1 to 9 and zone D.
+TEST(FrontFog, KeepsTheLimitsOfR19) {
+    const photometry::Distribution lamp = photometry::read_distribution(kData / "front-fog.csv");
+    const auto at = [&](double h, double v) { return intensity(lamp, type_a(h, v)); };
+    const std::pair<double, double> above[]{{8, 90}, {4, 105}, {2, 170}, {1, 250}};
+    for (const auto& [v, most] : above)
+        for (double h = -26; h <= 26; h += 0.5) EXPECT_LE(at(h, v), most) << h << " " << v;
+    double largest = 0;
+    for (double h = -10; h <= 10; h += 0.5) {
+        EXPECT_LE(at(h, 0), 340) << h;
+        EXPECT_GE(at(h, -2.5), 2000) << h;
+        largest = std::max(largest, at(h, -2.5));
+        for (double v = -3.5; v <= -1.5; v += 0.1) EXPECT_LE(at(h, v), 8400) << h << " " << v;
+    }
+    for (double h = -10; h <= 10; h += 0.5) EXPECT_LT(at(h, -6), largest / 2) << h;
+    for (const double side : {-1.0, 1.0}) {
+        for (double v = -3.5; v <= -1.5; v += 0.1) EXPECT_GE(at(22 * side, v), 800) << v;
+        for (double v = -4.5; v <= -1.5; v += 0.1) EXPECT_GE(at(35 * side, v), 320) << v;
+    }
+    EXPECT_NEAR(photometry::luminous_flux(lamp), 223.9, 0.5);
+}
+
 TEST(StreetLamp, LightsTheRoad) {
     const photometry::Distribution lamp = photometry::read_distribution(kData / "street-lamp.ies");
     EXPECT_EQ(lamp.goniometry, photometry::Goniometry::CGamma);

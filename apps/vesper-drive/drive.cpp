@@ -1,16 +1,36 @@
 #include "drive.h"
 
+#include <cmath>
+#include <cstdlib>
 #include <memory>
 
 #include "arguments.h"
+#include "base/angle.h"
 #include "base/error.h"
+#include "base/one_line.h"
 #include "io/file_gate.h"
+#include "osi/receiver.h"
 #include "own_data.h"
 #include "picture_arguments.h"
 #include "windowed.h"
 
 namespace vesper::drive {
 namespace {
+
+// X,Y,Z,YAW.
+glm::dvec4 origin_of(const std::string& text) {
+    glm::dvec4 origin(0);
+    const char* at = text.c_str();
+    for (int i = 0; i < 4; ++i) {
+        char* end = nullptr;
+        origin[i] = std::strtod(at, &end);
+        if (end == at || *end != (i < 3 ? ',' : '\0') || !(std::abs(origin[i]) < 1e9))
+            throw Error("--osi-origin " + one_line(text) + ": X,Y,Z,YAW are expected, m and degrees");
+        at = end + 1;
+    }
+    origin.w *= kRadiansPerDegree;
+    return origin;
+}
 
 // Options that say nothing where the others are as they are, and why.
 void refuse_idle(const apps::Command& program, const DriveArguments& a) {
@@ -23,10 +43,13 @@ void refuse_idle(const apps::Command& program, const DriveArguments& a) {
     };
     const Rule rules[]{
         {replays, {"scene"}, "the recording names its scene (--replay)"},
-        {replays, {"--scenario", "--storyboard"}, "the recording names its run (--replay)"},
+        {replays,
+         {"--scenario", "--osi", "--osi-udp", "--osi-delay", "--osi-origin", "--models", "--host"},
+         "the recording has its messages (--replay)"},
         {replays, {"--autopilot", "--seconds", "--seed"}, "a recording is driven as it was (--replay)"},
         {replays, {"--record"}, "a replay is not recorded"},
-        {a.run.empty(), {"--storyboard"}, "of which run? give --scenario"},
+        {!a.messages.any(), {"--models", "--host", "--osi-origin"}, "of what? give --osi, --osi-udp or --scenario"},
+        {!a.messages.live, {"--osi-delay"}, "of what? give --osi-udp"},
         {!a.headless, {"--seconds", "--video", "--fps"}, "has a meaning only without a window (--headless)"},
         {a.headless,
          {"--window", "--fullscreen", "--vsync", "--limit", "--scaling", "--controllers"},
@@ -46,10 +69,25 @@ void refuse_idle(const apps::Command& program, const DriveArguments& a) {
             if (rule.here && program.count(option)) throw Error(std::string(option) + ": " + rule.why);
 }
 
+void take_messages(DriveArguments& a) {
+    if (!a.osi_udp.empty() && !(a.trace.empty() && a.table.empty()))
+        throw Error("--osi-udp: messages come from one source; there is " + (a.trace.empty() ? a.table : a.trace));
+    const std::string file = a.trace.empty() ? a.table : a.trace, &host = a.messages.host;
+    const char *option = a.trace.empty() ? "--scenario " : "--osi ", *ending = a.trace.empty() ? ".csv" : ".osi";
+    if (!file.empty() && !file.ends_with(ending))
+        throw Error(option + one_line(file) + ": a file " + ending + " is expected");
+    if (!a.osi_udp.empty()) osi::parse_address(a.osi_udp);
+    a.messages.file = file, a.messages.models = a.models, a.messages.live = !a.osi_udp.empty();
+    if (!host.empty() && host != "none" && host.find_first_not_of("0123456789") != host.npos)
+        throw Error("--host " + one_line(host) + ": a number or none is expected");
+    if (!a.origin.empty()) a.messages.origin = origin_of(a.origin);
+}
+
 void check(const apps::Command& program, DriveArguments& a) {
     refuse_idle(program, a);
     if (a.scene.empty() && a.replay.empty()) a.scene = (apps::own_data() / "rivoli/rivoli.world.json").string();
-    for (const std::string& file : {a.run, a.scenario, a.scene, a.replay, a.channels, a.controllers})
+    for (const std::string& file :
+         {a.messages.file.string(), a.messages.models.string(), a.scene, a.replay, a.channels, a.controllers})
         io::announce_read(file);
     for (const auto& [option, file] : growing_outputs(a)) io::announce_write(option, file);
 }
@@ -57,15 +95,16 @@ void check(const apps::Command& program, DriveArguments& a) {
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> growing_outputs(const DriveArguments& a) {
-    return {{"--record", a.record},
-            {"--record", io::GrowingFile::part_of(a.record)},
-            {"--log", a.log},
-            {"--log", io::GrowingFile::part_of(a.log)}};
+    std::vector<std::pair<std::string, std::string>> files{
+        {"--record", a.record}, {"--log", a.log}, {"--osi-out", a.osi_out}};
+    if (a.messages.live && !a.record.empty()) files.emplace_back("--record", messages_of(a.record).string());
+    for (size_t i = 0, whole = files.size(); i < whole; ++i)
+        files.emplace_back(files[i].first, io::GrowingFile::part_of(files[i].second));
+    return files;
 }
 
 DriveStart start_of(const DriveArguments& a, const DriveStart& recorded) {
-    if (a.replay.empty())
-        return {.scene = a.scene, .run = a.run, .scenario = a.scenario, .seed = a.seed, .settings = a.settings};
+    if (a.replay.empty()) return {.scene = a.scene, .messages = a.messages, .seed = a.seed, .settings = a.settings};
     DriveStart start = recorded;
     for (const auto& [name, value] : a.settings) start.settings[name] = value;
     return start;
@@ -78,11 +117,23 @@ void add_drive(apps::Command program) {
         "A world (.json), roads (.xodr) or a scene (.gltf, .glb)\n"
         "Worlds: docs/simulator.md; scenes as vesper convert writes them; default: the street of data/rivoli");
     program.help_group("Roads and traffic");
-    program.add_option("--scenario", a->run,
-                       "On roads (.xodr): a run that esmini recorded there (.csv of its dat2csv or CSV logger), as "
-                       "traffic with its lamps");
-    program.add_option("--storyboard", a->scenario,
-                       "The scenario of that run (.xosc): sizes, lamps and traffic lights");
+    const apps::Option table =
+        program.add_option("--scenario", a->table,
+                           "A run that esmini recorded (.csv of its dat2csv or CSV logger), as traffic with its lamps");
+    apps::Option trace = program.add_option(
+        "--osi", a->trace, "An OSI trace of another simulator (.osi): what moves, lamps, traffic lights, sun");
+    program.add_option("--osi-udp", a->osi_udp,
+                       "[ADDRESS:]PORT, such as 48198: the same as it is sent, by esmini or others (docs/osi.md)");
+    trace.excludes(table);
+    program.add_option("--osi-delay", a->osi_delay, "How far what is shown is behind what is sent, s")
+        .check(apps::between(0.0, 10.0))
+        .shows_default();
+    program.add_option("--osi-origin", a->origin,
+                       "X,Y,Z,YAW: where the origin of the messages is on the roads, m and degrees");
+    program.add_option("--models", a->models, "Which meshes and lamps the objects have (.json; default: boxes)");
+    program.add_option("--host", a->messages.host,
+                       "id of the object that one drives in, or none (default: as the messages say)");
+    program.add_option("--osi-out", a->osi_out, "Write the drive as an OSI trace");
     program.help_group();
     program.add_flag("--headless", a->headless, "Without a window");
     program.add_flag("--autopilot", a->autopilot, "The car keeps to its lane and to the distance by itself");
@@ -145,6 +196,7 @@ void add_drive(apps::Command program) {
     program.callback([a, program] {
         a->settings = DriveSettings::given(program);
         if (program.count("--shadow-cache")) a->shadow_cache = program.option("--shadow-cache").results().back();
+        take_messages(*a);
         check(program, *a);
         a->size_given = program.count("--size") > 0;
         if (a->headless)

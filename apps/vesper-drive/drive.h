@@ -14,9 +14,13 @@ namespace vesper::drive {
 
 /// What the command line says; windows and the headless program take from it what concerns them.
 struct DriveArguments {
-    std::string scene, run, scenario, device, size = "1680x1050";
+    std::string scene, device, size = "1680x1050";
     std::string record, replay, video, log, channels;
     std::vector<std::string> probes;
+    MessageSource messages;  ///< made of the following
+    std::string table, trace, models, origin;
+    std::string osi_udp, osi_out;  ///< [ADDRESS:]PORT to listen at; a trace to write
+    double osi_delay = 0.1;        ///< s
     bool headless = false, autopilot = false;
     double seconds = 20;  ///< of a drive without a window, s
     double fps = 0;       ///< of films, 1/s; 0: the recording's own frames, or 30

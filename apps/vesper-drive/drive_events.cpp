@@ -17,6 +17,10 @@ void DriveEvents::push_back(const DriveEvent& event) {
         poses_.resize(steps_, glm::dvec4(std::numeric_limits<double>::quiet_NaN()));
         poses_.push_back(*event.pose);
     }
+    if (event.shown) {
+        shown_.resize(steps_, std::numeric_limits<double>::quiet_NaN());
+        shown_.push_back(*event.shown);
+    }
     ++steps_;
 }
 
@@ -32,13 +36,15 @@ DriveEvents::Iterator& DriveEvents::Iterator::operator++() {
 
 void DriveEvents::Iterator::read() {
     if (at_ == events_->size()) return;
-    event_ = {.kind = events_->kinds_[at_], .input = {}, .pose = {}, .name = {}, .value = {}};
+    event_ = {.kind = events_->kinds_[at_], .input = {}, .pose = {}, .shown = {}, .name = {}, .value = {}};
     if (event_.kind == Kind::Step) {
         const std::vector<Held>& inputs = events_->inputs_;
         if (input_ + 1 < inputs.size() && inputs[input_ + 1].from == step_) ++input_;
         event_.input = inputs[input_].input;
         if (step_ < events_->poses_.size() && !std::isnan(events_->poses_[step_].x))
             event_.pose = events_->poses_[step_];
+        if (step_ < events_->shown_.size() && !std::isnan(events_->shown_[step_]))
+            event_.shown = events_->shown_[step_];
     }
     if (event_.kind == Kind::Set) {
         const Change& change = events_->changes_[set_];

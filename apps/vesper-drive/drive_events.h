@@ -21,8 +21,9 @@ struct DriveEvent {
     traffic::DriverInput input;  ///< Step
     std::optional<glm::dvec4>
         pose;  ///< Step: X, Z (m), yaw (rad) and speed (m/s) of the driver's car after it, where that is known
-    std::string name, value;  ///< Set
-    uint64_t place = 0;       ///< Set: which event of its file it is in
+    std::optional<double> shown;  ///< Step: the moment of live messages that it shows (Session::step), s
+    std::string name, value;      ///< Set
+    uint64_t place = 0;           ///< Set: which event of its file it is in
 };
 
 /// Events, one after the other, that take little room: a step has 1 byte while the driver holds still, 33 where its
@@ -65,6 +66,7 @@ private:
     size_t steps_ = 0;
     std::vector<Held> inputs_;
     std::deque<glm::dvec4> poses_;  // of steps from the first; not-a-number where none is known. Many, and never moved
+    std::deque<double> shown_;      // the same
     std::vector<Change> changes_;
 };
 

@@ -62,7 +62,8 @@ std::string input_text(const traffic::DriverInput& input, const traffic::DriverI
 std::string step_text(const DriveEvent& event, const traffic::DriverInput& before) {
     const glm::dvec4 pose = event.pose.value_or(glm::dvec4(0));
     return "{\"step\":" + input_text(event.input, before) +
-           apps::format(",\"pose\":[%.17g,%.17g,%.17g,%.17g]}", pose.x, pose.y, pose.z, pose.w);
+           apps::format(",\"pose\":[%.17g,%.17g,%.17g,%.17g]", pose.x, pose.y, pose.z, pose.w) +
+           (event.shown ? apps::format(",\"messages_s\":%.17g}", *event.shown) : "}");
 }
 
 // A path as seen from a folder; what came with the program by a name that holds wherever either is moved.
@@ -75,14 +76,22 @@ std::string seen_from(const std::filesystem::path& folder, const std::filesystem
     return (near.empty() ? file : near).generic_string();
 }
 
+json messages_json(const MessageSource& source, const std::filesystem::path& folder) {
+    json made{{"file", seen_from(folder, source.file)}, {"live", source.live}};
+    if (!source.models.empty()) made["models"] = seen_from(folder, source.models);
+    if (!source.host.empty()) made["host"] = source.host;
+    if (source.origin != glm::dvec4(0))
+        made["origin"] = {source.origin.x, source.origin.y, source.origin.z, source.origin.w};
+    return made;
+}
+
 std::string heading(const DriveStart& start, const std::filesystem::path& folder) {
     json head{{"vesper_drive", 1},
               {"scene", seen_from(folder, start.scene)},
               {"seed", start.seed},
               {"time_step_s", start.time_step},
               {"settings", start.settings}};
-    if (!start.run.empty()) head["run"] = seen_from(folder, start.run);
-    if (!start.scenario.empty()) head["scenario"] = seen_from(folder, start.scenario);
+    if (start.messages.any()) head["messages"] = messages_json(start.messages, folder);
     if (start.size) head["size_px"] = {start.size->x, start.size->y};
     std::string text = head.dump();
     text.pop_back();
@@ -100,6 +109,28 @@ std::filesystem::path seen_path(const scene::JsonValue& root, const char* key, c
     return named.empty() ? "" : folder / named;  // which an absolute one replaces
 }
 
+// A trace that was written beside a drive that broke off has not got its name yet.
+std::filesystem::path or_part(std::filesystem::path file) {
+    std::error_code failed;
+    const std::filesystem::path part = io::GrowingFile::part_of(file.string());
+    return std::filesystem::exists(file, failed) || !std::filesystem::exists(part, failed) ? file : part;
+}
+
+MessageSource read_source(const scene::JsonValue& value, const std::filesystem::path& folder) {
+    value.allow_only({"file", "live", "models", "host", "origin"});
+    MessageSource source{.file = or_part(seen_path(value, "file", folder)),
+                         .live = value.boolean_or("live", false),
+                         .models = seen_path(value, "models", folder),
+                         .host = value.text_or("host", "")};
+    value.at("file");
+    if (const auto origin = value.find("origin")) {
+        constexpr double kFar = 1e9;
+        const auto numbers = origin->elements(4);
+        for (int i = 0; i < 4; ++i) source.origin[i] = numbers[size_t(i)].number(-kFar, kFar);
+    }
+    return source;
+}
+
 DriveSettings::Values read_values(const scene::JsonValue& object) {
     if (!object.json().is_object()) object.fail("must be an object");
     DriveSettings::Values values;
@@ -109,9 +140,14 @@ DriveSettings::Values read_values(const scene::JsonValue& object) {
 
 // What an event of a file says, added to a drive. `input`: of the step before.
 void read_event(const scene::JsonValue& event, uint64_t place, traffic::DriverInput& input, DriveEvents& events) {
-    event.allow_only({"step", "pose", "frame", "set", "restart"});
-    if (event.find("pose") && !event.find("step")) event.fail("has a pose without a step");
-    if (event.json().size() != (event.find("pose") ? 2 : 1)) event.fail("is more than one step, frame, set or restart");
+    event.allow_only({"step", "pose", "messages_s", "frame", "set", "restart"});
+    size_t of_steps = 0;
+    for (const auto& [part, named] : {std::pair("pose", "a pose"), std::pair("messages_s", "messages_s")}) {
+        if (!event.find(part)) continue;
+        if (!event.find("step")) event.fail(std::string("has ") + named + " without a step");
+        ++of_steps;
+    }
+    if (event.json().size() != 1 + of_steps) event.fail("is more than one step, frame, set or restart");
     const auto happens = [&](const char* name) {
         const auto found_event = event.find(name);
         if (found_event && !(found_event->json().is_boolean() && found_event->json().get<bool>()))
@@ -120,16 +156,23 @@ void read_event(const scene::JsonValue& event, uint64_t place, traffic::DriverIn
     };
     if (const auto step = event.find("step")) {
         input = read_input(*step, input);
-        DriveEvent driven{.kind = DriveEvent::Kind::Step, .input = input, .pose = {}, .name = {}, .value = {}};
+        DriveEvent driven{
+            .kind = DriveEvent::Kind::Step, .input = input, .pose = {}, .shown = {}, .name = {}, .value = {}};
         if (const auto stated = event.find("pose")) {
             const auto pose = stated->elements(4);
             driven.pose = glm::dvec4(pose[0].number(), pose[1].number(), pose[2].number(), pose[3].number());
         }
+        if (const auto shown = event.find("messages_s")) driven.shown = shown->number(-1e9, 1e9);
         events.push_back(driven);
     } else if (const auto set = event.find("set")) {
         for (const auto& [name, value] : read_values(*set))
-            events.push_back(
-                {.kind = DriveEvent::Kind::Set, .input = {}, .pose = {}, .name = name, .value = value, .place = place});
+            events.push_back({.kind = DriveEvent::Kind::Set,
+                              .input = {},
+                              .pose = {},
+                              .shown = {},
+                              .name = name,
+                              .value = value,
+                              .place = place});
     } else if (happens("frame")) {
         events.push_back({.kind = DriveEvent::Kind::Frame, .name = {}, .value = {}});
     } else if (happens("restart")) {
@@ -203,15 +246,19 @@ Drive read_drive(const std::filesystem::path& file) {
     Drive drive{.file = file, .start = {}, .events = {}};
     const scene::JsonFile text = DriveParser(one_line(file.string()), drive).parse(io::read_file(file, kMaxDriveBytes));
     const scene::JsonValue root(text);
-    root.allow_only(
-        {"vesper_drive", "scene", "run", "scenario", "seed", "time_step_s", "size_px", "settings", "events"});
+    root.allow_only({"vesper_drive", "scene", "run", "scenario", "messages", "seed", "time_step_s", "size_px",
+                     "settings", "events"});
     if (root.at("vesper_drive").integer() != 1)
         root.at("vesper_drive").fail("this version of Vesper reads drives of version 1");
     root.at("events").elements(), root.at("scene").text();
     DriveStart& start = drive.start;
-    for (const auto& [key, found] :
-         {std::pair("scene", &start.scene), std::pair("run", &start.run), std::pair("scenario", &start.scenario)})
-        *found = seen_path(root, key, file.parent_path());
+    start.scene = seen_path(root, "scene", file.parent_path());
+    if (const auto scenario = root.find("scenario"))
+        scenario->fail("storyboards are not played any more: take the lamps from an OSI trace (docs/osi.md)");
+    if (const auto messages = root.find("messages"))
+        start.messages = read_source(*messages, file.parent_path());
+    else
+        start.messages.file = seen_path(root, "run", file.parent_path());  // as older versions wrote it
     drive.start.seed = root.integer_or("seed", 1);
     drive.start.time_step = root.number_or("time_step_s", 1.0 / 60, 1e-4, 0.1);
     if (const auto size = root.find("size_px")) {
@@ -284,6 +331,10 @@ void check_settings(const Drive& drive, const DriveSettings::Values& kept, const
     }
 }
 
+std::filesystem::path messages_of(const std::filesystem::path& recording) {
+    return std::filesystem::path(recording).replace_extension(".osi");
+}
+
 DriveRecorder::DriveRecorder(DriveStart start) : start_(std::move(start)) {}
 
 void DriveRecorder::add(const DriveEvent& event) {
@@ -315,6 +366,7 @@ void DriveRecorder::open(const std::filesystem::path& file, std::optional<glm::u
     close();
     file_ = std::make_unique<io::GrowingFile>(file);
     first_ = true, last_ = {}, start_.size = size;
+    if (start_.messages.live) start_.messages.file = messages_of(file);
     std::error_code failed;
     std::string text = heading(start_, std::filesystem::absolute(file, failed).parent_path());
     for (const DriveEvent& event : events_) {

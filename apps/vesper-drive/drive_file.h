@@ -8,14 +8,15 @@
 
 #include "drive_events.h"
 #include "io/growing_file.h"
+#include "message_source.h"
 #include "settings.h"
 
 namespace vesper::drive {
 
 /// How a drive begins.
 struct DriveStart {
-    std::filesystem::path scene;          ///< a world (.json), roads (.xodr) or a scene (.gltf, .glb)
-    std::filesystem::path run, scenario;  ///< as of Scenery
+    std::filesystem::path scene;  ///< a world (.json), roads (.xodr) or a scene (.gltf, .glb)
+    MessageSource messages;       ///< of objects that another program moves
     uint64_t seed = 1;
     double time_step = 1.0 / 60;     ///< s
     DriveSettings::Values settings;  ///< what differs from the defaults
@@ -39,6 +40,9 @@ Drive read_drive(const std::filesystem::path&);
 using SettingsCheck = std::function<void(const DriveSettings&)>;
 void check_settings(const Drive&, const DriveSettings::Values& kept, const SettingsCheck& possible,
                     const SettingsCheck& shown);
+
+/// The trace beside a recording that has the messages of a live source.
+std::filesystem::path messages_of(const std::filesystem::path& recording);
 
 /// Remembers a drive, and keeps that file up to date once there is one (GrowingFile: read_drive also takes
 /// the part of it that a broken drive leaves).

@@ -14,6 +14,7 @@
 #include "indirect_arguments.h"
 #include "io/file_gate.h"
 #include "io/image_file.h"
+#include "message_feed.h"
 #include "numbered_files.h"
 #include "own_data.h"
 #include "picture_arguments.h"
@@ -30,9 +31,9 @@ namespace {
 
 constexpr double kUsualRate = 30;  // frames a second
 
-// Steps of time with frames at an even rate among them.
-DriveEvents evenly(const DriveEvents& events, double time_step, double fps) {
-    const DriveEvent frame{.kind = DriveEvent::Kind::Frame, .pose = {}, .name = {}, .value = {}};
+// Steps of time with frames at an even rate among them. `waits`: nothing is known before the first step.
+DriveEvents evenly(const DriveEvents& events, double time_step, double fps, bool waits) {
+    const DriveEvent frame{.kind = DriveEvent::Kind::Frame, .pose = {}, .shown = {}, .name = {}, .value = {}};
     DriveEvents made;
     uint64_t steps = 0, frames = 0;
     // The first frame is that before the first step, after what was set until then.
@@ -41,7 +42,7 @@ DriveEvents evenly(const DriveEvents& events, double time_step, double fps) {
     };
     for (const DriveEvent& event : events) {
         if (event.kind == DriveEvent::Kind::Frame) continue;
-        if (event.kind == DriveEvent::Kind::Step) begin();
+        if (event.kind == DriveEvent::Kind::Step && !waits) begin();
         made.push_back(event);
         // The first step that has reached the frame's time; at most one frame a step.
         if (event.kind != DriveEvent::Kind::Step || double(++steps) * time_step * fps < double(frames) - 1e-6) continue;
@@ -188,6 +189,29 @@ VkExtent2D extent_of(const Channels& channels) {
     return extent;
 }
 
+// A drive along with a simulator that sends: each step waits until its messages are there.
+class Live {
+public:
+    Live(const DriveArguments& a, Session& session, Playback& playback)
+        : feed_(osi::parse_address(a.osi_udp), a.osi_delay) {
+        apps::print_note("listening at " + feed_.place());
+        if (!feed_.wait_for(session, 0, kFirst)) throw Error("--osi-udp " + a.osi_udp + ": no message came in 30 s");
+        playback.live_moment = [this, &session] {
+            moment_ += session.options().time_step;
+            if (!feed_.wait_for(session, moment_, kFirst)) over_ = true;
+            return std::optional(moment_);
+        };
+    }
+    bool is_over() const { return over_; }
+    void finish() { apps::print_note(feed_.report() + (over_ ? "; the sender is silent, and the drive is over" : "")); }
+
+private:
+    static constexpr std::chrono::seconds kFirst{30};
+    MessageFeed feed_;
+    double moment_ = 0;
+    bool over_ = false;
+};
+
 }  // namespace
 
 void run_headless(const DriveArguments& a) {
@@ -202,13 +226,17 @@ void run_headless(const DriveArguments& a) {
     Outlet outlet(a, extent);
     const DriveStart options = start_of(a, drive.start);
     if (!drive.complete) apps::print_note(one_line(a.replay) + " breaks off; what there is of it is driven");
-    const DriveEvent step{
-        .kind = DriveEvent::Kind::Step, .input = {.autopilot = a.autopilot}, .pose = {}, .name = {}, .value = {}};
+    const DriveEvent step{.kind = DriveEvent::Kind::Step,
+                          .input = {.autopilot = a.autopilot},
+                          .pose = {},
+                          .shown = {},
+                          .name = {},
+                          .value = {}};
     for (long left = replays ? 0 : std::lround(a.seconds / options.time_step); left > 0; --left)
         drive.events.push_back(step);
     const bool own_frames = drive.events.frames() > 0 && a.fps == 0;
     if (outlet.wanted() && !own_frames)
-        drive.events = evenly(drive.events, options.time_step, a.fps > 0 ? a.fps : kUsualRate);
+        drive.events = evenly(drive.events, options.time_step, a.fps > 0 ? a.fps : kUsualRate, a.messages.live);
     const double most = 1 / options.time_step;
     if (a.fps > most * 1.001)
         throw Error(
@@ -221,11 +249,12 @@ void run_headless(const DriveArguments& a) {
             "frames were not recorded at an even rate: the film shows them at %.4g a second, and not in real "
             "time (--fps %.4g takes frames at an even rate)",
             fps, std::min(kUsualRate, most)));
-    Scenery scenery(options.scene, options.run, options.scenario);
+    Scenery scenery(options.scene, options.messages);
     check_settings(
         drive, a.settings, [&](const DriveSettings& settings) { scenery.check(settings); },
         [&](const DriveSettings& settings) { outlet.check(settings); });
-    if (!outlet.wanted() && a.record.empty()) throw Error("nothing to do: give --video, --log or --record");
+    if (!outlet.wanted() && a.record.empty() && a.osi_out.empty())
+        throw Error("nothing to do: give --video, --log, --record or --osi-out");
     gpu::Device device({.select = a.device});
     Session session(device, options, std::move(scenery));
     const std::shared_ptr<Cache> cache = apps::shadow_cache(a.shadow_cache);
@@ -240,12 +269,16 @@ void run_headless(const DriveArguments& a) {
     outlet.open(playback.frames());
     session.on_contact = [&](const traffic::Contact& contact) { outlet.add(contact); };
     apps::print_notes(session.scenery().notes());
+    std::optional<Live> live;
+    if (a.messages.live) live.emplace(a, session, playback);
+    if (!a.osi_out.empty()) session.write_trace(a.osi_out);
     if (!a.record.empty())
         session.record(a.record, outlet.wanted() && !channels ? std::optional(glm::uvec2(extent.width, extent.height))
                                                               : std::nullopt);
     apps::Progress progress(replays ? "replaying" : "driving", unsigned(std::max<size_t>(1, playback.frames())));
     unsigned index = 0;
     while (const auto kind = playback.next(session)) {
+        if (live && live->is_over()) break;
         if (kind != DriveEvent::Kind::Frame || !outlet.wanted()) continue;
         if (channels) {
             take_wall(outlet, index++, session, *channels, fps);
@@ -258,6 +291,8 @@ void run_headless(const DriveArguments& a) {
     }
     outlet.finish();
     session.stop_recording();
+    session.finish_trace();
+    if (live) live->finish();
     if (playback.strayed())
         apps::print_note(
             one_line(a.replay) +

@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kRadiansPerDegreeF = float(kRadiansPerDegree);
 constexpr float kHalogen = 3800;  // K
-const glm::vec3 kRed(1, 0.02f, 0.01f), kAmber(1, 0.38f, 0);
+const glm::vec3 kRed(1, 0.02f, 0.01f), kAmber(1, 0.38f, 0), kWhite(1);
 
 // An axis-aligned box, each face with its own normal.
 void add_box(scene::Primitive& p, glm::vec3 low, glm::vec3 high) {
@@ -71,21 +71,11 @@ uint32_t signal(scene::Scene& scene, const std::string& name, float candela, flo
                            .opening = {.length = width, .width = height}});
 }
 
-}  // namespace
-
-traffic::LampRoles plain_lamps() {
-    return {{"low beam"},
-            {"high beam"},
-            {"tail lamp"},
-            {"brake lamp"},
-            {"left front indicator", "left rear indicator"},
-            {"right front indicator", "right rear indicator"}};
-}
-
-void add_plain_body(scene::Scene& scene, uint32_t root, const PlainBody& body) {
-    const std::string name = scene.nodes[root].name;
-    const glm::vec3 half = glm::vec3(body.size.y, body.size.z, body.size.x) / 2.0f;  // right, up, back
-    const glm::vec3 middle(-body.centre.y, body.centre.z, -body.centre.x);
+uint32_t body_mesh(scene::Scene& scene, const std::string& name, const PlainBody& body, glm::vec3 half,
+                   glm::vec3 middle) {
+    const auto known = std::find_if(scene.meshes.begin(), scene.meshes.end(),
+                                    [&](const scene::Mesh& mesh) { return mesh.name == name; });
+    if (known != scene.meshes.end()) return uint32_t(known - scene.meshes.begin());
     scene::Primitive p;
     p.material = uint32_t(scene.materials.size());
     scene.materials.push_back(
@@ -101,7 +91,27 @@ void add_plain_body(scene::Scene& scene, uint32_t root, const PlainBody& body) {
         add_box(p, middle - half, middle + half);
     }
     scene.meshes.push_back({name, {std::move(p)}});
-    scene.nodes[root].mesh = uint32_t(scene.meshes.size() - 1);
+    return uint32_t(scene.meshes.size() - 1);
+}
+
+}  // namespace
+
+traffic::LampRoles plain_lamps() {
+    return {{"low beam"},
+            {"high beam"},
+            {"tail lamp"},
+            {"brake lamp"},
+            {"left front indicator", "left rear indicator"},
+            {"right front indicator", "right rear indicator"},
+            {"front fog lamp"},
+            {"rear fog lamp"},
+            {"reversing lamp"}};
+}
+
+void add_plain_body(scene::Scene& scene, uint32_t root, const std::string& name, const PlainBody& body) {
+    const glm::vec3 half = glm::vec3(body.size.y, body.size.z, body.size.x) / 2.0f;  // right, up, back
+    const glm::vec3 middle(-body.centre.y, body.centre.z, -body.centre.x);
+    scene.nodes[root].mesh = body_mesh(scene, name, body, half, middle);
     if (!body.lamps) return;
     const glm::quat back = glm::angleAxis(std::numbers::pi_v<float>, glm::vec3(0, 1, 0));
     const auto hang = [&](uint32_t lamp, float side, float height, bool front) {
@@ -119,6 +129,9 @@ void add_plain_body(scene::Scene& scene, uint32_t root, const PlainBody& body) {
         hang(beam(scene, "high beam", "high-beam"), side, lamp_height, true);
         hang(signal(scene, "tail lamp", 5, 55, kRed, 0.2, 0.26), side, tail_height, false);
         hang(signal(scene, "brake lamp", 80, 55, kRed, 0.2, 0.26), side, tail_height, false);
+        hang(beam(scene, "front fog lamp", "front-fog"), side * 0.9f, lamp_height - 0.25f, true);
+        hang(signal(scene, "rear fog lamp", 200, 40, kRed, 0.14, 0.1), side * 0.9f, tail_height - 0.25f, false);
+        hang(signal(scene, "reversing lamp", 200, 60, kWhite, 0.14, 0.08), side * 0.8f, tail_height - 0.16f, false);
         hang(signal(scene, hand + " front indicator", 200, 60, kAmber, 0.14, 0.08), side * 1.15f, lamp_height - 0.12f,
              true);
         hang(signal(scene, hand + " rear indicator", 100, 60, kAmber, 0.14, 0.08), side * 1.1f, tail_height - 0.16f,

@@ -19,8 +19,9 @@ struct PlainBody {
 /// Names of the lamps that plain bodies have.
 traffic::LampRoles plain_lamps();
 
-/// Gives a node the body and, at its corners, low and high beams (standard_lamp), tail and brake lamps and indicators.
-/// The candela are those of UN Regulations 6 and 7, as data/rivoli has them.
-void add_plain_body(scene::Scene&, uint32_t node, const PlainBody&);
+/// Gives a node the body of that name, which the scene has once, and, at its corners, low and high beams and front fog
+/// lamps (standard_lamp), tail, brake and reversing lamps, rear fog lamps and indicators. The candela are those of UN
+/// Regulations 6, 7, 23 and 38, as data/rivoli has them.
+void add_plain_body(scene::Scene&, uint32_t node, const std::string& name, const PlainBody&);
 
 }  // namespace vesper::drive

@@ -8,7 +8,7 @@ std::optional<DriveEvent::Kind> Playback::next(Session& session) {
     const DriveEvent::Kind kind = event.kind;
     switch (event.kind) {
         case DriveEvent::Kind::Step: {
-            session.step(event.input);
+            session.step(event.input, event.shown || !live_moment ? event.shown : live_moment());
             const traffic::VehicleState& me = session.world().driver();
             strayed_ |= event.pose && glm::dvec4(me.position, me.yaw, me.speed) != *event.pose;
             break;

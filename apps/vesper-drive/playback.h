@@ -1,6 +1,8 @@
 // Events of a drive, done one after the other. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
+
 #include "session.h"
 
 namespace vesper::drive {
@@ -14,6 +16,8 @@ public:
     Playback(const Playback&) = delete;
     Playback& operator=(const Playback&) = delete;
 
+    /// Where messages come while one drives: the moment of theirs that the next step shows (Session::step).
+    std::function<std::optional<double>()> live_moment;
     /// Does the next event and says of which kind it was; nothing at the end. A Frame is left to the caller.
     std::optional<DriveEvent::Kind> next(Session&);
     /// Back to the first event, with the settings the session began with.

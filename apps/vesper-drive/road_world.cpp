@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <numbers>
 #include <optional>
 
 #include "base/error.h"
 #include "base/one_line.h"
+#include "guest_places.h"
 #include "io/in_file.h"
 #include "plain_car.h"
-#include "roads/esmini_run.h"
+#include "print.h"
 #include "roads/lit_roads.h"
 #include "roads/opendrive.h"
 
@@ -70,48 +69,9 @@ std::vector<traffic::Course> courses_of(const roads::LaneGraph& graph) {
     return courses;
 }
 
-traffic::VehicleLamps lamps_at(const roads::RunEntity& e, double time) {
-    const auto lit = [&](roads::RunLamp lamp) { return roads::lamp_at(e, lamp, time).level > 0.5; };
-    const bool low = lit(roads::RunLamp::LowBeam), high = lit(roads::RunLamp::HighBeam);
-    return {.low = low,
-            .high = high,
-            .tail = low || high || lit(roads::RunLamp::FogRear),
-            .brake = lit(roads::RunLamp::Brake),
-            .left = lit(roads::RunLamp::IndicatorLeft),
-            .right = lit(roads::RunLamp::IndicatorRight)};
-}
-
-PlainBody body_of(const roads::RunEntity& e) {
-    using Kind = roads::RunEntity::Kind;
-    const bool vehicle =
-        e.kind == Kind::Car || e.kind == Kind::Truck || e.kind == Kind::Bus || e.kind == Kind::Motorcycle;
-    const glm::dvec3 usual = e.kind == Kind::Truck || e.kind == Kind::Bus ? glm::dvec3(10, 2.5, 3)
-                             : vehicle                                    ? glm::dvec3(4.4, 1.8, 1.5)
-                                                                          : glm::dvec3(0.5, 0.6, 1.75);
-    PlainBody body{.size = usual, .centre = {vehicle ? usual.x * 0.3 : 0, 0, usual.z / 2}, .lamps = vehicle};
-    if (e.length > 0 && e.width > 0 && e.height > 0) body.size = {e.length, e.width, e.height}, body.centre = e.centre;
-    return body;
-}
-
-traffic::RecordedMover recording_of(const roads::RunEntity& e, const std::string& node,
-                                    const roads::RoadNetwork& network) {
-    using Kind = roads::RunEntity::Kind;
-    const PlainBody body = body_of(e);
-    traffic::RecordedMover r{.node = node,
-                             .length = body.size.x,
-                             .width = body.size.y,
-                             .middle = body.centre.x,
-                             .person = e.kind == Kind::Pedestrian || e.kind == Kind::Animal,
-                             .poses = {}};
-    for (const roads::RunPose& p : e.poses)
-        r.poses.push_back({p.time, network.to_world(p.position), p.heading - std::numbers::pi / 2, -p.pitch, p.roll,
-                           p.speed, lamps_at(e, p.time)});
-    return r;
-}
-
 std::string add_body(scene::Scene& scene, const std::string& name, const PlainBody& body) {
     scene.nodes.push_back({.name = name});
-    add_plain_body(scene, uint32_t(scene.nodes.size() - 1), body);
+    add_plain_body(scene, uint32_t(scene.nodes.size() - 1), "plain car", body);
     return name;
 }
 
@@ -127,48 +87,39 @@ void add_drivers_car(RoadWorld& made, const traffic::VehicleParameters& vehicle)
             if (node.camera != scene::kNone && scene.cameras[node.camera].name == "driver")
                 made.world.camera = "driver";
         }
-        return add_plain_body(scene, i,
+        return add_plain_body(scene, i, scene.nodes[i].name,
                               {.size = {vehicle.length, vehicle.width, 1.5},
                                .reflectance = glm::vec3(0.04f)});  // a dark bonnet; from within, faces look away
     }
 }
 
-// Whether the run was made on these roads: part of the places of its vehicles that lie off all lanes.
-double share_off(const roads::EsminiRun& run, const roads::RoadNetwork& network, const roads::LaneGraph& graph) {
-    constexpr size_t kLooks = 500;  // of an entity
-    size_t all = 0, off = 0;
-    for (const roads::RunEntity& e : run.entities) {
-        if (e.kind == roads::RunEntity::Kind::Pedestrian || e.kind == roads::RunEntity::Kind::Animal ||
-            e.kind == roads::RunEntity::Kind::Object)
-            continue;
-        for (size_t i = 0; i < e.poses.size(); i += 1 + e.poses.size() / kLooks, ++all) {
-            const auto lane =
-                graph.nearest(network.to_world(e.poses[i].position), 20, [](const roads::Lane&) { return true; });
+// Whether messages are of these roads: part of the places of their vehicles that lie off all lanes.
+double share_off(std::span<const osi::Message> messages, const MessageFrame& frame, const roads::LaneGraph& graph) {
+    constexpr size_t kLooks = 5000;
+    size_t objects = 0;
+    for (const osi::Message& message : messages) objects += message.objects.size();
+    size_t number = 0, all = 0, off = 0;
+    for (const osi::Message& message : messages)
+        for (const osi::MovingObject& object : message.objects) {
+            if (number++ % (1 + objects / kLooks) > 0 || object.kind >= osi::MovingObject::Kind::Pedestrian) continue;
+            const auto lane = graph.nearest(frame.point(object.centre), 20, [](const roads::Lane&) { return true; });
+            ++all;
             off += !lane || lane->distance - graph.pose(*lane).width / 2 > kOffRoad;
         }
-    }
     return all > 0 ? double(off) / double(all) : 0;
 }
 
-void check_place(RoadWorld& made, const roads::EsminiRun& run, const std::filesystem::path& file,
-                 const roads::RoadNetwork& network, const roads::LaneGraph& graph) {
-    const double share = share_off(run, network, graph);
+void check_place(RoadWorld& made, const MessageSource& source, std::span<const osi::Message> messages,
+                 const roads::LaneGraph& graph) {
+    const double share = share_off(messages, frame_of(source, made.origin), graph);
     if (share <= kMostOffNoted) return;
-    char text[160];
-    std::snprintf(text, sizeof text, ": %.0f %% of the places of its vehicles lie more than %.0f m off the roads of ",
-                  100 * share, kOffRoad);
-    const std::string complaint = one_line(file.string()) + text + one_line(made.world.scene.string()) +
-                                  (run.road_file.empty() ? "" : "; its scenario names " + one_line(run.road_file));
+    const std::string complaint =
+        one_line(source.file.string()) +
+        apps::format(": %.0f %% of the places of its vehicles lie more than %.0f m off the roads of ", 100 * share,
+                     kOffRoad) +
+        one_line(made.world.scene.string());
     if (share > kMostOff) throw Error(complaint);
     made.notes.push_back(complaint);
-}
-
-void add_run(RoadWorld& made, const roads::EsminiRun& run, const roads::RoadNetwork& network) {
-    made.notes.insert(made.notes.end(), run.notes.begin(), run.notes.end());
-    for (size_t i = 0; i < run.entities.size(); ++i) {
-        const std::string node = add_body(made.scene, "entity_" + std::to_string(i), body_of(run.entities[i]));
-        made.world.world.recordings.push_back(recording_of(run.entities[i], node, network));
-    }
 }
 
 void add_traffic(RoadWorld& made) {
@@ -185,17 +136,21 @@ void add_traffic(RoadWorld& made) {
 
 }  // namespace
 
-RoadWorld road_world(const std::filesystem::path& roads, const std::filesystem::path& run,
-                     const std::filesystem::path& scenario) {
+RoadWorld road_world(const std::filesystem::path& roads, const MessageSource& source,
+                     std::span<const osi::Message> messages) {
     const roads::RoadNetwork network = roads::read_opendrive(roads);
     const roads::LaneGraph graph(network);
-    std::optional<roads::EsminiRun> recorded;
-    if (!run.empty())
-        recorded = roads::read_esmini_run(run, scenario.empty() ? std::nullopt : std::optional(scenario), &network);
-    const bool switched = recorded && !recorded->signals.empty();
+    const bool switched = source.live || std::any_of(messages.begin(), messages.end(), [](const osi::Message& message) {
+                              return !message.traffic_lights.empty();
+                          });
     roads::LitRoads lit = io::in_file(
         roads.string(), [&] { return roads::lit_roads(network, {.headlamps = false, .every_lens = switched}); });
-    RoadWorld made{.scene = std::move(lit.scene), .world = {}, .lenses = {}, .notes = std::move(lit.notes)};
+    RoadWorld made{.scene = std::move(lit.scene),
+                   .world = {},
+                   .bodies = {},
+                   .lenses = {},
+                   .origin = network.origin,
+                   .notes = std::move(lit.notes)};
     made.world.scene = roads;
     made.world.roles = plain_lamps();
     traffic::WorldDescription& world = made.world.world;
@@ -208,8 +163,8 @@ RoadWorld road_world(const std::filesystem::path& roads, const std::filesystem::
             world.barriers.push_back({.line = {{kerb.from.x, kerb.from.z}, {kerb.to.x, kerb.to.z}},
                                       .height = (kerb.from.y + kerb.to.y) / 2});
     world.driver_s = 3;
-    if (recorded) check_place(made, *recorded, run, network, graph);
-    if (switched) made.lenses = lenses_of(made.scene, network, *recorded, made.notes);
+    check_place(made, source, messages, graph);
+    if (source.any()) made.lenses = lenses_of(made.scene);
     for (scene::Node& node : made.scene.nodes) {
         // Lamps go by what they are; by day those of the road are off, and signals are not.
         if (node.lamp != scene::kNone) {
@@ -221,8 +176,8 @@ RoadWorld road_world(const std::filesystem::path& roads, const std::filesystem::
     }
     add_drivers_car(made, world.vehicle);
     if (made.world.by_day.empty()) made.world.by_day = {"none"};
-    if (recorded)
-        add_run(made, *recorded, network);
+    if (source.any())
+        made.bodies = GuestBodies(made.scene, made.world, source, messages);
     else
         add_traffic(made);
     return made;

@@ -1,10 +1,11 @@
-// Roads of others to drive on: an OpenDRIVE file, and a run that esmini recorded on it. SPDX-License-Identifier: MIT
+// Roads of others to drive on: an OpenDRIVE file, and what another program moves on it. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "guest_bodies.h"
 #include "scene/scene.h"
 #include "signal_lens.h"
 #include "traffic/world_file.h"
@@ -14,14 +15,15 @@ namespace vesper::drive {
 struct RoadWorld {
     scene::Scene scene;
     traffic::WorldFile world;
+    GuestBodies bodies;  ///< for the objects of messages
     std::vector<SignalLens> lenses;
+    glm::dvec3 origin{0};  ///< of the world, in the frame of the roads
     std::vector<std::string> notes;
 };
 
-/// The lit road (roads/lit_roads.h) with its lanes to drive on and its kerbs. On it the entities of the run, as boxes
-/// with lamps, and traffic lights as its scenario sets them; where more than half of it lies off the roads, it is
-/// refused. Without a run some traffic. Throws Error naming file, place and reason.
-RoadWorld road_world(const std::filesystem::path& roads, const std::filesystem::path& run,
-                     const std::filesystem::path& scenario);
+/// The lit road (roads/lit_roads.h) with its lanes to drive on and its kerbs. On it bodies for the objects of messages
+/// (GuestBodies); where more than half of their places lie off the roads, they are refused. Without a source some
+/// traffic. Throws Error naming file, place and reason.
+RoadWorld road_world(const std::filesystem::path& roads, const MessageSource&, std::span<const osi::Message>);
 
 }  // namespace vesper::drive

@@ -1,8 +1,7 @@
 #include "scenery.h"
 
-#include <unistd.h>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -15,9 +14,9 @@
 #include "base/budget.h"
 #include "base/error.h"
 #include "base/one_line.h"
+#include "load_scene.h"
 #include "road_world.h"
 #include "scene/colour.h"
-#include "scene/convert.h"
 #include "scene_notes.h"
 #include "traffic/daylight.h"
 
@@ -28,25 +27,14 @@ using scene::kNone;
 namespace fs = std::filesystem;
 
 constexpr double kEyeHeight = 1.2;  // m, of a driver
-constexpr double kPhotocell = 50;   // lx under the sky: street lamps go off above (35 to 70 lx are usual)
+// In the order of kLampRoles.
+constexpr std::array kLit{
+    &traffic::VehicleLamps::low,       &traffic::VehicleLamps::high,     &traffic::VehicleLamps::tail,
+    &traffic::VehicleLamps::brake,     &traffic::VehicleLamps::left,     &traffic::VehicleLamps::right,
+    &traffic::VehicleLamps::front_fog, &traffic::VehicleLamps::rear_fog, &traffic::VehicleLamps::reversing};
+static_assert(kLit.size() == traffic::kLampRoles.size());
 
-// A folder that is gone with its maker.
-struct Scratch {
-    fs::path folder = fs::temp_directory_path() / ("vesper-drive-" + std::to_string(::getpid()));
-    Scratch() { fs::create_directories(folder); }
-    ~Scratch() {
-        std::error_code ignored;
-        fs::remove_all(folder, ignored);
-    }
-};
-
-scene::LoadedScene load(const fs::path& scene, const fs::path& photometry) {
-    if (photometry.empty()) return scene::read_gltf(scene);
-    const Scratch scratch;
-    const fs::path made = scratch.folder / "scene.gltf";
-    scene::convert(scene, photometry, made);
-    return scene::read_gltf(made);
-}
+constexpr double kPhotocell = 50;  // lx under the sky: street lamps go off above (35 to 70 lx are usual)
 
 // Without what a node's scale does.
 glm::dmat4 rigid(const glm::dmat4& m) {
@@ -62,6 +50,15 @@ glm::dmat4 pose_of(const traffic::Actor& a) {
     m = glm::rotate(m, a.yaw, glm::dvec3(0, 1, 0));
     m = glm::rotate(m, a.pitch, glm::dvec3(1, 0, 0));
     return glm::rotate(m, -a.roll, glm::dvec3(0, 0, 1));  // left side up
+}
+
+// A body is made larger or smaller, and its lamps are where they are on it then, as large as they were.
+glm::dmat4 placed(const glm::dmat4& pose, const glm::dvec3& scale, glm::dmat4 offset, bool lamp) {
+    if (scale == glm::dvec3(1)) return pose * offset;
+    const glm::dvec3 by(scale.y, scale.z, scale.x);  // across, up, along
+    if (!lamp) return pose * glm::scale(glm::dmat4(1), by) * offset;
+    offset[3] = glm::dvec4(by * glm::dvec3(offset[3]), 1);
+    return pose * offset;
 }
 
 uint32_t first_camera(const scene::Scene& scene) {
@@ -96,35 +93,53 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 }  // namespace
 
-Scenery::Scenery(const fs::path& file, const fs::path& run, const fs::path& scenario) {
+Scenery::Scenery(const fs::path& file, const MessageSource& source) : source_(source) {
+    messages_ = read_messages(source, notes_);
+    if (source.file.extension() == ".osi" && source.host.empty() && !source.live &&
+        std::none_of(messages_.begin(), messages_.end(), [](const osi::Message& m) { return m.host.has_value(); }))
+        notes_.push_back(
+            one_line(source.file.string()) +
+            ": names no host vehicle: the driver's car is one more (--host ID sits in one of the objects)");
     const Budget budget("reading " + one_line(file.string()));
     const std::string extension = file.extension().string();
-    if (!run.empty() && extension != ".xodr")
-        throw Error(one_line(run.string()) + ": a run needs the roads (.xodr) that it was recorded on");
+    const auto note = [&](const std::vector<std::string>& more) {
+        notes_.insert(notes_.end(), more.begin(), more.end());
+    };
+    const auto make_room = [&](traffic::WorldFile& world) {
+        if (!source.any()) return;
+        lenses_ = lenses_of(scene_);
+        bodies_ = GuestBodies(scene_, world, source, messages_);
+    };
+    glm::dvec3 origin(0);
     if (extension == ".xodr") {
-        RoadWorld roads = road_world(file, run, scenario);
-        scene_ = std::move(roads.scene), notes_ = std::move(roads.notes), lenses_ = std::move(roads.lenses);
+        RoadWorld roads = road_world(file, source, messages_);
+        note(roads.notes), origin = roads.origin;
+        scene_ = std::move(roads.scene), lenses_ = std::move(roads.lenses), bodies_ = std::move(roads.bodies);
         scene_.name = file.string();
         adopt(roads.world);
     } else if (extension == ".json") {
         traffic::WorldFile world = traffic::read_world(file);
-        scene::LoadedScene loaded = load(world.scene, world.photometry);
-        notes_ = apps::notes_of(loaded, world.scene.string()), scene_ = std::move(loaded.scene);
+        scene::LoadedScene loaded = load_scene(world.scene, world.photometry);
+        note(apps::notes_of(loaded, world.scene.string())), scene_ = std::move(loaded.scene);
         scene_.name = world.scene.string();
+        make_room(world);
         adopt(world);
         const std::string at = one_line(file.string()) + ": ";
         for (const auto& [role, names] : traffic::kLampRoles) require_lamps(world.roles.*names, at + "/lamps/" + role);
         require_lamps(world.by_day, at + "/lit_by_day");
     } else if (extension == ".gltf" || extension == ".glb") {
-        scene::LoadedScene loaded = load(file, {});
-        notes_ = apps::notes_of(loaded, file.string()), scene_ = std::move(loaded.scene);
+        scene::LoadedScene loaded = load_scene(file, {});
+        note(apps::notes_of(loaded, file.string())), scene_ = std::move(loaded.scene);
         scene_.name = file.string();
         const uint32_t camera = first_camera(scene_);
         traffic::WorldFile plain = plain_world(scene_, camera);
+        make_room(plain);
         adopt(plain, camera);
     } else {
         throw Error(one_line(file.string()) + ": a world (.json), roads (.xodr) or a scene (.gltf, .glb) is expected");
     }
+    note(bodies_.notes());
+    message_frame_ = frame_of(source, origin);
 }
 
 void Scenery::adopt(traffic::WorldFile& file, uint32_t eye) {
@@ -181,7 +196,7 @@ void Scenery::find_lamps(const traffic::LampRoles& roles, const std::vector<std:
         SwitchedLamp lamp{i, rider[i], kFixed, true, lens[i], lamp_name(scene_, i)};
         if (lamp.actor != kNone)
             for (size_t r = 0; r < traffic::kLampRoles.size(); ++r)
-                if (contains(roles.*traffic::kLampRoles[r].second, lamp.name)) lamp.role = Role(kLow + r);
+                if (contains(roles.*traffic::kLampRoles[r].second, lamp.name)) lamp.role = r;
         if (lamp.role == kFixed) lamp.by_day = by_day.empty() || contains(by_day, lamp.name);
         lamps_.push_back(std::move(lamp));
     }
@@ -224,40 +239,27 @@ void Scenery::require_lamp(const std::string& name, const std::string& place) co
 
 bool Scenery::shines(const SwitchedLamp& lamp, const std::vector<traffic::Actor>& actors, bool bright) const {
     if (lamp.role == kFixed) return lamp.by_day || !bright;
-    const traffic::VehicleLamps& lit = actors[lamp.actor].lamps;
-    switch (lamp.role) {
-        case kLow:
-            return lit.low;
-        case kHigh:
-            return lit.high;
-        case kTail:
-            return lit.tail;
-        case kBrake:
-            return lit.brake;
-        case kLeft:
-            return lit.left;
-        default:
-            return lit.right;
-    }
+    return actors[lamp.actor].lamps.*kLit[lamp.role];
 }
 
-gpu_scene::SceneFrame Scenery::frame(const std::vector<traffic::Actor>& actors, double seconds,
-                                     const DriveSettings& settings) const {
+gpu_scene::SceneFrame Scenery::frame(const std::vector<traffic::Actor>& actors, const DriveSettings& settings,
+                                     const Outside& outside) const {
     gpu_scene::SceneFrame made{
         .world = rest_, .dimming = std::vector<float>(scene_.nodes.size(), 1), .ambient = night_};
     std::vector<glm::dmat4> poses;
     for (const traffic::Actor& actor : actors) poses.push_back(pose_of(actor));
     made.moving.assign(scene_.nodes.size(), false);
     for (const Rider& r : riders_) {
-        made.world[r.node] = poses[r.actor] * r.offset;
+        made.world[r.node] =
+            placed(poses[r.actor], actors[r.actor].scale, r.offset, scene_.nodes[r.node].lamp != kNone);
         made.moving[r.node] = true;
     }
 
-    double outside = 0;
-    if (settings.sun()) {
-        outside = traffic::kOvercast * traffic::daylight_illuminance(*settings.sun());
+    double daylight = 0;
+    if (const auto sun = settings.sun() ? settings.sun() : outside.sun_elevation) {
+        daylight = traffic::kOvercast * traffic::daylight_illuminance(*sun);
         const glm::vec3 light =
-            float(outside) * glm::vec3(scene::colour_of_temperature(traffic::daylight_temperature(*settings.sun())));
+            float(daylight) * glm::vec3(scene::colour_of_temperature(traffic::daylight_temperature(*sun)));
         made.ambient->illuminance += light;
         made.ambient->sky += light / std::numbers::pi_v<float>;
         made.tunnels = tunnels_;
@@ -266,7 +268,8 @@ gpu_scene::SceneFrame Scenery::frame(const std::vector<traffic::Actor>& actors, 
         const auto factor = settings.lamps().find(lamp.name);
         const double wanted = factor == settings.lamps().end() ? 1 : factor->second;
         const bool on =
-            shines(lamp, actors, outside > kPhotocell) && (lamp.lens == kNone || lenses_[lamp.lens].shines(seconds));
+            shines(lamp, actors, daylight > kPhotocell) &&
+            (lamp.lens == kNone || (outside.lenses.empty() ? lenses_[lamp.lens].otherwise : outside.lenses[lamp.lens]));
         made.dimming[lamp.node] = on ? float(wanted) : 0;
     }
     return made;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "guest_places.h"
 #include "render/renderer.h"
 #include "settings.h"
-#include "signal_lens.h"
 #include "traffic/world_file.h"
 
 namespace vesper::drive {
@@ -24,32 +24,39 @@ struct LampGroup {
 class Scenery {
 public:
     /// Reads a world (.json), roads (.xodr), or a scene alone (.gltf, .glb), in which one drives straight on over a
-    /// plane from the first camera; what is below that camera goes along. `run`: a run that esmini recorded on these
-    /// roads, and its scenario (.xosc) where there is one; instead of traffic. Throws Error.
-    explicit Scenery(const std::filesystem::path& file, const std::filesystem::path& run = {},
-                     const std::filesystem::path& scenario = {});
+    /// plane from the first camera; what is below that camera goes along. Objects of messages take the place of
+    /// traffic. Throws Error.
+    explicit Scenery(const std::filesystem::path& file, const MessageSource& = {});
 
     const scene::Scene& scene() const { return scene_; }
     const std::shared_ptr<const traffic::WorldDescription>& world() const { return world_; }
     const std::vector<std::string>& notes() const { return notes_; }
+    /// Of the source's file.
+    const std::vector<osi::Message>& messages() const { return messages_; }
+    /// For the objects of messages.
+    GuestPlaces guest_places() const { return {bodies_, lenses_, message_frame_, source_.host}; }
+    const MessageFrame& message_frame() const { return message_frame_; }
+    const std::vector<SignalLens>& lenses() const { return lenses_; }
     /// The lamps there are by name, as "lamp:NAME" settings have them, sorted.
     std::vector<LampGroup> lamp_groups() const;
 
     /// Gives settings back if all lamps that they name are here. Throws Error.
     const DriveSettings& check(const DriveSettings&) const;
 
-    /// Where everything stands and how it is lit, with the actors of a World of `world()` after so many seconds.
-    gpu_scene::SceneFrame frame(const std::vector<traffic::Actor>&, double seconds, const DriveSettings&) const;
+    /// Where everything stands and how it is lit, with the actors of a World of `world()`. `outside`: lenses and sun,
+    /// as another program has them; the sun of the settings goes before.
+    gpu_scene::SceneFrame frame(const std::vector<traffic::Actor>&, const DriveSettings&,
+                                const Outside& outside = {}) const;
     /// What the camera of the settings sees of that frame.
     gpu_scene::View view(const gpu_scene::SceneFrame&, const std::vector<traffic::Actor>&, const DriveSettings&,
                          VkExtent2D) const;
 
 private:
-    enum Role : uint8_t { kFixed, kLow, kHigh, kTail, kBrake, kLeft, kRight };  // in the order of kLampRoles
+    static constexpr size_t kFixed = ~size_t{0};
     struct SwitchedLamp {
         uint32_t node;
         uint32_t actor;  // index, kNone: fixed
-        Role role;
+        size_t role;     // of traffic::kLampRoles, or kFixed
         bool by_day;
         uint32_t lens;  // index, kNone: nobody switches it
         std::string name;
@@ -73,6 +80,10 @@ private:
     };
     std::vector<Rider> riders_;  // nodes that move
     std::vector<SwitchedLamp> lamps_;
+    MessageSource source_;
+    std::vector<osi::Message> messages_;
+    GuestBodies bodies_;
+    MessageFrame message_frame_;
     std::vector<SignalLens> lenses_;
     std::string camera_;  // of the driver's eye; empty: none
     gpu_scene::AmbientLight night_;

@@ -1,19 +1,41 @@
 #include "session.h"
 
+#include <cmath>
+#include <utility>
+
+#include "base/angle.h"
+#include "base/error.h"
+#include "osi/trace.h"
+#include "world_message.h"
+
 namespace vesper::drive {
+namespace {
+
+// Whether messages come while one drives; those of a replay are in its file.
+bool is_live(const MessageSource& source) { return source.live && source.file.empty(); }
+
+}  // namespace
 
 Session::Session(gpu::Device& device, DriveStart options)
-    : Session(device, options, Scenery(options.scene, options.run, options.scenario)) {}
+    : Session(device, options, Scenery(options.scene, options.messages)) {}
 
 Session::Session(gpu::Device& device, DriveStart options, Scenery scenery)
     : options_(std::move(options)),
       scenery_(std::move(scenery)),
       settings_(scenery_.check(DriveSettings(options_.settings))),
       world_(std::make_unique<traffic::World>(scenery_.world(), options_.seed)),
-      actors_(world_->actors()),
+      timeline_(!is_live(options_.messages)),
+      places_(scenery_.guest_places()),
       device_(&device),
       renderer_(std::make_unique<render::Renderer>(device, scenery_.scene())),
-      recorder_(std::make_unique<DriveRecorder>(start())) {}
+      recorder_(std::make_unique<DriveRecorder>(start())) {
+    for (const osi::Message& message : scenery_.messages()) timeline_.add(message);
+    if (is_live(options_.messages)) {
+        heard_ = std::make_unique<MessageStore>();
+        timeline_.on_use = [this](const osi::Message& message) { keep(message); };
+    }
+    look_outside(options_.messages.live ? std::nullopt : std::optional(0.0));
+}
 
 Session::~Session() = default;
 
@@ -23,24 +45,46 @@ DriveStart Session::start() const {
     return now;
 }
 
-void Session::step(const traffic::DriverInput& input) {
+osi::Timeline::Added Session::hear(osi::Message message) { return timeline_.add(std::move(message)); }
+
+// What cannot be kept ends a recording, and nothing else.
+void Session::keep(const osi::Message& message) {
+    if (heard_->add(message) || !recording()) return;
+    recorder_->close();
+    throw Error("the recording ends: " + heard_->problem());
+}
+
+// The moment of the messages, and everything where it is then.
+void Session::look_outside(std::optional<double> shown) {
+    if (shown) shown_ = shown;
+    if (options_.messages.any()) {
+        outside_ = shown_ ? places_.place(timeline_.at(*shown_)) : Outside{};
+        world_->place(outside_.guests, outside_.driver);
+    }
+    actors_ = world_->actors();
+}
+
+void Session::step(const traffic::DriverInput& input, std::optional<double> shown) {
     input_ = input;
     const size_t met = world_->contacts().size();
     world_->step(input, options_.time_step);
-    actors_ = world_->actors();
+    look_outside(options_.messages.live ? shown : world_->seconds());
     for (size_t i = met; on_contact && i < world_->contacts().size(); ++i) on_contact(world_->contacts()[i]);
     const traffic::VehicleState& me = world_->driver();
     recorder_->add({.kind = DriveEvent::Kind::Step,
                     .input = input,
                     .pose = glm::dvec4(me.position, me.yaw, me.speed),
+                    .shown = options_.messages.live ? shown : std::nullopt,
                     .name = {},
                     .value = {}});
+    if (trace_) ++traced_, trace_->append(osi::trace_bytes_of(message_now()));
 }
 
 void Session::restart() {
     world_ = std::make_unique<traffic::World>(scenery_.world(), options_.seed);
-    actors_ = world_->actors();
     input_ = {};
+    if (!options_.messages.live) places_ = scenery_.guest_places();
+    look_outside(options_.messages.live ? shown_ : 0.0);
     rendered_.reset();
     renderer_->reset_adaptation();
     if (wall_) wall_->reset_adaptation();
@@ -52,6 +96,7 @@ void Session::restart() {
 
 void Session::rewind() {
     settings_ = DriveSettings(options_.settings);
+    shown_.reset(), places_ = scenery_.guest_places();
     restart();
 }
 
@@ -60,10 +105,10 @@ void Session::set(const std::string& name, const std::string& value) {
     wanted.set(name, value);
     scenery_.check(wanted);
     settings_ = std::move(wanted);
-    recorder_->add({.kind = DriveEvent::Kind::Set, .name = name, .value = value});
+    recorder_->add({.kind = DriveEvent::Kind::Set, .shown = {}, .name = name, .value = value});
 }
 
-gpu_scene::SceneFrame Session::moment() const { return scenery_.frame(actors_, world_->seconds(), settings_); }
+gpu_scene::SceneFrame Session::moment() const { return scenery_.frame(actors_, settings_, outside_); }
 
 gpu_scene::View Session::view(VkExtent2D extent) const { return scenery_.view(moment(), actors_, settings_, extent); }
 
@@ -135,10 +180,43 @@ void Session::use(gpu::Device& device) {
     if (rendered_) wall_->set_eye(eye_);
 }
 
-void Session::record(const std::filesystem::path& file, std::optional<glm::uvec2> size) { recorder_->open(file, size); }
+void Session::record(const std::filesystem::path& file, std::optional<glm::uvec2> size) {
+    if (heard_) heard_->open(messages_of(file));
+    recorder_->open(file, size);
+}
 
-void Session::stop_recording() { recorder_->close(); }
+void Session::stop_recording() {
+    recorder_->close();
+    if (heard_) heard_->close();
+}
 
 bool Session::recording() const { return recorder_->is_open(); }
+
+osi::Message Session::message_now() const {
+    osi::Message message = message_of(*world_, outside_, scenery_.message_frame());
+    // A restart does not turn time back.
+    message.nanoseconds = std::llround(double(traced_) * options_.time_step * 1e9);
+    const std::vector<SignalLens>& lenses = scenery_.lenses();
+    for (size_t i = 0; i < lenses.size(); ++i) {
+        const bool lit = outside_.lenses.empty() ? lenses[i].otherwise : outside_.lenses[i];
+        message.traffic_lights.push_back({.id = i + 1,
+                                          .signal = lenses[i].signal,
+                                          .position = scenery_.message_frame().back(lenses[i].position),
+                                          .colour = lenses[i].colour,
+                                          .state = lit ? osi::LampState::On : osi::LampState::Off});
+    }
+    if (const auto sun = settings_.sun() ? settings_.sun() : outside_.sun_elevation)
+        message.environment = osi::Environment{.sun_elevation = *sun * kRadiansPerDegree, .time_of_day = {}};
+    return message;
+}
+
+void Session::write_trace(const std::filesystem::path& file) {
+    trace_ = std::make_unique<io::GrowingFile>(file);
+    trace_->append(osi::trace_bytes_of(message_now()));
+}
+
+void Session::finish_trace() {
+    if (trace_) std::exchange(trace_, nullptr)->complete();
+}
 
 }  // namespace vesper::drive

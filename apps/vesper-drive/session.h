@@ -27,6 +27,7 @@
 #include "channels.h"
 #include "drive_file.h"
 #include "gpu/device.h"
+#include "message_store.h"
 #include "scenery.h"
 #include "settings.h"
 #include "traffic/world.h"
@@ -46,7 +47,15 @@ public:
     const Scenery& scenery() const { return scenery_; }
 
     // The world.
-    void step(const traffic::DriverInput&);
+    /// `shown`: the moment of the messages that it shows, s after the first of them; without one that of a live source
+    /// stays, and a source with a file goes along with the world's time.
+    void step(const traffic::DriverInput&, std::optional<double> shown = {});
+    /// A message of a live source, from now on known. False: it is late, or repeated.
+    osi::Timeline::Added hear(osi::Message);
+    /// Time of the latest message, s after the first.
+    double latest_message() const { return timeline_.latest(); }
+    /// What another program says of the present moment.
+    const Outside& outside() const { return outside_; }
     /// Called in step() for everything that the car meets.
     std::function<void(const traffic::Contact&)> on_contact;
     /// Back to the start, with the eye adapted anew. A recording goes on; what was not recorded is forgotten.
@@ -98,10 +107,17 @@ public:
     /// Completes the recording, which takes its name. Without, what there is of it stays in FILE.part.
     void stop_recording();
     bool recording() const;
+    /// Writes what moves, how it is lit, traffic lights and sun as an OSI trace, a message after each step from now on;
+    /// finish_trace() gives it its name.
+    void write_trace(const std::filesystem::path& file);
+    void finish_trace();
 
 private:
     DriveStart start() const;
     render::RenderSettings frame_settings() const;
+    void keep(const osi::Message&);
+    void look_outside(std::optional<double> shown);
+    osi::Message message_now() const;
     void begin_frame(const gpu_scene::SceneFrame& moment);
     void end_frame(const shared::EyeState&);
 
@@ -111,6 +127,13 @@ private:
     std::unique_ptr<traffic::World> world_;
     std::vector<traffic::Actor> actors_;
     traffic::DriverInput input_;
+    osi::Timeline timeline_;
+    GuestPlaces places_;
+    Outside outside_;
+    std::optional<double> shown_;             // the moment of the messages
+    std::unique_ptr<MessageStore> heard_;     // what is needed of a live source to show it again
+    std::unique_ptr<io::GrowingFile> trace_;  // of write_trace()
+    uint64_t traced_ = 0;                     // steps in it
     gpu::Device* device_;
     std::unique_ptr<render::Renderer> renderer_;
     std::unique_ptr<ChannelRenderer> wall_;  // made when first asked for

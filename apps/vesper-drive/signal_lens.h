@@ -1,39 +1,40 @@
-// Traffic lights that a recorded run switches. SPDX-License-Identifier: MIT
+// Lenses of traffic lights that another program switches. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
-#include "roads/esmini_run.h"
+#include "osi/timeline.h"
 #include "scene/scene.h"
 
 namespace vesper::drive {
 
-/// One lens of a traffic light, and when it shines.
+/// A lamp of the scene that is a lens of a traffic light.
 struct SignalLens {
-    enum class Mode : uint8_t { Off, On, Flashing };
-    struct Change {
-        double time = 0;  ///< s
-        Mode mode = Mode::Off;
-    };
-    uint32_t node = scene::kNone;  ///< of the scene: its lamp
-    bool otherwise = false;        ///< before the first change
-    std::vector<Change> changes;   ///< times ascending
-
-    bool shines(double seconds) const;
+    uint32_t node = scene::kNone;
+    std::string signal;  ///< id of its signal in the roads; empty: not known
+    osi::TrafficLight::Colour colour = osi::TrafficLight::Colour::Other;
+    glm::dvec3 position{0};  ///< in the world, m
+    bool otherwise = false;  ///< whether it shines while nobody says
 };
 
-/// What the lenses of a signal, whose colours from the top these are, show in a state of it (docs/esmini.md has the
-/// words): one word for each by its place ("on;off;off"), or words that name what shines ("red", "flashing yellow";
-/// "off"). Nothing where it is none of that.
-std::optional<std::vector<SignalLens::Mode>> lenses_in(const std::string& state,
-                                                       const std::vector<std::string>& colours);
+/// Lenses of roads ("signal_ID/red" and so on: LitRoadOptions::every_lens), and other lamps that do not move and have
+/// the word red, yellow, amber or green in their name. While nobody says, cars wait: red for them, green for people on
+/// foot.
+std::vector<SignalLens> lenses_of(const scene::Scene&);
 
-/// Of all lenses ("signal_ID/red" and so on: LitRoadOptions::every_lens) of a scene. Signals that the run does not set
-/// stay as they are without one: red for cars, green for people on foot; so they do in states that are not understood,
-/// of each of which there is one note.
-std::vector<SignalLens> lenses_of(const scene::Scene&, const roads::RoadNetwork&, const roads::EsminiRun&,
-                                  std::vector<std::string>& notes);
+/// Finds the lens that a traffic light of a message is: that of its signal and colour, or the nearest of its colour
+/// within 1.5 m.
+class LensFinder {
+public:
+    /// kNone: there is none. `position`: of the light, in the world.
+    uint32_t find(const std::vector<SignalLens>&, const osi::TrafficLight&, const glm::dvec3& position);
+
+private:
+    std::unordered_map<uint64_t, uint32_t> known_;  // by the light's id
+};
+
+constexpr double kSignalPeriod = 1;  ///< s, of lenses that flash
 
 }  // namespace vesper::drive

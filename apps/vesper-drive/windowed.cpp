@@ -66,12 +66,14 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
     if (!a.replay.empty()) {
         drive = read_drive(a.replay);
         arguments_.scene = drive.start.scene.string();
-        arguments_.run = drive.start.run.string(), arguments_.scenario = drive.start.scenario.string();
+        arguments_.messages = drive.start.messages;
         if (drive.start.size && !a.size_given) size_ = VkExtent2D{drive.start.size->x, drive.start.size->y};
         if (!drive.complete) say(a.replay + " breaks off; what there is of it is shown");
     }
     open_session(drive);
     if (!a.replay.empty()) replay_.emplace(std::move(drive.events), a.settings);
+    if (a.messages.live) open_feed();
+    if (!a.osi_out.empty()) session_->write_trace(a.osi_out);
     if (!a.record.empty()) session_->record(a.record, recorded_size()), recording_ = a.record;
     if (a.autopilot) hands_.press(Action::Autopilot);
     if (!a.log.empty()) log_.emplace(a.log, probes_of(a.probes));
@@ -110,7 +112,7 @@ void WindowedDrive::check_display(const DriveSettings& settings) const {
 
 void WindowedDrive::open_session(const Drive& drive) {
     const DriveStart start = start_of(arguments_, drive.start);
-    Scenery scenery(start.scene, start.run, start.scenario);
+    Scenery scenery(start.scene, start.messages);
     check_settings(
         drive, arguments_.settings, [&](const DriveSettings& settings) { check_display(scenery.check(settings)); },
         [](const DriveSettings&) {});
@@ -123,27 +125,28 @@ void WindowedDrive::open_session(const Drive& drive) {
 
 // A scene that cannot be used leaves everything as it is.
 void WindowedDrive::reload(const std::string& scene) {
-    const bool same = scene == arguments_.scene;  // then the run on it, too
+    const bool same = scene == arguments_.scene;  // then what moves on it, too
     DriveSettings::Values settings = session_->settings().values();
     if (!same)
         std::erase_if(settings, [](const auto& setting) {
             return setting.first.starts_with("lamp:");
         });  // of lamps that only the old scene has
     try {
-        auto made = std::make_unique<Session>(*device_, DriveStart{.scene = scene,
-                                                                   .run = same ? arguments_.run : "",
-                                                                   .scenario = same ? arguments_.scenario : "",
-                                                                   .seed = arguments_.seed,
-                                                                   .settings = settings});
+        auto made =
+            std::make_unique<Session>(*device_, DriveStart{.scene = scene,
+                                                           .messages = same ? arguments_.messages : MessageSource{},
+                                                           .seed = arguments_.seed,
+                                                           .settings = settings});
         if (!recording_.empty()) session_->stop_recording();
-        light_.reset(), session_ = std::move(made);
+        light_.reset(), session_ = std::move(made), feed_.reset();
+        if (same && arguments_.messages.live) open_feed();
         session_->set_shadow_budget(kWindowShadowBudget);
         watch_contacts();
         keep_maps();
     } catch (const Error& error) {
         return say(error.what(), true);
     }
-    if (!same) arguments_.run.clear(), arguments_.scenario.clear();
+    if (!same) arguments_.messages = {};
     arguments_.scene = scene;
     recording_.clear(), replay_.reset(), instruments_.forget();
     if (!arguments_.size_given) size_.reset();
@@ -242,10 +245,30 @@ void WindowedDrive::advance(double seconds) {
     if (replay_) {
         if (owed_ >= step) moved = replay_to_next_frame();
     } else {
+        listen();
+        const Clock::time_point now = Clock::now();
         for (; owed_ >= step; owed_ -= step, moved = true)
-            session_->step(hands_.next(held(), session_->world().driver().speed, step));
+            session_->step(hands_.next(held(), session_->world().driver().speed, step),
+                           feed_ ? feed_->shown(now - std::chrono::duration_cast<Clock::duration>(
+                                                          std::chrono::duration<double>(owed_ - step)))
+                                 : std::nullopt);
     }
     render(moved);
+}
+
+void WindowedDrive::open_feed() {
+    feed_ = std::make_unique<MessageFeed>(osi::parse_address(arguments_.osi_udp), arguments_.osi_delay);
+}
+
+// Messages that cannot be used are told of, at most each 5 s.
+void WindowedDrive::listen() {
+    if (!feed_ || paused_) return;  // what comes meanwhile waits, within the bounds of a Receiver
+    feed_->listen(*session_);
+    const osi::StreamCounts now = feed_->counts();
+    const uint64_t count = now.late + now.repeated + now.malformed + now.incomplete + now.crowded_out + now.foreign;
+    if (count == troubles_ || Clock::now() - troubles_said_ < std::chrono::seconds(5)) return;
+    troubles_ = count, troubles_said_ = Clock::now();
+    say(feed_->report());
 }
 
 void WindowedDrive::watch_contacts() {
@@ -281,6 +304,9 @@ void WindowedDrive::take_light() {
 
 // What the window says while no message is shown.
 std::string WindowedDrive::standing_message() const {
+    if (feed_ && feed_->counts().messages == 0) return "listening at " + feed_->place() + ": no message yet";
+    if (session_->outside().without_body > 0)
+        return format("%zu objects are not shown: there are too many at once", session_->outside().without_body);
     if (!light_ || light_->done() || !session_->settings().render().indirect) return {};
     return format("light between surfaces: %.0f %%, rough until then", 100 * light_->share());
 }
@@ -400,6 +426,7 @@ void WindowedDrive::run() {
             now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(least)));
     }
     if (!recording_.empty()) session_->stop_recording();
+    session_->finish_trace();
     if (log_) log_->complete();
 }
 

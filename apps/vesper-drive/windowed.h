@@ -14,6 +14,7 @@
 #include "input_devices.h"
 #include "instruments.h"
 #include "light_gatherer.h"
+#include "message_feed.h"
 #include "playback.h"
 #include "screen.h"
 #include "session.h"
@@ -55,6 +56,8 @@ private:
     HeldInput held() const;
     void move_camera(double seconds);
     void advance(double seconds);
+    void open_feed();
+    void listen();
     void watch_contacts();
     void keep_maps();
     void take_light();
@@ -74,6 +77,7 @@ private:
     std::unique_ptr<gpu::Device> device_;
     std::shared_ptr<Cache> map_cache_;
     std::unique_ptr<Session> session_;
+    std::unique_ptr<MessageFeed> feed_;     // of a simulator that sends
     std::unique_ptr<LightGatherer> light_;  // of its scene; none before it is wanted
     std::unique_ptr<Screen> screen_;
     bool shown_ = false;  // a picture, since the device is there
@@ -98,6 +102,8 @@ private:
     std::string recording_, message_;
     bool alarm_ = false;
     Clock::time_point message_until_{};
+    uint64_t troubles_ = 0;  // of the feed, as they were said last
+    Clock::time_point troubles_said_{};
     std::optional<DriveLog> log_;
 };
 

@@ -22,7 +22,9 @@ struct DriverInput {
 
 /// Lit lamps of a vehicle. Flashing indicators are lit for half of each period.
 struct VehicleLamps {
-    bool low = false, high = false, tail = false, brake = false, left = false, right = false;
+    bool low = false, high = false, tail = false, brake = false, left = false, right = false, front_fog = false,
+         rear_fog = false, reversing = false;
+    Indicator indicator = Indicator::None;  ///< which of left and right flash
     bool operator==(const VehicleLamps&) const = default;
 };
 
@@ -37,7 +39,8 @@ constexpr VehicleLamps lamps_of(Beam beam, Indicator indicator, bool braking, do
             .tail = beam != Beam::Off,
             .brake = braking,
             .left = lit && (indicator == Indicator::Left || indicator == Indicator::Both),
-            .right = lit && (indicator == Indicator::Right || indicator == Indicator::Both)};
+            .right = lit && (indicator == Indicator::Right || indicator == Indicator::Both),
+            .indicator = indicator};
 }
 
 }  // namespace vesper::traffic

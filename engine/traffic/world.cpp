@@ -15,14 +15,14 @@ constexpr double kChangeSeconds = 3;  // of a change of lane
 constexpr double kPatience = 1;       // between thoughts of changing lane, s
 constexpr double kBraking =
     0.7;  // deceleration beyond which the pedal is pressed, m/s^2: engines alone give about this
-constexpr double kWalkerRoom = 0.5;     // that a walker keeps before him, m
-constexpr double kWalkerReach = 1.2;    // beyond the edge of a lane a walker counts as on it, m
-constexpr double kRecordedReach = 0.5;  // the same of what was recorded
+constexpr double kWalkerRoom = 0.5;   // that a walker keeps before him, m
+constexpr double kWalkerReach = 1.2;  // beyond the edge of a lane a walker counts as on it, m
+constexpr double kGuestReach = 0.5;   // the same of guests
 constexpr double kGapSeconds =
     6;  // before walkers go, nobody may be nearer in time (HCM: critical gaps of 5 to 7 s for two lanes)
-constexpr double kHidden = 50;   // m below the ground
-constexpr double kLying = 0.15;  // height of the middle of somebody who lies, m
-constexpr double kQueue = 12;    // between cars that come in anew, m
+constexpr double kHidden = 50, kLook = 50;  // m below the ground, and along a lane from look to look
+constexpr double kLying = 0.15;             // height of the middle of somebody who lies, m
+constexpr double kQueue = 12;               // between cars that come in anew, m
 // MOBIL (Kesting, Treiber and Helbing 2007): what others lose counts for so much, the gain must be so much, and nobody
 // behind may have to brake harder, m/s^2.
 constexpr double kPoliteness = 0.2, kGain = 0.2, kSafe = 3;
@@ -56,12 +56,15 @@ World::World(std::shared_ptr<const WorldDescription> description, uint64_t seed)
         crossings_.emplace_back();
         for (size_t lane = 0; lane < d.lanes.size(); ++lane) find_crossings(path, lane);
     }
+    for (const Course& lane : d.lanes)
+        for (double s = 0; s <= lane.length(); s += kLook) below_ = std::min(below_, lane.at(s).position.y);
+    below_ -= kHidden;
     driver_lane_ = d.driver_lane;
     const Course::Place start = d.lanes[driver_lane_].at(d.driver_s);
     driver_.position = {start.position.x, start.position.z};
     driver_.yaw = start.yaw;
     driver_.speed = d.driver_speed;
-    touched_at_.assign(d.cars.size() + d.walkers.size() + d.recordings.size(), -kInfinite);
+    touched_at_.assign(d.cars.size() + d.walkers.size() + d.guest_nodes.size(), -kInfinite);
     occupy();
 }
 
@@ -102,16 +105,13 @@ void World::occupy() {
             const double along = driver_.speed * std::cos(driver_.yaw - here.yaw);
             occupants_.push_back({lane, me.s, along, d.vehicle.length / 2, kDriver});
         }
-        for (const RecordedMover& r : d.recordings) {
-            bool there = false;
-            const Actor a = recorded(r, there);
-            if (!there) continue;
-            const Course::Beside beside = l.beside(glm::dvec2(a.position.x, a.position.z) +
-                                                   r.middle * glm::dvec2(-std::sin(a.yaw), -std::cos(a.yaw)));
-            if (beside.distance < l.width() / 2 + kRecordedReach &&
+        for (const Guest& guest : guests_) {
+            const Actor& a = guest.actor;
+            const Course::Beside beside = l.beside({a.position.x, a.position.z});
+            if (beside.distance < l.width() / 2 + kGuestReach &&
                 std::abs(l.at(beside.s).position.y - a.position.y) < kLevels)
                 occupants_.push_back(
-                    {lane, beside.s, a.speed * std::cos(a.yaw - l.at(beside.s).yaw), r.length / 2, kRecorded});
+                    {lane, beside.s, a.speed * std::cos(a.yaw - l.at(beside.s).yaw), guest.length / 2, kGuest});
         }
         for (size_t w = 0; w < walks_.size(); ++w) {
             if (!walks_[w].under_way) continue;
@@ -124,23 +124,16 @@ void World::occupy() {
     }
 }
 
-// What is not there lies under the ground, in the dark.
-Actor World::recorded(const RecordedMover& r, bool& there) const {
-    const auto after = std::upper_bound(r.poses.begin(), r.poses.end(), seconds_,
-                                        [](double t, const RecordedMover::Pose& p) { return t < p.time; });
-    there = after != r.poses.begin() && (after != r.poses.end() || seconds_ <= r.poses.back().time);
-    const RecordedMover::Pose& from = after == r.poses.begin() ? r.poses.front() : after[-1];
-    if (!there) return {.node = r.node, .position = from.position - glm::dvec3(0, kHidden, 0), .yaw = from.yaw};
-    if (after == r.poses.end()) return {r.node, from.position, from.yaw, from.pitch, from.roll, from.speed, from.lamps};
-    const double t = (seconds_ - from.time) / (after->time - from.time);
-    const auto turn = [&](double a, double b) { return a + t * std::remainder(b - a, 2 * std::numbers::pi); };
-    return {r.node,
-            glm::mix(from.position, after->position, t),
-            turn(from.yaw, after->yaw),
-            turn(from.pitch, after->pitch),
-            turn(from.roll, after->roll),
-            from.speed + t * (after->speed - from.speed),
-            from.lamps};
+void World::place(std::vector<Guest> guests, const std::optional<Actor>& driver) {
+    guests_ = std::move(guests), host_ = driver;
+    if (host_) {
+        const VehicleParameters& p = description_->vehicle;
+        driver_ = {.yaw = host_->yaw, .speed = host_->speed, .pitch = host_->pitch, .roll = host_->roll};
+        driver_.position =
+            glm::dvec2(host_->position.x, host_->position.z) - (p.front_axle - p.rear_axle) / 2 * driver_.forward();
+        touched_ = braking_ = false;
+    }
+    occupy();
 }
 
 World::Neighbour World::ahead(size_t lane, double s, double half_length, int self) const {
@@ -317,10 +310,10 @@ void World::move_driver(const DriverInput& input, double seconds) {
 void World::step(const DriverInput& input, double seconds) {
     input_ = input;
     const VehicleState before = driver_;
-    move_driver(input, seconds);
+    if (!host_) move_driver(input, seconds);
     move_cars(seconds);
     move_walkers(seconds);
-    meet_others(before);
+    if (!host_) meet_others(before);
     ++steps_;
     seconds_ += seconds;
     occupy();
@@ -356,6 +349,11 @@ std::vector<Actor> World::actors() const {
                       driver_.roll,
                       driver_.speed,
                       lamps_of(input_.beam, input_.indicator, braking_, seconds_)});
+    actors.front().lamps.reversing = input_.reverse;
+    if (host_) {
+        actors.front() = *host_;
+        actors.front().node = d.driver_node, actors.front().scale = glm::dvec3(1);
+    }
     for (size_t i = 0; i < cars_.size(); ++i) {
         const Car& car = cars_[i];
         const Course::Place at = place_of(i);
@@ -373,9 +371,13 @@ std::vector<Actor> World::actors() const {
         actors.push_back({.node = d.walkers[i].node, .position = at.position, .yaw = at.yaw, .speed = walk.speed});
         if (walk.fallen) actors.back().pitch = std::numbers::pi / 2, actors.back().position.y += kLying;
     }
-    for (const RecordedMover& r : d.recordings) {
-        bool there = false;
-        actors.push_back(recorded(r, there));
+    // What is not there lies under the ground, in the dark.
+    const size_t first = actors.size();
+    for (const std::string& node : d.guest_nodes) actors.push_back({.node = node, .position = {0, below_, 0}});
+    for (const Guest& guest : guests_) {
+        Actor& actor = actors[first + guest.index];
+        const std::string node = std::move(actor.node);
+        actor = guest.actor, actor.node = node;
     }
     return actors;
 }

@@ -37,22 +37,6 @@ struct Walker {
     double s = 0;     ///< position on the path at the start, m; above 0: under way
 };
 
-/// An object with recorded poses. It exists from its first pose to its last.
-struct RecordedMover {
-    struct Pose {
-        double time = 0;                      ///< s
-        glm::dvec3 position{0};               ///< of the node's origin, m
-        double yaw = 0, pitch = 0, roll = 0;  ///< as of Actor
-        double speed = 0;                     ///< m/s
-        VehicleLamps lamps;                   ///< until the next
-    };
-    std::string node;
-    double length = 4.4, width = 1.8;  ///< m
-    double middle = 0;                 ///< its middle, m before the node's origin
-    bool person = false;               ///< does not stop a car
-    std::vector<Pose> poses;           ///< times ascending, at least one
-};
-
 /// Initial state and rules of a world.
 struct WorldDescription {
     std::vector<Course> lanes;
@@ -60,8 +44,8 @@ struct WorldDescription {
     std::vector<Barrier> barriers;
     std::vector<TrafficCar> cars;
     std::vector<Walker> walkers;
-    std::vector<RecordedMover> recordings;
-    VehicleParameters vehicle;  ///< of the driver
+    std::vector<std::string> guest_nodes;  ///< of the scene: what another program moves (World::place)
+    VehicleParameters vehicle;             ///< of the driver
     std::string driver_node;
     size_t driver_lane = 0;
     double driver_s = 0, driver_speed = 0;  ///< m, m/s
@@ -75,6 +59,15 @@ struct Actor {
     double yaw = 0, pitch = 0, roll = 0;  ///< rad, in that order about Y, X and Z
     double speed = 0;                     ///< m/s
     VehicleLamps lamps;
+    glm::dvec3 scale{1};  ///< of the node's meshes and of where its lamps are: along, across, up
+};
+
+/// An object that another program moves, as it is now.
+struct Guest {
+    size_t index = 0;                  ///< of WorldDescription::guest_nodes
+    Actor actor;                       ///< `node` is not looked at
+    double length = 4.4, width = 1.8;  ///< m; its middle is at the actor's position
+    bool person = false;               ///< does not stop a car
 };
 
 /// A collision of the driver's car with a moving object.
@@ -89,6 +82,10 @@ class World {
 public:
     World(std::shared_ptr<const WorldDescription>, uint64_t seed);
 
+    /// Another program's objects from now on. Those that are not named are not there. `driver`: where it has the
+    /// driver's car, which then drives no more by itself; the position is that of the car's middle on the ground.
+    void place(std::vector<Guest> guests, const std::optional<Actor>& driver = {});
+
     /// Advances by one step.
     void step(const DriverInput&, double seconds);
 
@@ -99,9 +96,9 @@ public:
     size_t driver_lane() const { return driver_lane_; }  ///< lane of the autopilot
     bool touched() const { return touched_; }            ///< true if the car touched a barrier in the last step
     /// Collisions of the driver's car since the start, in order of time. Cars of traffic give way along their lane by
-    /// their mass, recorded objects do not, pedestrians fall and stay.
+    /// their mass, guests do not, pedestrians fall and stay.
     const std::vector<Contact>& contacts() const { return contacts_; }
-    /// The driver's car first, then traffic, walkers and recordings, in the order of the description.
+    /// The driver's car first, then traffic, walkers and guests, in the order of the description.
     std::vector<Actor> actors() const;
 
 private:
@@ -127,7 +124,7 @@ private:
         double s, speed, half_length;
         int who;  // index of a car, or one of these
     };
-    static constexpr int kDriver = -1, kWalker = -2, kRecorded = -3;
+    static constexpr int kDriver = -1, kWalker = -2, kGuest = -3;
 
     void occupy();
     Neighbour ahead(size_t lane, double s, double half_length, int self) const;
@@ -143,7 +140,6 @@ private:
     void find_crossings(const Course& path, size_t lane);
     bool way_is_free(size_t path) const;
     Course::Place place_of(size_t car) const;
-    Actor recorded(const RecordedMover&, bool& there) const;
     double draw(double low, double high);
 
     std::shared_ptr<const WorldDescription> description_;
@@ -160,9 +156,12 @@ private:
     DriverInput input_;
     bool braking_ = false, touched_ = false;
     size_t driver_lane_ = 0;
+    double below_ = 0;  // m, under all ground: where guests are that are not there
+    std::vector<Guest> guests_;
+    std::optional<Actor> host_;  // the driver's car, where another program has it
     std::vector<Occupant> occupants_;
     std::vector<Contact> contacts_;
-    std::vector<double> touched_at_;  // s, of each car, walker and recording
+    std::vector<double> touched_at_;  // s, of each car, walker and guest
     double seconds_ = 0;
     uint64_t steps_ = 0;
 };

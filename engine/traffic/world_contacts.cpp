@@ -55,17 +55,13 @@ void World::meet_others(const VehicleState& before) {
              {walk.speed * other.forward(), other.forward(), 1 / kPersonMass, 1 / kPersonMass}, true);
         walk.fallen = contacts_.size() > known;
     }
-    for (size_t i = 0; i < d.recordings.size(); ++i) {
-        const RecordedMover& r = d.recordings[i];
-        bool there = false;
-        const Actor a = recorded(r, there);
-        if (!there) continue;
-        GroundBox other{plan(a.position), a.yaw, r.length, r.width};
+    for (const Guest& guest : guests_) {
+        const Actor& a = guest.actor;
+        const GroundBox other{plan(a.position), a.yaw, guest.length, guest.width};
         const glm::dvec2 heading = other.forward();
-        other.centre += r.middle * heading;
-        const double gives = r.person ? 1 / kPersonMass : 0;
-        meet(cars_.size() + walks_.size() + i, r.node, other, a.position.y, {a.speed * heading, heading, gives, gives},
-             r.person);
+        const double gives = guest.person ? 1 / kPersonMass : 0;
+        meet(cars_.size() + walks_.size() + guest.index, d.guest_nodes[guest.index], other, a.position.y,
+             {a.speed * heading, heading, gives, gives}, guest.person);
     }
     // Nobody is pushed over a kerb.
     if (driver_.position != was) touched_ |= collide(driver_, before, d.vehicle, d.barriers, ground().position.y);

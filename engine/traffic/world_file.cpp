@@ -70,16 +70,13 @@ Beam beam_of(const JsonValue& car) {
     car.at("beam").fail("is none of off, low and high");
 }
 
-void read_front(const JsonValue& mover, WorldFile& file) {
+// The turn of a mover's node.
+void read_turn(const JsonValue& mover, WorldFile& file) {
     const auto front = mover.find("front");
     if (!front) return;
-    const std::string node = mover.text_or("node", ""), side = front->text();
+    const std::string node = mover.text_or("node", "");
     if (node.empty()) front->fail("of which node? there is none");
-    constexpr double kQuarter = std::numbers::pi / 2;
-    const std::map<std::string, double> turns{{"-z", 0}, {"+x", kQuarter}, {"+z", 2 * kQuarter}, {"-x", -kQuarter}};
-    const auto turn = turns.find(side);
-    if (turn == turns.end()) front->fail("is none of -z, +z, -x and +x");
-    file.turns[node] = turn->second;
+    file.turns[node] = read_front(mover);
 }
 
 void read_cars(const JsonValue& root, WorldFile& file) {
@@ -97,13 +94,13 @@ void read_cars(const JsonValue& root, WorldFile& file) {
                               .width = car.number_or("width_m", 1.8, 0.3, 10),
                               .speed_factor = car.number_or("wish", 0, 0.05, 2),
                               .beam = beam_of(car)});
-        read_front(car, file);
+        read_turn(car, file);
     }
     for (const JsonValue& walker : root.elements_of("walkers")) {
         walker.allow_only({"node", "front", "path", "wait_s", "at_m"});
         world.walkers.push_back({walker.at("node").text(), index_of(walker.at("path"), world.paths),
                                  walker.number_or("wait_s", 5, 0, 1e6), walker.number_or("at_m", 0, 0, kFar)});
-        read_front(walker, file);
+        read_turn(walker, file);
     }
 }
 
@@ -111,7 +108,7 @@ void read_driver(const JsonValue& driver, WorldFile& file) {
     driver.allow_only({"node", "front", "camera", "lane", "at_m", "speed_km_h"});
     file.camera = driver.text_or("camera", "");
     file.world.driver_node = driver.text_or("node", "");
-    read_front(driver, file);
+    read_turn(driver, file);
     file.world.driver_lane = index_of(driver.at("lane"), file.world.lanes);
     file.world.driver_s = driver.number_or("at_m", 0, -kFar, kFar);
     const Course& lane = file.world.lanes[file.world.driver_lane];
@@ -121,6 +118,23 @@ void read_driver(const JsonValue& driver, WorldFile& file) {
 }
 
 }  // namespace
+
+double read_front(const JsonValue& model) {
+    const auto front = model.find("front");
+    if (!front) return 0;
+    constexpr double kQuarter = std::numbers::pi / 2;
+    const std::map<std::string, double> turns{{"-z", 0}, {"+x", kQuarter}, {"+z", 2 * kQuarter}, {"-x", -kQuarter}};
+    const auto turn = turns.find(front->text());
+    if (turn == turns.end()) front->fail("is none of -z, +z, -x and +x");
+    return turn->second;
+}
+
+LampRoles read_roles(const JsonValue& lamps) {
+    lamps.allow_only({"low", "high", "tail", "brake", "left", "right", "front_fog", "rear_fog", "reversing"});
+    LampRoles roles;
+    for (const auto& [role, names] : kLampRoles) roles.*names = names_of(lamps, role);
+    return roles;
+}
 
 WorldFile read_world(const std::filesystem::path& path) {
     const scene::JsonFile json = scene::parse_json(io::read_file(path, kMostBytes), path.string());
@@ -166,8 +180,7 @@ WorldFile read_world(const std::filesystem::path& path) {
     read_cars(root, file);
     read_driver(root.at("driver"), file);
     if (const auto lamps = root.find("lamps")) {
-        lamps->allow_only({"low", "high", "tail", "brake", "left", "right"});
-        for (const auto& [role, names] : kLampRoles) file.roles.*names = names_of(*lamps, role);
+        file.roles = read_roles(*lamps);
     }
     file.by_day = names_of(root, "lit_by_day");
     for (const JsonValue& tunnel : root.elements_of("tunnels")) {

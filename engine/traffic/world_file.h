@@ -11,20 +11,32 @@
 #include "scene/tunnel.h"
 #include "traffic/world.h"
 
+namespace vesper::scene {
+class JsonValue;
+}
+
 namespace vesper::traffic {
 
 /// Roles of vehicle lamps, by the names of their rules in the photometry file.
 struct LampRoles {
-    std::vector<std::string> low, high, tail, brake, left, right;
+    std::vector<std::string> low, high, tail, brake, left, right, front_fog, rear_fog, reversing;
 };
 /// Names of roles in files.
-constexpr std::array<std::pair<const char*, std::vector<std::string> LampRoles::*>, 6> kLampRoles{
+constexpr std::array<std::pair<const char*, std::vector<std::string> LampRoles::*>, 9> kLampRoles{
     {{"low", &LampRoles::low},
      {"high", &LampRoles::high},
      {"tail", &LampRoles::tail},
      {"brake", &LampRoles::brake},
      {"left", &LampRoles::left},
-     {"right", &LampRoles::right}}};
+     {"right", &LampRoles::right},
+     {"front_fog", &LampRoles::front_fog},
+     {"rear_fog", &LampRoles::rear_fog},
+     {"reversing", &LampRoles::reversing}}};
+
+/// Reads the object that names them, and the "front" of a model as a turn about +Y to -Z, rad. Throw Error, naming
+/// file, place and reason.
+LampRoles read_roles(const scene::JsonValue&);
+double read_front(const scene::JsonValue&);
 
 struct WorldFile {
     std::filesystem::path scene;       ///< a glTF file

@@ -33,6 +33,7 @@ TEST(DriveEvents, ComeOutAsTheyWentIn) {
     add(Kind::Set, {}, {}, "age", 9);
     add(Kind::Step);
     add(Kind::Frame);
+    wanted[2].shown = 1.5, wanted[7].shown = -2.5;
     drive::DriveEvents events;
     for (const drive::DriveEvent& event : wanted) events.push_back(event);
     EXPECT_EQ(events.size(), wanted.size());
@@ -44,6 +45,7 @@ TEST(DriveEvents, ComeOutAsTheyWentIn) {
             EXPECT_EQ(event.kind, wanted[i].kind) << i;
             EXPECT_EQ(event.input, wanted[i].input) << i;
             EXPECT_EQ(event.pose, wanted[i].pose) << i;
+            EXPECT_EQ(event.shown, wanted[i].shown) << i;
             EXPECT_EQ(event.name, wanted[i].name) << i;
             EXPECT_EQ(event.value, wanted[i].value) << i;
             EXPECT_EQ(event.place, wanted[i].place) << i;
@@ -64,7 +66,8 @@ TEST(DriveEvents, OfADayTakeFewMegabytes) {
     const size_t before = taken();
     drive::DriveEvents events;
     for (size_t i = 0; i < kSteps; ++i) {
-        events.push_back({.kind = Kind::Step, .input = {.autopilot = true}, .pose = {}, .name = {}, .value = {}});
+        events.push_back(
+            {.kind = Kind::Step, .input = {.autopilot = true}, .pose = {}, .shown = {}, .name = {}, .value = {}});
         if (i % 2) events.push_back({.kind = Kind::Frame, .name = {}, .value = {}});
     }
     EXPECT_LT(taken() - before, 2 * events.size()) << "1 byte each, in a list that has room for twice as many";

@@ -63,7 +63,7 @@ std::vector<DriveEvent> adventure() {
     std::vector<DriveEvent> events;
     const auto add = [&](DriveEvent::Kind kind, const traffic::DriverInput& input = {}, const std::string& name = "",
                          const std::string& value = "") {
-        events.push_back({.kind = kind, .input = input, .pose = {}, .name = name, .value = value});
+        events.push_back({.kind = kind, .input = input, .pose = {}, .shown = {}, .name = name, .value = value});
     };
     using EventKind = DriveEvent::Kind;
     add(EventKind::Frame);
@@ -124,7 +124,7 @@ TEST(Drive, ARecordingThatBreaksOffCanBeRead) {
     const TempFolder scratch;
     {
         drive::DriveRecorder recorder(
-            {.scene = kWorld, .run = {}, .scenario = {}, .seed = 1, .time_step = 1.0 / 60, .settings = {}});
+            {.scene = kWorld, .messages = {}, .seed = 1, .time_step = 1.0 / 60, .settings = {}});
         recorder.open(scratch / "whole.json");
         for (const DriveEvent& event : adventure()) recorder.add(event);
         recorder.close();
@@ -206,10 +206,11 @@ TEST(Drive, GivenSettingsWinOverRecordedOnes) {
     const drive::DriveSettings::Values given{{"operator", "grave"}};
     Session session(device, {.scene = kWorld, .settings = {{"operator", "grave"}, {"age", "30"}}});
     drive::DriveEvents events;
-    events.push_back({.kind = DriveEvent::Kind::Set, .pose = {}, .name = "operator", .value = "ward"});
-    events.push_back({.kind = DriveEvent::Kind::Set, .pose = {}, .name = "age", .value = "70"});
+    events.push_back({.kind = DriveEvent::Kind::Set, .pose = {}, .shown = {}, .name = "operator", .value = "ward"});
+    events.push_back({.kind = DriveEvent::Kind::Set, .pose = {}, .shown = {}, .name = "age", .value = "70"});
     drive::DriveEvents elsewhere = events;
-    events.push_back({.kind = DriveEvent::Kind::Step, .input = {.throttle = 1}, .pose = {}, .name = {}, .value = {}});
+    events.push_back(
+        {.kind = DriveEvent::Kind::Step, .input = {.throttle = 1}, .pose = {}, .shown = {}, .name = {}, .value = {}});
     elsewhere.push_back({.kind = DriveEvent::Kind::Step,
                          .input = {.throttle = 1},
                          .pose = glm::dvec4(1, 2, 3, 4),

@@ -29,30 +29,47 @@ const char* kRun =
     "2.0, 1, Pedestrian, 20.0, 5.0, 0.1, 0, 0, 0, 0, 0, 0\n"
     "4.0, 1, Pedestrian, 20.0, 5.0, 0.1, 0, 0, 0, 0, 0, 0\n";
 
+drive::MessageSource run_of(const std::filesystem::path& file) { return {.file = file}; }
+
+// A road with what a file has on it, as a Session steps through it.
+struct RunOnRoads {
+    drive::Scenery scenery;
+    osi::Timeline timeline;
+    drive::GuestPlaces places;
+    traffic::World world;
+
+    explicit RunOnRoads(const std::filesystem::path& roads, const drive::MessageSource& source)
+        : scenery(roads, source), places(scenery.guest_places()), world(scenery.world(), 1) {
+        for (const osi::Message& message : scenery.messages()) timeline.add(message);
+    }
+    drive::Outside at(double seconds) {
+        drive::Outside outside = places.place(timeline.at(seconds));
+        world.place(outside.guests, outside.driver);
+        return outside;
+    }
+};
+
 TEST(RoadDrive, ARunIsWhereItWasRecorded) {
     const TempFolder folder;
     const roads::RoadNetwork network = roads::read_opendrive(kRoads);
-    const drive::RoadWorld made = drive::road_world(kRoads, folder.write("run.csv", kRun), {});
-    ASSERT_EQ(made.world.world.recordings.size(), 2u);
-    EXPECT_TRUE(made.world.world.cars.empty());
-    traffic::World world(std::make_shared<const traffic::WorldDescription>(made.world.world), 1);
-    const auto entity = [&](size_t i) { return world.actors()[1 + i]; };
-    const auto until = [&](double t) {
-        while (world.seconds() < t - 1e-9) world.step({}, 0.125);
-    };
-    until(0.5);
-    EXPECT_LT(glm::distance(entity(0).position, network.to_world({10, 5, 0})), 0.01);
-    EXPECT_NEAR(std::remainder(entity(0).yaw, 2 * std::numbers::pi), 0, 1e-6);  // towards y of the file is -Z
-    EXPECT_TRUE(entity(0).lamps.low && entity(0).lamps.tail);
-    EXPECT_FALSE(entity(0).lamps.brake);
-    EXPECT_LT(entity(1).position.y, network.to_world({20, 5, 0}).y - 10) << "not there yet";
-    until(1.5);
-    EXPECT_LT(glm::distance(entity(0).position, network.to_world({10, 13, 0})), 0.01);
-    EXPECT_NEAR(entity(0).yaw, 0.1, 1e-6);
-    EXPECT_LT(glm::distance(entity(1).position, network.to_world({20, 5, 0.1})), 0.01);
-    until(3);
-    EXPECT_LT(entity(0).position.y, network.to_world({10, 16, 0}).y - 10) << "gone";
-    EXPECT_FALSE(entity(0).lamps.low);
+    RunOnRoads run(kRoads, run_of(folder.write("run.csv", kRun)));
+    EXPECT_TRUE(run.scenery.world()->cars.empty());
+    EXPECT_EQ(run.scenery.world()->guest_nodes.size(), 2u);
+    drive::Outside now = run.at(0.5);
+    ASSERT_EQ(now.guests.size(), 1u);
+    // The table has the middle of the rear axle, and the middle of the car is 1.32 m ahead.
+    EXPECT_LT(glm::distance(now.guests[0].actor.position, network.to_world({10, 5 + 1.32, 0})), 0.01);
+    EXPECT_NEAR(std::remainder(now.guests[0].actor.yaw, 2 * std::numbers::pi), 0, 1e-6);  // towards y of the file is -Z
+    EXPECT_TRUE(now.guests[0].actor.lamps.low && now.guests[0].actor.lamps.tail);
+    EXPECT_FALSE(now.guests[0].actor.lamps.brake);
+    EXPECT_LT(run.world.actors()[2].position.y, network.to_world({20, 5, 0}).y - 10) << "not there yet";
+    now = run.at(1.5);
+    ASSERT_EQ(now.guests.size(), 2u);
+    EXPECT_NEAR(now.guests[0].actor.yaw, 0.1, 1e-6);
+    EXPECT_LT(glm::distance(now.guests[1].actor.position, network.to_world({20, 5, 0.1})), 0.01);
+    EXPECT_TRUE(now.guests[1].person);
+    EXPECT_EQ(run.at(4).guests.size(), 1u) << "gone with the message that does not have it";
+    EXPECT_FALSE(run.world.actors()[1].lamps.low);
 }
 
 TEST(RoadDrive, TheAutopilotFollowsTheRoadAmongTraffic) {
@@ -69,14 +86,12 @@ TEST(RoadDrive, TheAutopilotFollowsTheRoadAmongTraffic) {
 
 TEST(RoadDrive, PlainBodiesHaveTheirLamps) {
     const TempFolder folder;
-    const drive::Scenery scenery(kRoads, folder.write("run.csv", kRun));
+    const drive::Scenery scenery(kRoads, run_of(folder.write("run.csv", kRun)));
     std::vector<std::string> names;
     for (const drive::LampGroup& group : scenery.lamp_groups()) names.push_back(group.name);
-    for (const char* name :
-         {"low beam", "high beam", "tail lamp", "brake lamp", "left front indicator", "right rear indicator"})
+    for (const char* name : {"low beam", "high beam", "tail lamp", "brake lamp", "left front indicator",
+                             "right rear indicator", "front fog lamp", "rear fog lamp", "reversing lamp"})
         EXPECT_TRUE(std::find(names.begin(), names.end(), name) != names.end()) << name;
-    EXPECT_THROW(drive::Scenery(std::string(VESPER_SOURCE_DIR) + "/data/rivoli/rivoli.world.json", folder / "run.csv"),
-                 Error);
 }
 
 // The driver's car has what the one in data/rivoli has: lamps of every kind, the beams as measured, its eye behind the
@@ -100,14 +115,17 @@ TEST(RoadDrive, TheDriversCarHasAllItsLamps) {
         if (light.name.ends_with("beam")) {
             EXPECT_EQ(light.kind, scene::Lamp::Kind::Measured) << light.name;
         }
-        const bool rear =
-            light.name.find("rear") != light.name.npos || light.name == "tail lamp" || light.name == "brake lamp";
+        const bool rear = light.name.find("rear") != light.name.npos || light.name == "tail lamp" ||
+                          light.name == "brake lamp" || light.name == "reversing lamp";
         EXPECT_EQ(node.translation.z > 0, rear) << light.name;
     }
     const std::map<std::string, int> wanted{{"low beam", 2},
                                             {"high beam", 2},
                                             {"tail lamp", 2},
                                             {"brake lamp", 2},
+                                            {"front fog lamp", 2},
+                                            {"rear fog lamp", 2},
+                                            {"reversing lamp", 2},
                                             {"left front indicator", 1},
                                             {"left rear indicator", 1},
                                             {"right front indicator", 1},
@@ -127,7 +145,7 @@ TEST(RoadDrive, ARunOfOtherRoadsIsRefused) {
     };
     const auto notes = [&](double off, double until) {
         const std::vector<std::string> all =
-            drive::road_world(kRoads, folder.write("run.csv", straight(off, until)), {}).notes;
+            drive::Scenery(kRoads, run_of(folder.write("run.csv", straight(off, until)))).notes();
         return size_t(std::count_if(all.begin(), all.end(),
                                     [](const std::string& note) { return contains(note, "off the roads"); }));
     };
@@ -140,92 +158,46 @@ TEST(RoadDrive, ARunOfOtherRoadsIsRefused) {
     EXPECT_TRUE(contains(complaint, "rivoli.xodr")) << complaint;
 }
 
-TEST(RoadDrive, StatesOfTrafficLights) {
-    using Mode = drive::SignalLens::Mode;
-    constexpr Mode O = Mode::Off, I = Mode::On, F = Mode::Flashing;
-    const std::vector<std::pair<const char*, std::vector<Mode>>> known{{"off;off;on", {O, O, I}},
-                                                                       {"off; flashing ;on", {O, F, I}},
-                                                                       {"ON;Off;OFF", {I, O, O}},
-                                                                       {"red", {I, O, O}},
-                                                                       {"Red", {I, O, O}},
-                                                                       {"stop", {I, O, O}},
-                                                                       {"GREEN", {O, O, I}},
-                                                                       {"amber", {O, I, O}},
-                                                                       {"redyellow", {I, I, O}},
-                                                                       {"red-yellow", {I, I, O}},
-                                                                       {"RED_AMBER", {I, I, O}},
-                                                                       {"yellow flashing", {O, F, O}},
-                                                                       {"Flashing Yellow", {O, F, O}},
-                                                                       {"blinking,red", {F, O, O}},
-                                                                       {"green on", {O, O, I}},
-                                                                       {"off", {O, O, O}},
-                                                                       {"OFF", {O, O, O}}};
-    for (const auto& [state, shown] : known)
-        EXPECT_EQ(drive::lenses_in(state, {"red", "yellow", "green"}), shown) << state;
-    // Words that are none, or say nothing of these lenses, among them what once looked like a colour.
-    for (const char* state :
-         {"", " ", ";", "on", "flashing", "on;off", "on;off;off;off", "red;off;off", "red;yellow", "red off",
-          "infrared", "reddish", "evergreen", "purple", "red purple", "on;off;perhaps", "on on red"})
-        EXPECT_EQ(drive::lenses_in(state, {"red", "yellow", "green"}), std::nullopt) << state;
-    EXPECT_EQ(drive::lenses_in("on;off", {"red", "green"}), (std::vector{I, O}));
-    EXPECT_EQ(drive::lenses_in("yellow", {"red", "green"}), std::nullopt) << "has none";
-    EXPECT_EQ(drive::lenses_in("on", {"yellow"}), std::vector{I});
-    EXPECT_EQ(drive::lenses_in("flashing", {"yellow"}), std::vector{F});
-    const drive::SignalLens lens{.node = 0, .otherwise = true, .changes = {{2, Mode::Off}, {4, Mode::Flashing}}};
-    const std::map<double, bool> wanted{{0, true}, {2, false}, {3.9, false}, {4.1, true}, {4.6, false}, {5.2, true}};
-    for (const auto& [seconds, lit] : wanted) EXPECT_EQ(lens.shines(seconds), lit) << seconds;
-}
-
-// What is no state is named with its place, once; the light stays as it was.
-TEST(RoadDrive, UnknownStatesOfTrafficLightsAreNoted) {
-    scene::Scene scene;
-    roads::RoadNetwork network;
-    network.roads.resize(1);
-    network.roads[0].signals.resize(1);
-    network.roads[0].signals[0].id = "7";
-    for (const char* colour : {"red", "yellow", "green"}) {
-        scene::Node& node = scene.nodes.emplace_back();
-        node.name = std::string("signal_7/") + colour, node.lamp = 0;
-    }
-    roads::EsminiRun run;
-    run.signals = {{1, "7", "Green", "s.xosc:3"},
-                   {2, "7", "purple", "s.xosc:4"},
-                   {3, "7", "purple", "s.xosc:5"},
-                   {4, "8", "red", "s.xosc:6"}};
-    std::vector<std::string> notes;
-    const std::vector<drive::SignalLens> lenses = drive::lenses_of(scene, network, run, notes);
-    EXPECT_EQ(notes, (std::vector<std::string>{"s.xosc:4: 'purple' is no state of traffic light 7: it stays as it is",
-                                               "s.xosc:6: there is no traffic light 8 in the roads"}));
-    ASSERT_EQ(lenses.size(), 3u);
-    for (const double seconds : {0.5, 1.5, 2.5, 9.0})
-        for (size_t i = 0; i < 3; ++i) EXPECT_EQ(lenses[i].shines(seconds), i == (seconds < 1 ? 0u : 2u)) << seconds;
-}
-
-// The lights of a scenario shine as it sets them: green for cars, then yellow, red, and green again.
-TEST(RoadDrive, ARunSwitchesItsTrafficLights) {
-    const std::filesystem::path shared = std::string(VESPER_SHARED_DATA) + "/scenario";
-    if (!std::filesystem::exists(shared)) GTEST_SKIP() << "no shared data";
-    const std::filesystem::path roads = shared / "esmini/xodr/fabriksgatan_traffic_lights.xodr";
-    const drive::Scenery scenery(roads, shared / "esmini-output/traffic_lights.csv",
-                                 shared / "esmini/xosc/traffic_lights.xosc");
+// Lenses are found by signal and colour, or by their places; they shine as messages say, and otherwise as cars wait.
+TEST(RoadDrive, MessagesSwitchTrafficLights) {
+    const std::filesystem::path roads =
+        std::filesystem::path(VESPER_SHARED_DATA) / "scenario/esmini/xodr/fabriksgatan_traffic_lights.xodr";
+    if (!std::filesystem::exists(roads)) GTEST_SKIP() << "no shared data";
+    const drive::Scenery scenery(roads, {.live = true});
     const traffic::World world(scenery.world(), 1);
-    const auto lit = [&](double seconds) {
+    drive::GuestPlaces places = scenery.guest_places();
+    const auto lit = [&](const osi::Moment& moment) {
         std::map<std::string, int> count;
-        const gpu_scene::SceneFrame frame = scenery.frame(world.actors(), seconds, drive::DriveSettings());
+        const gpu_scene::SceneFrame frame = scenery.frame(world.actors(), drive::DriveSettings(), places.place(moment));
         for (size_t i = 0; i < scenery.scene().nodes.size(); ++i) {
             const scene::Node& node = scenery.scene().nodes[i];
             if (node.lamp != scene::kNone && frame.dimming[i] > 0) ++count[scenery.scene().lamps[node.lamp].name];
         }
         return std::vector<int>{count["red signal"], count["yellow signal"], count["green signal"]};
     };
-    EXPECT_EQ(lit(1), (std::vector<int>{2, 0, 1}));  // red for two people on foot
-    EXPECT_EQ(lit(5), (std::vector<int>{2, 1, 0}));
-    EXPECT_EQ(lit(8), (std::vector<int>{3, 0, 0}));
-    EXPECT_EQ(lit(12), (std::vector<int>{1, 0, 2}));  // people walk
-    EXPECT_EQ(lit(23), (std::vector<int>{2, 0, 1}));
-    // Without a scenario cars wait.
-    const drive::RoadWorld steady = drive::road_world(roads, {}, {});
-    EXPECT_TRUE(steady.lenses.empty());
+    EXPECT_EQ(lit({}), (std::vector<int>{1, 0, 2})) << "cars wait, people walk";
+    using Colour = osi::TrafficLight::Colour;
+    const auto light = [](uint64_t id, Colour colour, osi::LampState state) {
+        return osi::TrafficLightNow{{.id = id, .signal = "1", .colour = colour, .state = state}};
+    };
+    osi::Moment moment;
+    moment.traffic_lights = {light(1, Colour::Red, osi::LampState::Off), light(2, Colour::Yellow, osi::LampState::On),
+                             light(3, Colour::Green, osi::LampState::Off)};
+    EXPECT_EQ(lit(moment), (std::vector<int>{0, 1, 2}));
+    // By their places, half a metre away.
+    for (const drive::SignalLens& lens : scenery.lenses())
+        if (lens.signal != "1")
+            moment.traffic_lights.push_back(
+                {{.id = 10 + lens.node,
+                  .position = scenery.message_frame().back(lens.position) + glm::dvec3(0.3, 0.4, 0),
+                  .colour = lens.colour,
+                  .state = lens.colour == Colour::Red ? osi::LampState::On : osi::LampState::Off}});
+    EXPECT_EQ(lit(moment), (std::vector<int>{2, 1, 0}));
+    moment.traffic_lights[1] = light(2, Colour::Yellow, osi::LampState::Flashing);
+    EXPECT_EQ(lit(moment), (std::vector<int>{2, 1, 0}));
+    moment.traffic_lights[1].state_for = 0.6;
+    EXPECT_EQ(lit(moment), (std::vector<int>{2, 0, 0}));
+    EXPECT_TRUE(drive::road_world(roads, {}, {}).lenses.empty());
 }
 
 class RoadDriveProgram : public ProgramTest {
@@ -246,7 +218,7 @@ TEST_F(RoadDriveProgram, ReplaysARunToTheBit) {
                   read_text(folder / ("b" + std::to_string(i) + ".png")))
             << i;
     expect_refused(common + kRoads + " --scenario no.csv --video a%d.png", {"no.csv"});
-    expect_refused(common + kRoads + " --storyboard no.xosc --video a%d.png", {"--scenario"});
+    expect_refused(common + kRoads + " --models m.json --video a%d.png", {"--models", "--osi"});
 }
 
 }  // namespace

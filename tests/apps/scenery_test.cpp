@@ -72,9 +72,8 @@ TEST(Scenery, LampsBelowTheCameraOfASceneGoWithTheCar) {
     traffic::World world(scenery.world(), 1);
     const drive::DriveSettings settings;
     const auto eye = [&] {
-        return glm::dmat4(
-            scenery.view(scenery.frame(world.actors(), 0, settings), world.actors(), settings, kScenerySize)
-                .world_to_view);
+        return glm::dmat4(scenery.view(scenery.frame(world.actors(), settings), world.actors(), settings, kScenerySize)
+                              .world_to_view);
     };
     // To the driver's eye, which looks level, all that is below the camera stands as the file has it, at the start and
     // when the car has turned. The view is of floats: 30 m to 2e-6.
@@ -82,7 +81,7 @@ TEST(Scenery, LampsBelowTheCameraOfASceneGoWithTheCar) {
     const glm::dmat4 level =
         glm::inverse(glm::rotate(glm::translate(glm::dmat4(1), place), glm::radians(90.0), {0, 1, 0}));
     const auto expect_along = [&] {
-        const gpu_scene::SceneFrame frame = scenery.frame(world.actors(), 0, settings);
+        const gpu_scene::SceneFrame frame = scenery.frame(world.actors(), settings);
         for (const char* name : {"eye", "left", "right", "mount", "roof lamp"}) {
             const uint32_t node = node_of(scenery.scene(), name);
             EXPECT_LT(largest_difference(eye() * frame.world[node], level * rest[node]), 1e-4) << name;
@@ -141,7 +140,7 @@ TEST(Scenery, TheFrontOfANodeLeads) {
     for (const auto& [front, side] : sides) {
         const drive::Scenery scenery(world(front));
         const std::vector<traffic::Actor> actors = traffic::World(scenery.world(), 1).actors();
-        const gpu_scene::SceneFrame frame = scenery.frame(actors, 0, drive::DriveSettings());
+        const gpu_scene::SceneFrame frame = scenery.frame(actors, drive::DriveSettings());
         const auto leads = [&, side = side](const char* name) {
             return glm::normalize(glm::dvec3(frame.world[node_of(scenery.scene(), name)] * glm::dvec4(side, 0)));
         };

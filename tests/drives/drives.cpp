@@ -89,7 +89,7 @@ std::vector<Picture> drive(gpu::Device& device, const std::filesystem::path& fil
     std::vector<Picture> made;
     for (uint64_t steps = 0; double(steps) <= seconds * kRate; ++steps) {
         if (double(steps) * fps >= double(made.size()) * kRate) {
-            gpu_scene::SceneFrame moment = scenery.frame(world.actors(), world.seconds(), settings);
+            gpu_scene::SceneFrame moment = scenery.frame(world.actors(), settings);
             uint32_t lamp = 0;
             for (size_t node = 0; node < scenery.scene().nodes.size() && every > 1; ++node) {
                 const uint32_t light = scenery.scene().nodes[node].lamp;

@@ -105,7 +105,7 @@ TEST_F(DiskFaults, ARecordingCanBeReadWheneverItsProgramWasKilled) {
         if (child == 0) {
             if (::chdir(folder.path().c_str()) != 0) ::_exit(1);
             vesper_fault_arm(FaultKind::Kill, at, 0);
-            drive::DriveRecorder recorder({.scene = "street.json", .run = {}, .scenario = {}, .settings = {}});
+            drive::DriveRecorder recorder({.scene = "street.json", .messages = {}, .settings = {}});
             recorder.open("drive.json");
             for (size_t i = 0; i < kEvents; ++i)
                 recorder.add({.kind = drive::DriveEvent::Kind::Step,

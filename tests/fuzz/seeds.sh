@@ -10,7 +10,8 @@ seeds() {
         ies) name='*.ies' ;;
         ldt) name='*.ldt' ;;
         grid_csv | reflection_table | display_measurements | response | esmini_run | tone_log | lamp_list) name='*.csv' ;;
-        scenario) name='*.xosc' ;;
+        osi_trace) name='*.osi' ;;
+        osi_datagrams) name='*.datagrams' ;;
         image | exif) name='*.[jp][pn]g' ;;
         exr | grid_exr) name='*.exr' ;;
         radiance) name='*.hdr' ;;

@@ -5,6 +5,9 @@
 #include "io/exif.h"
 #include "io/hdr_image.h"
 #include "io/image_file.h"
+#include "osi/datagrams.h"
+#include "osi/timeline.h"
+#include "osi/trace.h"
 #include "photometry/distribution.h"
 #include "photometry/eulumdat.h"
 #include "photometry/grid.h"
@@ -37,19 +40,23 @@ const scene::SceneLimits kFew{.file_bytes = 1 << 22,
                               .lamps = 100,
                               .candela = kSmall};
 
-// A run of one car along 100 m, for scenarios to play on.
-constexpr const char* kRun =
-    "time,id,name,x,y,z,h,p,r,speed,wheel_angle,wheel_rot\n0,0,Ego,0,-2,0,0,0,0,10,0,0\n1,0,Ego,10,-2,0,0,0,0,10,0,"
-    "0\n2,0,Ego,20,-2,0,0,0,0,10,0,0\n";
-constexpr const char* kRoads =
-    R"(<OpenDRIVE><header revMajor="1" revMinor="6"/><road id="1" length="100" junction="-1"><planView><geometry s="0" x="0" y="0" hdg="0" length="100"><line/></geometry>
-</planView><lanes><laneSection s="0"><center><lane id="0" type="none"/></center><right><lane id="-1" type="driving"><width sOffset="0" a="4" b="0" c="0" d="0"/></lane></right></laneSection></lanes></road></OpenDRIVE>)";
-
-void read_scenario(const fs::path& scenario) {
-    static const roads::RoadNetwork roads = roads::parse_opendrive(kRoads, "x.xodr");
-    const fs::path table = scenario.parent_path() / "run.csv";
-    if (!fs::exists(table)) std::ofstream(table) << kRun;
-    roads::read_esmini_run(table, scenario, &roads);
+// Datagrams, each after its length as two bytes; what they make is shown at some moments.
+void hear_datagrams(Bytes bytes) {
+    osi::DatagramReader reader;
+    osi::Timeline timeline(false);
+    while (bytes.size() >= 2) {
+        const size_t length = std::min<size_t>(bytes[0] + 256 * bytes[1], bytes.size() - 2);
+        const auto whole = reader.take(bytes.subspan(2, length));
+        bytes = bytes.subspan(2 + length);
+        if (!whole) continue;
+        try {
+            timeline.add(osi::parse_message(*whole));
+        } catch (const Error&) {
+            continue;
+        }
+        timeline.at(timeline.latest() - 0.1);
+        timeline.at(timeline.latest());
+    }
 }
 
 std::map<std::string, FuzzTarget> make_targets() {
@@ -78,7 +85,8 @@ std::map<std::string, FuzzTarget> make_targets() {
         {"world", of_file("x.world.json", [](const fs::path& file) { traffic::read_world(file); })},
         {"response", of_file("x.csv", [](const fs::path& file) { photometry::read_response(file); })},
         {"road", of_file("x.json", [](const fs::path& file) { roads::read_layout(file); })},
-        {"scenario", of_file("x.xosc", read_scenario)},
+        {"osi_trace", [](Bytes bytes) { osi::parse_trace(bytes, "x.osi"); }},
+        {"osi_datagrams", [](Bytes bytes) { hear_datagrams(bytes); }},
         {"image", [](Bytes bytes) { io::decode_image(bytes, 512, kSmall); }},
         {"exif", [](Bytes bytes) { io::read_exif(bytes); }},
     };

@@ -121,9 +121,11 @@ TEST(Timeline, LampsThatNobodyStatesFollowFromTheMotion) {
     for (int i = 0; i < 40; ++i) parked.add(message(50 * i, {car(5, 0)}));
     EXPECT_EQ(parked.at(1.9).objects[0].object.lights.brake, LampState::Off);
     // Slowing down by less is done by the engine.
-    Timeline slower;
-    for (int i = 0; i < 100; ++i) slower.add(message(50 * i, {car(0.5 * i, 20 - 0.5 * 0.05 * i)}));
-    EXPECT_EQ(slower.at(4).objects[0].object.lights.brake, LampState::Off);
+    for (const double deceleration : {0.65, 0.75}) {
+        Timeline slower;
+        for (int i = 0; i < 100; ++i) slower.add(message(50 * i, {car(i, 20 - deceleration * 0.05 * i)}));
+        EXPECT_EQ(slower.at(4).objects[0].object.lights.brake, deceleration > 0.7 ? LampState::On : LampState::Off);
+    }
 }
 
 TEST(Timeline, MessagesMayComeInAnyOrderUntilTheyAreNeeded) {

@@ -19,11 +19,9 @@ std::shared_ptr<traffic::WorldDescription> street() {
     return d;
 }
 
-// Something recorded that stands at z, its front to the left of who comes.
-traffic::RecordedMover standing(double z, double yaw) {
-    traffic::RecordedMover r{.node = "van", .length = 5, .width = 2, .poses = {}};
-    r.poses = {{.time = 0, .position = {0, 0, z}, .yaw = yaw}, {.time = 1000, .position = {0, 0, z}, .yaw = yaw}};
-    return r;
+// A guest that stands at z, its front to the left of who comes.
+traffic::Guest standing(double z, double yaw) {
+    return {.index = 0, .actor = {.node = "", .position = {0, 0, z}, .yaw = yaw}, .length = 5, .width = 2};
 }
 
 TEST(GroundBox, OverlapsAreTheShortestWayOut) {
@@ -100,8 +98,9 @@ TEST(Blow, TakesEnergy) {
 TEST(World, AParkedVanStopsTheDriver) {
     auto d = street();
     d->driver_s = 20, d->driver_speed = 14;
-    d->recordings.push_back(standing(-60, kPi / 2));
+    d->guest_nodes = {"van"};
     traffic::World world(d, 1);
+    world.place({standing(-60, kPi / 2)});
     for (int i = 0; i < 60 * 6; ++i) {
         world.step({}, kStep);
         const traffic::GroundBox van{.centre = {0, -60}, .yaw = kPi / 2, .length = 5, .width = 2};

@@ -277,20 +277,11 @@ TEST(World, RoadsAboveOneAnotherDoNotMeet) {
         d->lanes.emplace_back("above", std::vector<glm::dvec3>{{0, high, 0}, {0, high, -300}}, 3, 15);
         d->lanes.emplace_back("below", std::vector<glm::dvec3>{{-60, 0, -60}, {600, 0, -500}}, 3, 10);
         d->barriers.push_back({.line = {{-50, -104}, {50, -104}}, .height = 0.0});
-        traffic::RecordedMover parked{
-            .node = "parked",
-            .poses = {
-                {.time = 0, .position = {0, 0, -100}, .yaw = -kPi / 2, .pitch = 0, .roll = 0, .speed = 0, .lamps = {}},
-                {.time = 60,
-                 .position = {0, 0, -100},
-                 .yaw = -kPi / 2,
-                 .pitch = 0,
-                 .roll = 0,
-                 .speed = 0,
-                 .lamps = {}}}};
-        d->recordings.push_back(parked);
+        d->guest_nodes = {"parked"};
+        const traffic::Guest parked{.actor = {.node = "", .position = {0, 0, -100}, .yaw = -kPi / 2}};
         for (const bool by_hand : {false, true}) {
             World world(d, 1);
+            world.place({parked});
             for (int i = 0; i < 30 / kWorldStep; ++i)
                 world.step({.throttle = by_hand ? 0.3 : 0.0, .autopilot = !by_hand}, kWorldStep);
             const glm::dvec3 at = world.actors().front().position;
@@ -303,6 +294,29 @@ TEST(World, RoadsAboveOneAnotherDoNotMeet) {
             }
         }
     }
+}
+
+// Another program has the driver's car: it is where that says, and meets nobody.
+TEST(World, AHostDrivesTheCar) {
+    auto d = one_lane(straight(400));
+    d->driver_lane = 0, d->driver_s = 10;
+    d->guest_nodes = {"other"};
+    World world(d, 1);
+    EXPECT_LT(world.actors()[1].position.y, -40) << "not there yet";
+    const traffic::Actor host{.node = "", .position = {2, 0.5, -80}, .yaw = 0.1, .pitch = 0.02, .speed = 7};
+    world.place({{.index = 0, .actor = {.node = "", .position = {2, 0.5, -82}}}}, host);
+    world.step({.throttle = 1}, kWorldStep);
+    const traffic::Actor me = world.actors().front();
+    EXPECT_EQ(me.position, host.position);
+    EXPECT_EQ(me.pitch, host.pitch);
+    EXPECT_EQ(world.driver().speed, 7);
+    EXPECT_NEAR(world.driver().position.y, -80 - 0.24 * std::cos(0.1), 1e-6) << "the centre of mass lies ahead";
+    EXPECT_TRUE(world.contacts().empty());
+    EXPECT_EQ(world.actors()[1].position, glm::dvec3(2, 0.5, -82));
+    world.place({});
+    world.step({.throttle = 1}, kWorldStep);
+    EXPECT_GT(world.driver().speed, 7) << "and by itself again";
+    EXPECT_LT(world.actors()[1].position.y, -40);
 }
 
 TEST(Lamps, IndicatorsFlashNinetyTimesAMinute) {

@@ -1,0 +1,32 @@
+// Where the objects come from that another program moves. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "osi/message.h"
+
+namespace vesper::drive {
+
+/// Of a recorded drive, too: its file says all of this.
+struct MessageSource {
+    std::filesystem::path file;    ///< an OSI trace (.osi), or a table of esmini (.csv); empty: none
+    bool live = false;             ///< messages are not known beforehand; of a replay: they were not
+    std::filesystem::path models;  ///< which meshes the objects are (docs/osi.md); empty: boxes with lamps
+    std::string host;              ///< id of the object that is the driver's car; empty: as messages say; "none"
+    glm::dvec4 origin{0};  ///< of the frame of the messages, in that of the roads: x, y, z (m) and yaw (rad). Of a
+                           ///< scene the latter is X, -Z, Y
+
+    bool any() const { return live || !file.empty(); }
+};
+
+/// What is said where messages state it.
+inline constexpr char kWeather[] = "fog or rain, which is not rendered";
+
+/// Messages of the file, at least one if there is a file; notes are added. Throws Error, naming file, place and reason.
+std::vector<osi::Message> read_messages(const MessageSource&, std::vector<std::string>& notes);
+
+}  // namespace vesper::drive

@@ -1,0 +1,47 @@
+#include "world_message.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace vesper::drive {
+namespace {
+
+using Kind = osi::MovingObject::Kind;
+
+osi::MovingObject object_of(const traffic::Actor& actor, uint64_t id, Kind kind, double length, double width,
+                            const MessageFrame& frame) {
+    const double yaw = actor.yaw + std::numbers::pi / 2 - frame.yaw, pitch = -actor.pitch;
+    osi::MovingObject o{.id = id,
+                        .kind = kind,
+                        .model = actor.node,
+                        .size = {length, width, osi::usual_size(kind).z},
+                        .yaw = yaw,
+                        .pitch = pitch,
+                        .roll = actor.roll,
+                        .velocity = actor.speed * glm::dvec3(std::cos(yaw) * std::cos(pitch),
+                                                             std::sin(yaw) * std::cos(pitch), -std::sin(pitch)),
+                        .lights = light_states_of(actor.lamps)};
+    o.centre = frame.back(actor.position) + o.size.z / 2 * up_of(o);
+    return o;
+}
+
+}  // namespace
+
+osi::Message message_of(const traffic::World& world, const Outside& outside, const MessageFrame& frame) {
+    const traffic::WorldDescription& d = world.description();
+    const std::vector<traffic::Actor> actors = world.actors();
+    osi::Message message{.host = 1};
+    const auto add = [&](size_t i, Kind kind, double length, double width) {
+        message.objects.push_back(object_of(actors[i], i + 1, kind, length, width, frame));
+    };
+    add(0, Kind::Car, d.vehicle.length, d.vehicle.width);
+    for (size_t i = 0; i < d.cars.size(); ++i) add(1 + i, Kind::Car, d.cars[i].length, d.cars[i].width);
+    const glm::dvec3 person = osi::usual_size(Kind::Pedestrian);
+    for (size_t i = 0; i < d.walkers.size(); ++i) add(1 + d.cars.size() + i, Kind::Pedestrian, person.x, person.y);
+    for (const traffic::Guest& guest : outside.guests)
+        add(1 + d.cars.size() + d.walkers.size() + guest.index, guest.person ? Kind::Pedestrian : Kind::Car,
+            guest.length, guest.width);
+    return message;
+}
+
+}  // namespace vesper::drive

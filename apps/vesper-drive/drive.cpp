@@ -69,17 +69,23 @@ void refuse_idle(const apps::Command& program, const DriveArguments& a) {
             if (rule.here && program.count(option)) throw Error(std::string(option) + ": " + rule.why);
 }
 
-void take_messages(DriveArguments& a) {
+void take_messages(const apps::Command& program, DriveArguments& a) {
+    for (const char* option : {"--osi", "--scenario", "--models", "--osi-udp", "--osi-out", "--host"})
+        if (program.count(option) && program.option(option).results().back().empty())
+            throw Error(std::string(option) + ": is empty");
     if (!a.osi_udp.empty() && !(a.trace.empty() && a.table.empty()))
         throw Error("--osi-udp: messages come from one source; there is " + (a.trace.empty() ? a.table : a.trace));
-    const std::string file = a.trace.empty() ? a.table : a.trace, &host = a.messages.host;
+    const std::string file = a.trace.empty() ? a.table : a.trace;
     const char *option = a.trace.empty() ? "--scenario " : "--osi ", *ending = a.trace.empty() ? ".csv" : ".osi";
     if (!file.empty() && !file.ends_with(ending))
         throw Error(option + one_line(file) + ": a file " + ending + " is expected");
     if (!a.osi_udp.empty()) osi::parse_address(a.osi_udp);
     a.messages.file = file, a.messages.models = a.models, a.messages.live = !a.osi_udp.empty();
-    if (!host.empty() && host != "none" && host.find_first_not_of("0123456789") != host.npos)
-        throw Error("--host " + one_line(host) + ": a number or none is expected");
+    try {
+        a.messages.host = host_of(a.messages.host);
+    } catch (const Error& error) {
+        throw Error("--host " + std::string(error.what()));
+    }
     if (!a.origin.empty()) a.messages.origin = origin_of(a.origin);
 }
 
@@ -89,7 +95,11 @@ void check(const apps::Command& program, DriveArguments& a) {
     for (const std::string& file :
          {a.messages.file.string(), a.messages.models.string(), a.scene, a.replay, a.channels, a.controllers})
         io::announce_read(file);
-    for (const auto& [option, file] : growing_outputs(a)) io::announce_write(option, file);
+    for (const auto& [option, file] : growing_outputs(a)) {
+        io::announce_write(option, file);
+        std::error_code failed;
+        if (std::filesystem::is_directory(file, failed)) throw Error(option + " " + one_line(file) + ": is a folder");
+    }
 }
 
 }  // namespace
@@ -196,7 +206,7 @@ void add_drive(apps::Command program) {
     program.callback([a, program] {
         a->settings = DriveSettings::given(program);
         if (program.count("--shadow-cache")) a->shadow_cache = program.option("--shadow-cache").results().back();
-        take_messages(*a);
+        take_messages(program, *a);
         check(program, *a);
         a->size_given = program.count("--size") > 0;
         if (a->headless)

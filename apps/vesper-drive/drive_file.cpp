@@ -109,20 +109,27 @@ std::filesystem::path seen_path(const scene::JsonValue& root, const char* key, c
     return named.empty() ? "" : folder / named;  // which an absolute one replaces
 }
 
-// A trace that was written beside a drive that broke off has not got its name yet.
-std::filesystem::path or_part(std::filesystem::path file) {
+// A trace that was written beside a drive that broke off has not got its name yet; what has it is older.
+std::filesystem::path trace_of(const std::filesystem::path& file, const std::filesystem::path& drive) {
     std::error_code failed;
     const std::filesystem::path part = io::GrowingFile::part_of(file.string());
-    return std::filesystem::exists(file, failed) || !std::filesystem::exists(part, failed) ? file : part;
+    return drive.extension() == ".part" && std::filesystem::exists(part, failed) ? part : file;
 }
 
-MessageSource read_source(const scene::JsonValue& value, const std::filesystem::path& folder) {
+MessageSource read_source(const scene::JsonValue& value, const std::filesystem::path& drive) {
+    const std::filesystem::path folder = drive.parent_path();
     value.allow_only({"file", "live", "models", "host", "origin"});
-    MessageSource source{.file = or_part(seen_path(value, "file", folder)),
+    MessageSource source{.file = seen_path(value, "file", folder),
                          .live = value.boolean_or("live", false),
                          .models = seen_path(value, "models", folder),
                          .host = value.text_or("host", "")};
     value.at("file");
+    if (source.live) source.file = trace_of(source.file, drive);
+    try {
+        source.host = host_of(source.host);
+    } catch (const Error& error) {
+        value.at("host").fail(error.what());
+    }
     if (const auto origin = value.find("origin")) {
         constexpr double kFar = 1e9;
         const auto numbers = origin->elements(4);
@@ -256,7 +263,7 @@ Drive read_drive(const std::filesystem::path& file) {
     if (const auto scenario = root.find("scenario"))
         scenario->fail("storyboards are not played any more: take the lamps from an OSI trace (docs/osi.md)");
     if (const auto messages = root.find("messages"))
-        start.messages = read_source(*messages, file.parent_path());
+        start.messages = read_source(*messages, file);
     else
         start.messages.file = seen_path(root, "run", file.parent_path());  // as older versions wrote it
     drive.start.seed = root.integer_or("seed", 1);

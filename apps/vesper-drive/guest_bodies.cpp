@@ -1,6 +1,7 @@
 #include "guest_bodies.h"
 
 #include <algorithm>
+#include <set>
 
 #include "base/error.h"
 #include "base/one_line.h"
@@ -42,6 +43,18 @@ void add_roles(traffic::LampRoles& to, const traffic::LampRoles& more) {
             if (std::find((to.*role).begin(), (to.*role).end(), lamp) == (to.*role).end()) (to.*role).push_back(lamp);
 }
 
+// Lamps that the table names must be there, by the names that Scenery has for them.
+void check_lamps(const Model& model, const scene::Scene& scene) {
+    std::set<std::string> names;
+    for (uint32_t i = 0; i < scene.nodes.size(); ++i)
+        if (scene.nodes[i].lamp != scene::kNone) names.insert(lamp_name(scene, i));
+    for (const auto& [role, lamps] : traffic::kLampRoles)
+        for (const std::string& lamp : model.roles.*lamps)
+            if (!names.contains(lamp))
+                throw Error(model.place + "/lamps/" + role + ": " + one_line(model.scene.string()) +
+                            " has no lamp of the name " + one_line(lamp));
+}
+
 }  // namespace
 
 GuestBodies::GuestBodies(scene::Scene& scene, traffic::WorldFile& file, const MessageSource& source,
@@ -58,13 +71,13 @@ GuestBodies::GuestBodies(scene::Scene& scene, traffic::WorldFile& file, const Me
     std::map<std::string, size_t> wanted = most_at_once(*this, messages);
     for (size_t i = 0; i < models_.size(); ++i) {
         const size_t known = wanted["model " + std::to_string(i)];
-        add_model(scene, file, i, source.live ? std::max(known, models_[i].places) : known);
+        add_model(scene, file, i, source.live ? models_[i].places : known);
     }
     for (const PlainKind& plain : kPlain)
-        add_plain(scene, file, plain.name, source.live ? std::max(wanted[plain.name], plain.live) : wanted[plain.name]);
+        add_plain(scene, file, plain.name, source.live ? plain.live : wanted[plain.name]);
     if (all_.size() > kMostGuests)
-        throw Error("messages have " + std::to_string(all_.size()) + " objects at once; at most " +
-                    std::to_string(kMostGuests) + " are shown");
+        throw Error("objects need more than " + std::to_string(kMostGuests) +
+                    " bodies at once (of messages, or as the places of --models say)");
 }
 
 std::string GuestBodies::kind_of(const osi::MovingObject& object) const {
@@ -97,6 +110,7 @@ void GuestBodies::add_model(scene::Scene& scene, traffic::WorldFile& file, size_
     if (count == 0) return;
     const Model& model = models_[index];
     scene::LoadedScene loaded = load_scene(model.scene, model.photometry);
+    check_lamps(model, loaded.scene);
     const std::vector<std::string> said = apps::notes_of(loaded, model.scene.string());
     notes_.insert(notes_.end(), said.begin(), said.end());
     const auto insert =

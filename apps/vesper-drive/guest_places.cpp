@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -97,7 +98,7 @@ Outside GuestPlaces::place(const osi::Moment& moment) {
         traffic::Actor actor = actor_of(now, frame_);
         const bool is_host = host_.empty() ? moment.host == object.id : host_ == std::to_string(object.id);
         if (is_host && !made.driver) {
-            made.driver = actor;
+            made.driver = actor, made.host = object.id, made.objects.push_back(object);
             continue;
         }
         const auto body = body_of(object);
@@ -107,6 +108,7 @@ Outside GuestPlaces::place(const osi::Moment& moment) {
         }
         const glm::dvec3 size = GuestBodies::size_of(object), own = bodies_->all()[*body].size;
         if (own.x > 0) actor.scale = size / own;
+        made.objects.push_back(object);
         made.guests.push_back({.index = *body,
                                .actor = std::move(actor),
                                .length = size.x,
@@ -114,11 +116,19 @@ Outside GuestPlaces::place(const osi::Moment& moment) {
                                .person = is_person(object.kind)});
     }
     if (moment.traffic_lights.empty()) return made;
-    for (const SignalLens& lens : *lenses_) made.lenses.push_back(lens.otherwise);
+    std::map<uint32_t, bool> lit;
+    std::set<std::string> signals;
     for (const osi::TrafficLightNow& now : moment.traffic_lights) {
         const uint32_t lens = finder_.find(*lenses_, now.light, frame_.point(now.light.position));
-        if (lens != scene::kNone && now.light.state != osi::LampState::Unknown)
-            made.lenses[lens] = osi::is_lit(now.light.state, now.state_for, kSignalPeriod);
+        if (lens == scene::kNone || now.light.state == osi::LampState::Unknown) continue;
+        lit[lens] = osi::is_lit(now.light.state, now.state_for, kSignalPeriod);
+        if (!(*lenses_)[lens].signal.empty()) signals.insert((*lenses_)[lens].signal);
+    }
+    // Of a signal that is spoken of, lenses that are not are dark.
+    for (uint32_t i = 0; i < lenses_->size(); ++i) {
+        const SignalLens& lens = (*lenses_)[i];
+        const auto said = lit.find(i);
+        made.lenses.push_back(said != lit.end() ? said->second : lens.otherwise && !signals.contains(lens.signal));
     }
     return made;
 }

@@ -27,10 +27,12 @@ MessageFrame frame_of(const MessageSource&, const glm::dvec3& roads);
 /// What another program says of a moment, in the world.
 struct Outside {
     std::vector<traffic::Guest> guests;
-    std::optional<traffic::Actor> driver;  ///< where it has the driver's car
-    std::vector<bool> lenses;              ///< which shine, in the order of the scene's; empty: nobody says
-    std::optional<double> sun_elevation;   ///< degrees
-    size_t without_body = 0;               ///< objects for which no body was left
+    std::optional<traffic::Actor> driver;    ///< where it has the driver's car
+    std::vector<osi::MovingObject> objects;  ///< of the guests and the host, in the frame of messages
+    std::optional<uint64_t> host;            ///< which of them the driver's car is
+    std::vector<bool> lenses;                ///< which shine, in the order of the scene's; empty: nobody says
+    std::optional<double> sun_elevation;     ///< degrees
+    size_t without_body = 0;                 ///< objects for which no body was left
 };
 
 /// Gives each object a body for as long as it is there.

@@ -236,7 +236,7 @@ void run_headless(const DriveArguments& a) {
         drive.events.push_back(step);
     const bool own_frames = drive.events.frames() > 0 && a.fps == 0;
     if (outlet.wanted() && !own_frames)
-        drive.events = evenly(drive.events, options.time_step, a.fps > 0 ? a.fps : kUsualRate, a.messages.live);
+        drive.events = evenly(drive.events, options.time_step, a.fps > 0 ? a.fps : kUsualRate, options.messages.live);
     const double most = 1 / options.time_step;
     if (a.fps > most * 1.001)
         throw Error(
@@ -266,11 +266,11 @@ void run_headless(const DriveArguments& a) {
     }
     session.on_maps = [](const render::MapReport& report) { apps::print_cache_note(report.note); };
     Playback playback(std::move(drive.events), a.settings);
+    std::optional<Live> live;
+    if (a.messages.live) live.emplace(a, session, playback);
     outlet.open(playback.frames());
     session.on_contact = [&](const traffic::Contact& contact) { outlet.add(contact); };
     apps::print_notes(session.scenery().notes());
-    std::optional<Live> live;
-    if (a.messages.live) live.emplace(a, session, playback);
     if (!a.osi_out.empty()) session.write_trace(a.osi_out);
     if (!a.record.empty())
         session.record(a.record, outlet.wanted() && !channels ? std::optional(glm::uvec2(extent.width, extent.height))

@@ -31,4 +31,9 @@ scene::LoadedScene load_scene(const fs::path& file, const fs::path& photometry) 
     return scene::read_gltf(made);
 }
 
+const std::string& lamp_name(const scene::Scene& scene, uint32_t node) {
+    const scene::Lamp& lamp = scene.lamps[scene.nodes[node].lamp];
+    return lamp.kind == scene::Lamp::Kind::Measured || lamp.name.empty() ? scene.nodes[node].name : lamp.name;
+}
+
 }  // namespace vesper::drive

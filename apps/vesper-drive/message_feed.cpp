@@ -22,8 +22,9 @@ bool MessageFeed::hear(Session& session, std::chrono::milliseconds longest) {
     const int64_t nanoseconds = arrival->message.nanoseconds;
     const osi::Timeline::Added added = session.hear(std::move(arrival->message));
     late_ += added == osi::Timeline::Added::Late, repeated_ += added == osi::Timeline::Added::Repeated;
-    heard_ = Clock::now(), begun_ = true;
+    crowded_out_ += added == osi::Timeline::Added::CrowdedOut;
     if (added != osi::Timeline::Added::Accepted) return true;
+    heard_ = Clock::now(), begun_ = true, silent_ = false;
     if (!first_) first_ = nanoseconds;
     clock_.hear(double(nanoseconds - *first_) / 1e9, std::chrono::duration<double>(arrival->time - began_).count());
     return true;
@@ -41,8 +42,10 @@ std::optional<double> MessageFeed::shown(Clock::time_point now) {
 bool MessageFeed::wait_for(Session& session, double moment, std::chrono::seconds first) {
     const Clock::time_point begins = Clock::now();
     while (!begun_ || session.latest_message() < moment + delay_) {
-        if (hear(session, kLook)) continue;
-        if (Clock::now() - (begun_ ? std::max(heard_, begins) : begins) < (begun_ ? kSilence : first)) continue;
+        if (hear(session, silent_ ? std::chrono::milliseconds(0) : kLook)) continue;
+        if (!silent_ && Clock::now() - (begun_ ? std::max(heard_, begins) : begins) < (begun_ ? kSilence : first))
+            continue;
+        silent_ = true;  // until something new is heard
         return begun_ && session.latest_message() >= moment;
     }
     return true;
@@ -50,7 +53,7 @@ bool MessageFeed::wait_for(Session& session, double moment, std::chrono::seconds
 
 osi::StreamCounts MessageFeed::counts() const {
     osi::StreamCounts counts = receiver_.counts();
-    counts.late = late_, counts.repeated = repeated_;
+    counts.late = late_, counts.repeated = repeated_, counts.crowded_out += crowded_out_;
     return counts;
 }
 
@@ -60,7 +63,8 @@ std::string MessageFeed::report() const {
     for (const auto& [number, what] :
          {std::pair(c.late, "late"), std::pair(c.repeated, "repeated"), std::pair(c.malformed, "malformed"),
           std::pair(c.incomplete, "incomplete"), std::pair(c.crowded_out, "faster than they were shown"),
-          std::pair(c.foreign, "datagrams of another sender"), std::pair(c.restarts, "restarts of the sender")})
+          std::pair(c.astray, "with a time far from the others"), std::pair(c.foreign, "datagrams of another sender"),
+          std::pair(c.restarts, "restarts of the sender")})
         if (number > 0) text += ", " + std::to_string(number) + " " + what;
     return text + (weather_ ? std::string("; they state ") + kWeather : "");
 }

@@ -40,8 +40,8 @@ private:
     double delay_;
     osi::SenderClock clock_;
     std::optional<int64_t> first_;  // time of the first message, ns
-    uint64_t late_ = 0, repeated_ = 0;
-    bool begun_ = false, weather_ = false;
+    uint64_t late_ = 0, repeated_ = 0, crowded_out_ = 0;
+    bool begun_ = false, silent_ = false, weather_ = false;
     Clock::time_point heard_ = Clock::now(), began_ = Clock::now();
 };
 

@@ -23,10 +23,14 @@ struct MessageSource {
     bool any() const { return live || !file.empty(); }
 };
 
+/// The id of an object, as of MessageSource::host, in its usual digits; empty and "none" stay. Throws Error.
+std::string host_of(const std::string& text);
+
 /// What is said where messages state it.
 inline constexpr char kWeather[] = "fog or rain, which is not rendered";
 
-/// Messages of the file, at least one if there is a file; notes are added. Throws Error, naming file, place and reason.
+/// Messages of the file, at least one if there is a file and it was not live; notes are added. Throws Error, naming
+/// file, place and reason.
 std::vector<osi::Message> read_messages(const MessageSource&, std::vector<std::string>& notes);
 
 }  // namespace vesper::drive

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/lower.h"
+#include "base/one_line.h"
 #include "io/read_file.h"
 #include "scene/json_value.h"
 #include "scene/uri.h"
@@ -46,7 +47,9 @@ std::vector<Model> read_models(const std::filesystem::path& file) {
     std::vector<Model> models;
     for (const scene::JsonValue& value : root.at("models").elements()) {
         value.allow_only({"reference", "scene", "photometry", "front", "places", "lamps"});
-        Model model{.reference = value.at("reference").text(), .scene = beside(value.at("scene"))};
+        Model model{.place = one_line(file.string()) + ": /models/" + std::to_string(models.size()),
+                    .reference = value.at("reference").text(),
+                    .scene = beside(value.at("scene"))};
         if (const auto photometry = value.find("photometry")) model.photometry = beside(*photometry);
         model.turn = traffic::read_front(value);
         model.places = value.integer_or("places", model.places, kMostPlaces);

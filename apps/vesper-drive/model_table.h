@@ -10,6 +10,7 @@
 namespace vesper::drive {
 
 struct Model {
+    std::string place;                        ///< of its entry: file and JSON pointer
     std::string reference;                    ///< what model_reference is; * stands for any characters
     std::filesystem::path scene, photometry;  ///< a glTF file; applied to it when it is loaded, or empty
     double turn = 0;                          ///< rad about +Y from the front of the model to -Z

@@ -82,11 +82,6 @@ traffic::WorldFile plain_world(const scene::Scene& scene, uint32_t camera) {
     return file;
 }
 
-const std::string& lamp_name(const scene::Scene& scene, uint32_t node) {
-    const scene::Lamp& lamp = scene.lamps[scene.nodes[node].lamp];
-    return lamp.kind == scene::Lamp::Kind::Measured || lamp.name.empty() ? scene.nodes[node].name : lamp.name;
-}
-
 bool contains(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -95,6 +90,12 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 Scenery::Scenery(const fs::path& file, const MessageSource& source) : source_(source) {
     messages_ = read_messages(source, notes_);
+    if (!source.host.empty() && source.host != "none" && !source.live &&
+        std::none_of(messages_.begin(), messages_.end(), [&](const osi::Message& m) {
+            return std::any_of(m.objects.begin(), m.objects.end(),
+                               [&](const osi::MovingObject& o) { return std::to_string(o.id) == source.host; });
+        }))
+        notes_.push_back("--host " + source.host + ": no message has that object");
     if (source.file.extension() == ".osi" && source.host.empty() && !source.live &&
         std::none_of(messages_.begin(), messages_.end(), [](const osi::Message& m) { return m.host.has_value(); }))
         notes_.push_back(
@@ -106,9 +107,8 @@ Scenery::Scenery(const fs::path& file, const MessageSource& source) : source_(so
         notes_.insert(notes_.end(), more.begin(), more.end());
     };
     const auto make_room = [&](traffic::WorldFile& world) {
-        if (!source.any()) return;
         lenses_ = lenses_of(scene_);
-        bodies_ = GuestBodies(scene_, world, source, messages_);
+        if (source.any()) bodies_ = GuestBodies(scene_, world, source, messages_);
     };
     glm::dvec3 origin(0);
     if (extension == ".xodr") {

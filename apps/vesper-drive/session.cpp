@@ -83,8 +83,8 @@ void Session::step(const traffic::DriverInput& input, std::optional<double> show
 void Session::restart() {
     world_ = std::make_unique<traffic::World>(scenery_.world(), options_.seed);
     input_ = {};
-    if (!options_.messages.live) places_ = scenery_.guest_places();
-    look_outside(options_.messages.live ? shown_ : 0.0);
+    places_ = scenery_.guest_places(), shown_.reset(), outside_ = {};
+    look_outside(options_.messages.live ? std::nullopt : std::optional(0.0));
     rendered_.reset();
     renderer_->reset_adaptation();
     if (wall_) wall_->reset_adaptation();
@@ -96,7 +96,6 @@ void Session::restart() {
 
 void Session::rewind() {
     settings_ = DriveSettings(options_.settings);
-    shown_.reset(), places_ = scenery_.guest_places();
     restart();
 }
 
@@ -186,8 +185,8 @@ void Session::record(const std::filesystem::path& file, std::optional<glm::uvec2
 }
 
 void Session::stop_recording() {
-    recorder_->close();
     if (heard_) heard_->close();
+    recorder_->close();
 }
 
 bool Session::recording() const { return recorder_->is_open(); }

@@ -50,7 +50,7 @@ public:
     /// `shown`: the moment of the messages that it shows, s after the first of them; without one that of a live source
     /// stays, and a source with a file goes along with the world's time.
     void step(const traffic::DriverInput&, std::optional<double> shown = {});
-    /// A message of a live source, from now on known. False: it is late, or repeated.
+    /// A message of a live source, from now on known.
     osi::Timeline::Added hear(osi::Message);
     /// Time of the latest message, s after the first.
     double latest_message() const { return timeline_.latest(); }

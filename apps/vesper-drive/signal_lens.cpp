@@ -57,7 +57,7 @@ std::vector<SignalLens> lenses_of(const scene::Scene& scene) {
 
 uint32_t LensFinder::find(const std::vector<SignalLens>& lenses, const osi::TrafficLight& light,
                           const glm::dvec3& position) {
-    const auto [known, is_new] = known_.try_emplace(light.id, scene::kNone);
+    const auto [known, is_new] = known_.try_emplace({light.id, light.colour}, scene::kNone);
     if (!is_new) return known->second;
     double nearest = kNear;
     for (uint32_t i = 0; i < lenses.size(); ++i) {

@@ -1,8 +1,9 @@
 // Lenses of traffic lights that another program switches. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
 #include <string>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "osi/timeline.h"
@@ -32,7 +33,7 @@ public:
     uint32_t find(const std::vector<SignalLens>&, const osi::TrafficLight&, const glm::dvec3& position);
 
 private:
-    std::unordered_map<uint64_t, uint32_t> known_;  // by the light's id
+    std::map<std::pair<uint64_t, osi::TrafficLight::Colour>, uint32_t> known_;  // by the light's id and colour
 };
 
 constexpr double kSignalPeriod = 1;  ///< s, of lenses that flash

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 namespace vesper::drive {
 namespace {
@@ -30,17 +31,22 @@ osi::MovingObject object_of(const traffic::Actor& actor, uint64_t id, Kind kind,
 osi::Message message_of(const traffic::World& world, const Outside& outside, const MessageFrame& frame) {
     const traffic::WorldDescription& d = world.description();
     const std::vector<traffic::Actor> actors = world.actors();
-    osi::Message message{.host = 1};
+    osi::Message message{.host = outside.host, .objects = outside.objects};
+    std::set<uint64_t> taken;
+    for (const osi::MovingObject& object : outside.objects) taken.insert(object.id);
+    uint64_t id = 0;
     const auto add = [&](size_t i, Kind kind, double length, double width) {
-        message.objects.push_back(object_of(actors[i], i + 1, kind, length, width, frame));
+        do ++id;
+        while (taken.contains(id));
+        message.objects.push_back(object_of(actors[i], id, kind, length, width, frame));
     };
-    add(0, Kind::Car, d.vehicle.length, d.vehicle.width);
+    if (!outside.host) {
+        add(0, Kind::Car, d.vehicle.length, d.vehicle.width);
+        message.host = id;
+    }
     for (size_t i = 0; i < d.cars.size(); ++i) add(1 + i, Kind::Car, d.cars[i].length, d.cars[i].width);
     const glm::dvec3 person = osi::usual_size(Kind::Pedestrian);
     for (size_t i = 0; i < d.walkers.size(); ++i) add(1 + d.cars.size() + i, Kind::Pedestrian, person.x, person.y);
-    for (const traffic::Guest& guest : outside.guests)
-        add(1 + d.cars.size() + d.walkers.size() + guest.index, guest.person ? Kind::Pedestrian : Kind::Car,
-            guest.length, guest.width);
     return message;
 }
 

@@ -6,8 +6,8 @@
 
 namespace vesper::drive {
 
-/// What moves at the present time: the driver's car as host, traffic, walkers and guests, each with its node's name as
-/// model. Heights are usual ones, the time is 0.
+/// What moves at the present time: objects of another program as they are, and the driver's car (the host, where that
+/// program has none), traffic and walkers with their nodes' names as models and usual heights. The time is 0.
 osi::Message message_of(const traffic::World&, const Outside&, const MessageFrame&);
 
 }  // namespace vesper::drive

@@ -14,6 +14,7 @@ struct StreamCounts {
     uint64_t malformed = 0;   ///< that cannot be read
     uint64_t incomplete = 0;  ///< of which a packet was lost, or came in another order
     uint64_t foreign = 0;     ///< datagrams of a second sender
+    uint64_t astray = 0;      ///< messages with a time far from those around them
     uint64_t late = 0;        ///< messages before what was shown already
     uint64_t repeated = 0;
     uint64_t crowded_out = 0;  ///< messages that came faster than they were taken

@@ -11,13 +11,14 @@ namespace vesper::osi {
 namespace {
 
 constexpr double kFarthest = 1e9, kLargest = 1000;  // m
-constexpr int64_t kNanoseconds = 1'000'000'000, kMostSeconds = 9'000'000'000;
+constexpr double kMostTurned = 1e6;                 // rad
+constexpr int64_t kNanoseconds = 1'000'000'000, kMostSeconds = kMostNanoseconds / kNanoseconds;
 
 bool is_place(const wire::Vector3d& v) {
     return std::abs(v.x()) < kFarthest && std::abs(v.y()) < kFarthest && std::abs(v.z()) < kFarthest;
 }
 bool is_turn(const wire::Orientation3d& o) {
-    return std::isfinite(o.yaw()) && std::isfinite(o.pitch()) && std::isfinite(o.roll());
+    return std::abs(o.yaw()) < kMostTurned && std::abs(o.pitch()) < kMostTurned && std::abs(o.roll()) < kMostTurned;
 }
 glm::dvec3 vector_of(const wire::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 void set(wire::Vector3d& to, const glm::dvec3& v) { to.set_x(v.x), to.set_y(v.y), to.set_z(v.z); }
@@ -273,7 +274,7 @@ Message parse_message(std::span<const uint8_t> bytes) {
     const wire::Timestamp& time =
         truth.has_timestamp() || !parsed.is_view ? truth.timestamp() : parsed.view.timestamp();
     if (!time.has_seconds() && !time.has_nanos()) throw Error("has no timestamp");
-    if (std::abs(time.seconds()) > kMostSeconds || time.nanos() >= kNanoseconds)
+    if (time.seconds() >= kMostSeconds || time.seconds() <= -kMostSeconds || time.nanos() >= kNanoseconds)
         throw Error("has a timestamp that cannot be");
     if (truth.moving_object_size() > kMostObjects || truth.traffic_light_size() > kMostObjects)
         throw Error("has more than " + std::to_string(kMostObjects) + " objects");
@@ -288,6 +289,14 @@ Message parse_message(std::span<const uint8_t> bytes) {
         if (auto light = light_of(each)) message.traffic_lights.push_back(std::move(*light));
     if (truth.has_environmental_conditions()) message.environment = environment_of(truth.environmental_conditions());
     return message;
+}
+
+uint64_t memory_of(const Message& message) {
+    uint64_t bytes = sizeof message + message.objects.size() * sizeof(MovingObject) +
+                     message.traffic_lights.size() * sizeof(TrafficLight);
+    for (const MovingObject& object : message.objects) bytes += object.model.size();
+    for (const TrafficLight& light : message.traffic_lights) bytes += light.signal.size();
+    return bytes;
 }
 
 std::string bytes_of(const Message& message) {

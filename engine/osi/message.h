@@ -13,7 +13,8 @@
 namespace vesper::osi {
 
 constexpr uint64_t kMostMessageBytes = uint64_t{16} << 20;
-constexpr int kMostObjects = 10'000;  ///< of a message, and as many traffic lights
+constexpr int64_t kMostNanoseconds = 4'000'000'000'000'000'000;  ///< of times, before and after 0: 126 years
+constexpr int kMostObjects = 10'000;                             ///< of a message, and as many traffic lights
 
 /// What is stated of a lamp.
 enum class LampState : uint8_t { Unknown, Off, On, Flashing };
@@ -72,6 +73,9 @@ struct Message {
 /// Reads a GroundTruth, or that of a SensorView. Objects without a place or with a pose that is no number are left out,
 /// and sizes that cannot be count as not stated. Throws Error with the reason.
 Message parse_message(std::span<const uint8_t> bytes);
+
+/// What it takes, bytes.
+uint64_t memory_of(const Message&);
 
 /// The message as a GroundTruth: parse_message() gives it back, apart from what it leaves out.
 std::string bytes_of(const Message&);

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <condition_variable>
 #include <cstring>
 #include <deque>
@@ -24,12 +25,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr size_t kMostQueued = size_t{64} << 20;  // bytes
+constexpr uint64_t kMostQueued = uint64_t{64} << 20;  // bytes
 constexpr size_t kLargestDatagram = 65536;
 constexpr int kBuffer = 4 << 20, kWake = 50;        // bytes that the system keeps; ms between looks at the end
 constexpr auto kSilence = std::chrono::seconds(5);  // of a sender, after which another is listened to
-constexpr int64_t kBack = 1'000'000'000, kStep = 50'000'000;  // ns: back by more is another run, which goes on after
-constexpr int kBackInTurn = 5;
+constexpr double kBack = 1, kAhead = 10;            // s: further from the latest message is another run
+constexpr int kAstrayInTurn = 5;                    // messages of that, which goes on after the one before by
+constexpr int64_t kStep = 50'000'000;               // ns
 
 sockaddr_in socket_address(const Address& address) {
     sockaddr_in made{};
@@ -95,45 +97,60 @@ struct Receiver::Impl {
         }
         if (!same) sender = from, dropped += datagrams.incomplete(), datagrams = {};
         heard = now;
-        const auto bytes = datagrams.take(datagram);
-        std::optional<Message> message;
         try {
-            if (bytes) message = parse_message(*bytes);
-        } catch (const std::exception&) {  // also of memory: it never ends the drive
-        }
-        const std::lock_guard lock(mutex);
-        counts.incomplete = dropped + datagrams.incomplete();
-        if (!bytes) return;
-        if (!message) {
+            const auto bytes = datagrams.take(datagram);
+            {
+                const std::lock_guard lock(mutex);
+                counts.incomplete = dropped + datagrams.incomplete();
+            }
+            if (bytes) hear_message(parse_message(*bytes), now);
+        } catch (const std::exception&) {  // also of memory: nothing that comes ends the drive
+            const std::lock_guard lock(mutex);
             ++counts.malformed;
-            return;
         }
-        ++counts.messages;
-        if (queued + bytes->size() > kMostQueued) {
-            ++counts.crowded_out;
-            return;
-        }
-        move_time(*message);
-        queued += bytes->size();
-        queue.push_back({{std::move(*message), now}, bytes->size()});
-        arrived.notify_one();
     }
 
-    // A sender that begins again has times before those that it had, and goes on from there.
-    void move_time(Message& message) {
-        message.nanoseconds += moved;
-        behind = latest && message.nanoseconds < *latest - kBack ? behind + 1 : 0;
-        if (behind >= kBackInTurn) {
-            const int64_t by = *latest + kStep - message.nanoseconds;
-            moved += by, message.nanoseconds += by, behind = 0;
-            ++counts.restarts;
+    void hear_message(Message message, Clock::time_point now) {
+        const bool astray = !move_time(message);
+        const uint64_t bytes = memory_of(message);
+        const std::lock_guard lock(mutex);
+        ++counts.messages;
+        counts.restarts = restarts;
+        if (astray) {
+            ++counts.astray;
+        } else if (queued + bytes > kMostQueued) {
+            ++counts.crowded_out;
+        } else {
+            queue.push_back({{std::move(message), now}, bytes});
+            queued += bytes;
+            arrived.notify_one();
         }
-        if (behind == 0) latest = std::max(latest.value_or(message.nanoseconds), message.nanoseconds);
+    }
+
+    // A sender that begins again, or jumps, has times far from those that it had, and goes on from there once some in
+    // turn have. False: it is far from them, so far.
+    bool move_time(Message& message) {
+        const double far = 1e9, most = double(kMostNanoseconds);
+        const auto moved_time = [&] { return double(message.nanoseconds) + double(moved); };
+        const auto is_astray = [&] {
+            const double by = latest ? moved_time() - double(*latest) : 0;
+            return by < -kBack * far || by > kAhead * far || std::abs(moved_time()) > most;
+        };
+        astray_in_turn = is_astray() ? astray_in_turn + 1 : 0;
+        if (astray_in_turn > 0 && astray_in_turn < kAstrayInTurn) return false;
+        if (astray_in_turn > 0) {
+            if (double(*latest) - double(message.nanoseconds) > 2 * most) return false;
+            moved = *latest + kStep - message.nanoseconds, astray_in_turn = 0, ++restarts;
+            if (is_astray()) return false;
+        }
+        message.nanoseconds += moved;
+        latest = std::max(latest.value_or(message.nanoseconds), message.nanoseconds);
+        return true;
     }
 
     struct Queued {
         Arrival arrival;
-        size_t bytes;
+        uint64_t bytes;
     };
     io::Descriptor socket;
     uint16_t port = 0;
@@ -144,12 +161,13 @@ struct Receiver::Impl {
     uint64_t dropped = 0;
     std::optional<int64_t> latest;
     int64_t moved = 0;
-    int behind = 0;
+    int astray_in_turn = 0;
+    uint64_t restarts = 0;
     // Of both.
     std::mutex mutex;
     std::condition_variable arrived;
     std::deque<Queued> queue;
-    size_t queued = 0;
+    uint64_t queued = 0;
     StreamCounts counts;
     std::atomic<bool> ends{false};
     std::thread listener;

@@ -9,10 +9,11 @@
 namespace vesper::osi {
 namespace {
 
-constexpr double kBrakeLampDeceleration = 0.7;   // m/s^2, UN Regulation 13-H: from 0.7 on they may come on
-constexpr double kStanding = 0.05, kMoving = 1;  // m/s
-constexpr double kSmoothing = 0.25;              // s over which a change of speed is looked at
-constexpr double kSame = 1e-6;                   // s: times of messages are rounded
+constexpr double kBrakeLampDeceleration = 0.7;          // m/s^2, UN Regulation 13-H: from 0.7 on they may come on
+constexpr double kStanding = 0.05, kMoving = 1;         // m/s
+constexpr uint64_t kMostWaiting = uint64_t{256} << 20;  // bytes
+constexpr double kSmoothing = 0.25;                     // s over which a change of speed is looked at
+constexpr double kSame = 1e-6;                          // s: times of messages are rounded
 
 constexpr std::array kLamps{&LightStates::low,       &LightStates::high,     &LightStates::tail,
                             &LightStates::brake,     &LightStates::left,     &LightStates::right,
@@ -42,6 +43,9 @@ Timeline::Added Timeline::add(Message message) {
                                         [](int64_t t, const Message& m) { return t < m.nanoseconds; });
     if (place != messages_.begin() && place[-1].nanoseconds == message.nanoseconds) return Added::Repeated;
     if (message.nanoseconds < *start_ || size_t(place - messages_.begin()) < used_) return Added::Late;
+    const uint64_t bytes = memory_of(message);
+    if (!keeps_ && bytes_ + bytes > kMostWaiting) return Added::CrowdedOut;
+    bytes_ += bytes;
     messages_.insert(place, std::move(message));
     return Added::Accepted;
 }
@@ -87,15 +91,15 @@ void Timeline::pass(const Message& message) {
     if (message.host) host_ = message.host;
     if (message.environment) environment_ = *message.environment;
     for (const TrafficLight& light : message.traffic_lights) {
-        const auto held = std::lower_bound(lights_.begin(), lights_.end(), light.id,
-                                           [](const Held& h, uint64_t id) { return h.light.id < id; });
-        if (held == lights_.end() || held->light.id != light.id)
-            lights_.insert(held, {light, time});
-        else
-            *held = {light, held->light.state == light.state ? held->since : time};
+        const auto held = lights_.find(light.id);
+        if (held != lights_.end())
+            held->second = {light, held->second.light.state == light.state ? held->second.since : time};
+        else if (lights_.size() < size_t(kMostObjects))
+            lights_.emplace(light.id, Held{light, time});
     }
     std::unordered_map<uint64_t, Track> tracks;
     for (const MovingObject& object : message.objects) {
+        if (tracks.contains(object.id)) continue;  // of two with one id the first counts
         const auto before = tracks_.find(object.id);
         follow(object, time, before == tracks_.end() ? nullptr : &before->second, tracks[object.id]);
     }
@@ -112,6 +116,7 @@ Moment Timeline::at(double seconds) {
         pass(messages_[passed_]);
         ++passed_;
         if (keeps_ || passed_ < 2) continue;
+        bytes_ -= memory_of(messages_.front());
         messages_.pop_front();
         --passed_, --used_;
     }
@@ -138,7 +143,7 @@ Moment Timeline::at(double seconds) {
         }
         moment.objects.push_back(std::move(now));
     }
-    for (const Held& held : lights_) moment.traffic_lights.push_back({held.light, seconds - held.since});
+    for (const auto& [id, held] : lights_) moment.traffic_lights.push_back({held.light, seconds - held.since});
     return moment;
 }
 

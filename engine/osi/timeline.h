@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <functional>
+#include <map>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -40,8 +41,9 @@ public:
     /// `keeps`: moments may be asked for in any order. Otherwise messages before the last moment are forgotten.
     explicit Timeline(bool keeps = true) : keeps_(keeps) {}
 
-    enum class Added : uint8_t { Accepted, Repeated, Late };
-    /// Late: before a message that a moment was made from.
+    enum class Added : uint8_t { Accepted, Repeated, Late, CrowdedOut };
+    /// Late: before a message that a moment was made from. CrowdedOut: those that are not needed yet take 256 MiB
+    /// (where messages are forgotten).
     Added add(Message);
 
     /// The moment so many seconds after the first message that was added. Before it nothing is there, and after the
@@ -76,10 +78,11 @@ private:
     bool keeps_;
     std::deque<Message> messages_;
     std::optional<int64_t> start_;
+    uint64_t bytes_ = 0;            ///< of the messages
     size_t passed_ = 0, used_ = 0;  ///< messages behind the moment; those that moments needed
     std::optional<uint64_t> host_;
     std::unordered_map<uint64_t, Track> tracks_;
-    std::vector<Held> lights_;
+    std::map<uint64_t, Held> lights_;  ///< at most kMostObjects
     Environment environment_;
 };
 

@@ -14,11 +14,6 @@ namespace {
 constexpr size_t kLengthBytes = 4;
 constexpr std::string_view kMcap = "\x89MCAP";
 
-uint64_t memory_of(const Message& message) {
-    return sizeof message + message.objects.size() * sizeof(MovingObject) +
-           message.traffic_lights.size() * sizeof(TrafficLight);
-}
-
 // Reads messages one after another.
 class TraceReader {
 public:

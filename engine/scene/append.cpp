@@ -3,6 +3,7 @@
 #include <iterator>
 #include <utility>
 
+#include "base/budget.h"
 #include "base/error.h"
 
 namespace vesper::scene {
@@ -59,6 +60,8 @@ SceneInsert::SceneInsert(Scene& to, Scene model) {
 }
 
 uint32_t SceneInsert::add(Scene& to, const std::string& name) const {
+    check_time();
+    spend((nodes_.size() + 1) * sizeof(Node));
     const auto root = uint32_t(to.nodes.size());
     to.nodes.push_back({.name = name});
     for (Node node : nodes_) {

@@ -13,7 +13,8 @@ public:
     /// retroreflectors.
     SceneInsert(Scene& to, Scene model);
 
-    /// A node of that name, the last but those of the model below it. Returns its index.
+    /// A node of that name, the last but those of the model below it. Returns its index. Throws Error beyond the task's
+    /// Budget.
     uint32_t add(Scene& to, const std::string& name) const;
 
 private:

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -215,6 +216,12 @@ TEST(OsiDrive, ModelsAreWhatTheTableSays) {
         EXPECT_TRUE(contains(said, "bad.json")) << text;
         EXPECT_TRUE(contains(said, words)) << text;
     }
+    folder.write("m.json", R"({"version": 1, "models": [{"reference": "cars/gl*", "scene": "glare.gltf",
+                               "lamps": {"low": ["none of it"]}}]})");
+    const std::string said =
+        complaint_of([&] { drive::Scenery(kScene, {.file = folder / "a.osi", .models = folder / "m.json"}); });
+    EXPECT_TRUE(contains(said, "m.json: /models/0/lamps/low: ")) << said;
+    EXPECT_TRUE(contains(said, "none of it")) << said;
     folder.write("m.json", R"({"version": 1, "models": [{"reference": "cars/gl*", "scene": "no.gltf"}]})");
     EXPECT_TRUE(
         contains(complaint_of([&] { drive::Scenery(kScene, {.file = folder / "a.osi", .models = folder / "m.json"}); }),
@@ -244,6 +251,25 @@ class OsiDriveProgram : public ProgramTest {
 protected:
     OsiDriveProgram() : ProgramTest(VESPER_DRIVE) {}
     const std::string common_ = "--headless --size 64x40 --indirect off --shadows off ";
+    /// Runs the program, and `send` once it says where it listens.
+    int run_along(const std::string& arguments, const std::function<void(const UdpSender&)>& send) {
+        std::atomic<bool> ends{false};
+        std::filesystem::remove(folder / "err.txt");
+        std::thread simulator([&] {
+            std::string port;
+            while (port.empty() && !ends) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(50));
+                std::ifstream file(folder / "err.txt");
+                for (std::string line; std::getline(file, line);)
+                    if (line.find("listening at 127.0.0.1:") != line.npos) port = line.substr(line.rfind(':') + 1);
+            }
+            if (!port.empty()) send(UdpSender(uint16_t(std::stoi(port))));
+        });
+        const int code = run(arguments);
+        ends = true;
+        simulator.join();
+        return code;
+    }
     void same_pictures(const std::string& one, const std::string& other, int count) {
         for (int i = 0; i < count; ++i)
             EXPECT_TRUE(read_text(folder / (one + std::to_string(i) + ".png")) ==
@@ -299,32 +325,18 @@ TEST_F(OsiDriveProgram, ATraceIsRecordedAndReplayedToTheBit) {
 
 // A simulator sends while one drives, with loss and out of order; the recording has the same pictures.
 TEST_F(OsiDriveProgram, DrivesAlongWithWhatIsSent) {
-    std::atomic<bool> ends{false};
-    // Until the program says where it listens, there is nobody to send to.
-    std::thread simulator([&] {
-        std::string port;
-        while (port.empty() && !ends) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(50));
-            std::ifstream file(folder / "err.txt");
-            for (std::string line; std::getline(file, line);)
-                if (const size_t at = line.find("listening at 127.0.0.1:"); at != line.npos)
-                    port = line.substr(line.rfind(':') + 1);
-        }
-        if (port.empty()) return;
-        const UdpSender sender(uint16_t(std::stoi(port)));
-        std::vector<osi::Message> all = messages();
-        for (size_t i = 3; i + 1 < all.size(); i += 8) std::swap(all[i], all[i + 1]);
-        all.erase(all.begin() + 30);
-        for (size_t i = 0; i < all.size(); ++i) {
-            const std::string bytes = osi::bytes_of(all[i]);
-            i % 2 == 0 ? sender.send_packets(bytes, 100) : sender.send(bytes);
-            if (i == 10) sender.send("noise");
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        }
-    });
-    const int code = run(common_ + kScene + " --osi-udp 0 --seconds 1.5 --fps 4 --record d.json --video a%d.png");
-    ends = true;
-    simulator.join();
+    const int code = run_along(common_ + kScene + " --osi-udp 0 --seconds 1.5 --fps 4 --record d.json --video a%d.png",
+                               [](const UdpSender& sender) {
+                                   std::vector<osi::Message> all = messages();
+                                   for (size_t i = 3; i + 1 < all.size(); i += 8) std::swap(all[i], all[i + 1]);
+                                   all.erase(all.begin() + 30);
+                                   for (size_t i = 0; i < all.size(); ++i) {
+                                       const std::string bytes = osi::bytes_of(all[i]);
+                                       i % 2 == 0 ? sender.send_packets(bytes, 100) : sender.send(bytes);
+                                       if (i == 10) sender.send("noise");
+                                       std::this_thread::sleep_for(std::chrono::milliseconds(10));
+                                   }
+                               });
     ASSERT_EQ(code, 0) << said;
     EXPECT_TRUE(contains(said, "1 malformed"));
     ASSERT_TRUE(exists("d.osi"));
@@ -336,6 +348,55 @@ TEST_F(OsiDriveProgram, DrivesAlongWithWhatIsSent) {
     std::filesystem::rename(folder / "d.json", folder / "d.json.part");
     ASSERT_EQ(run(common_ + "--replay d.json.part --video c%d.png"), 0) << said;
     same_pictures("a", "c", 7);
+}
+
+// More objects than there are bodies, away from the roads, of a sender that falls silent; an older trace has the name.
+TEST_F(OsiDriveProgram, EndsWithItsSenderAndIsReplayed) {
+    const std::string roads = std::string(VESPER_SOURCE_DIR) + "/data/rivoli/rivoli.xodr";
+    folder.write("d.osi", "of another drive");
+    const auto begins = std::chrono::steady_clock::now();
+    ASSERT_EQ(run_along(common_ + roads + " --osi-udp 0 --seconds 3 --fps 4 --record d.json --video a%d.png",
+                        [](const UdpSender& sender) {
+                            for (int i = 0; i <= 20; ++i) {
+                                osi::Message m{.nanoseconds = i * int64_t{50'000'000}};
+                                for (uint64_t k = 0; k < 40; ++k)
+                                    m.objects.push_back({.id = k,
+                                                         .kind = Kind::Car,
+                                                         .centre = {4.0 * double(k), 5000 + 0.5 * i, 0.75},
+                                                         .velocity = {}});
+                                sender.send(osi::bytes_of(m));
+                            }
+                        }),
+              0)
+        << said;
+    EXPECT_TRUE(contains(said, "the sender is silent"));
+    EXPECT_LT(std::chrono::steady_clock::now() - begins, std::chrono::seconds(60)) << "5 s, and not at each step";
+    ASSERT_EQ(run(common_ + "--replay d.json --video b%d.png"), 0) << said;
+    same_pictures("a", "b", 4);
+    ASSERT_EQ(run(common_ + "--replay d.json --fps 4 --video c%d.png"), 0) << said;
+    same_pictures("a", "c", 4);
+}
+
+// What leaves as a trace is what came: kinds, sizes, names, lamps.
+TEST_F(OsiDriveProgram, PassesOnWhatItHears) {
+    folder.write("a.osi", trace_of(messages()));
+    ASSERT_EQ(run(common_ + kScene + " --osi a.osi --seconds 1.5 --osi-out b.osi"), 0) << said;
+    const osi::Message last = osi::read_trace(folder / "b.osi").messages.back();
+    const osi::Message wanted = messages()[30];
+    EXPECT_EQ(last.host, 1u);
+    ASSERT_EQ(last.objects.size(), 3u);
+    for (size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(last.objects[i].id, wanted.objects[i].id);
+        EXPECT_EQ(last.objects[i].kind, wanted.objects[i].kind);
+        EXPECT_EQ(last.objects[i].size, wanted.objects[i].size);
+        EXPECT_LT(glm::distance(last.objects[i].centre, wanted.objects[i].centre), 1e-6);
+    }
+    EXPECT_EQ(last.objects[1].lights.rear_fog, LampState::On);
+    const std::string roads =
+        std::string(VESPER_SHARED_DATA) + "/scenario/esmini/xodr/fabriksgatan_traffic_lights.xodr";
+    if (!std::filesystem::exists(roads)) return;
+    ASSERT_EQ(run(common_ + roads + " --seconds 0.1 --osi-out c.osi"), 0) << said;
+    EXPECT_EQ(osi::read_trace(folder / "c.osi").messages.back().traffic_lights.size(), 3u);
 }
 
 }  // namespace

@@ -197,7 +197,11 @@ TEST(RoadDrive, MessagesSwitchTrafficLights) {
     EXPECT_EQ(lit(moment), (std::vector<int>{2, 1, 0}));
     moment.traffic_lights[1].state_for = 0.6;
     EXPECT_EQ(lit(moment), (std::vector<int>{2, 0, 0}));
-    EXPECT_TRUE(drive::road_world(roads, {}, {}).lenses.empty());
+    // A signal of which one lens is spoken of, or one that changes its colour, shows no other.
+    moment.traffic_lights = {light(1, Colour::Red, osi::LampState::On)};
+    EXPECT_EQ(lit(moment), (std::vector<int>{1, 0, 2}));
+    moment.traffic_lights = {light(1, Colour::Green, osi::LampState::On)};
+    EXPECT_EQ(lit(moment), (std::vector<int>{0, 0, 3}));
 }
 
 class RoadDriveProgram : public ProgramTest {

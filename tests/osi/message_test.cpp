@@ -124,6 +124,7 @@ TEST(OsiMessage, WhatCannotBeIsLeftOutOrRefused) {
     message.objects.push_back({.id = 1, .size = {-1, kNan, 1e9}, .velocity = glm::dvec3(kNan)});
     message.objects.push_back({.id = 2, .centre = {0, kNan, 0}, .velocity = {}});
     message.objects.push_back({.id = 3, .yaw = std::numeric_limits<double>::infinity(), .velocity = {}});
+    message.objects.push_back({.id = 6, .pitch = 1.7e308, .velocity = {}});
     message.traffic_lights.push_back({.id = 4, .position = {kNan, 0, 0}});
     message.environment = osi::Environment{.sun_elevation = 7, .time_of_day = {}};
     const osi::Message left = parsed(message);
@@ -135,6 +136,7 @@ TEST(OsiMessage, WhatCannotBeIsLeftOutOrRefused) {
     const std::vector<uint8_t> noise{0xff, 0x01, 0x02};
     EXPECT_TRUE(contains(complaint_of([&] { osi::parse_message(noise); }), "no GroundTruth or SensorView"));
     EXPECT_TRUE(contains(complaint_of([&] { osi::parse_message({}); }), "has no timestamp"));
+    EXPECT_TRUE(contains(complaint_of([&] { parsed({.nanoseconds = osi::kMostNanoseconds}); }), "timestamp"));
     message.objects.assign(size_t(osi::kMostObjects) + 1, {.id = 5, .velocity = {}});
     EXPECT_TRUE(contains(complaint_of([&] { parsed(message); }), "more than 10000 objects"));
 }

@@ -62,6 +62,23 @@ TEST(Receiver, ASenderMayBeginAgain) {
     EXPECT_NEAR(timeline.latest(), 4.9 + 0.05 + 4.5, 1e-9) << "five messages tell that it began again";
 }
 
+// One message of another time is none of it; several in turn are a sender that went on elsewhere.
+TEST(Receiver, LeavesOutWhatIsFarFromTheRest) {
+    osi::Receiver receiver({.port = 0});
+    UdpSender sender(receiver.port());
+    for (int i = 0; i < 20; ++i) {
+        sender.send(osi::bytes_of(at(100 * i)));
+        if (i == 10) sender.send(osi::bytes_of({.nanoseconds = 3'999'999'999'000'000'000}));
+        if (i == 12) sender.send(osi::bytes_of({.nanoseconds = -3'999'999'999'000'000'000}));
+    }
+    for (int i = 0; i < 10; ++i) sender.send(osi::bytes_of(at(100 * i + 60'000)));
+    osi::Timeline timeline;
+    while (const auto arrival = receiver.take(500ms)) timeline.add(arrival->message);
+    EXPECT_EQ(receiver.counts().astray, 2u + 4u);
+    EXPECT_EQ(receiver.counts().restarts, 1u);
+    EXPECT_NEAR(timeline.latest(), 1.9 + 0.05 + 0.5, 1e-9);
+}
+
 TEST(Receiver, AddressesAreChecked) {
     EXPECT_EQ(osi::parse_address("48198").host, "127.0.0.1");
     EXPECT_EQ(osi::parse_address("0.0.0.0:7").port, 7);

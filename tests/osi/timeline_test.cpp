@@ -146,6 +146,38 @@ TEST(Timeline, MessagesMayComeInAnyOrderUntilTheyAreNeeded) {
     EXPECT_EQ(used, (std::vector<int64_t>{0, 100, 150, 200}));
 }
 
+TEST(Timeline, OfTwoObjectsWithOneIdTheFirstCounts) {
+    Timeline timeline;
+    timeline.add(message(0, {car(1, 0, {.brake = LampState::Off}), car(2, 0, {.brake = LampState::On})}));
+    EXPECT_EQ(timeline.at(0).objects[0].object.lights.brake, LampState::Off);
+}
+
+// Messages that nobody asks for do not fill the memory, and neither do traffic lights without number.
+TEST(Timeline, HasBounds) {
+    Timeline live(false);
+    osi::Message large = message(0);
+    large.objects.assign(10'000, car(0, 0));
+    int accepted = 0;
+    for (int i = 0; i < 500; ++i) {
+        large.nanoseconds += kMillisecond;
+        accepted += live.add(large) == Timeline::Added::Accepted;
+    }
+    EXPECT_GT(accepted, 50);
+    EXPECT_LT(accepted, 400);
+    EXPECT_EQ(live.add(large), Timeline::Added::CrowdedOut);
+    live.at(0.4);
+    large.nanoseconds += kMillisecond;
+    EXPECT_EQ(live.add(large), Timeline::Added::Accepted) << "there is room again";
+
+    Timeline lights;
+    for (int i = 0; i < 4; ++i) {
+        osi::Message m = message(i);
+        for (uint64_t k = 0; k < 9000; ++k) m.traffic_lights.push_back({.id = 100'000 - 9000 * uint64_t(i) - k});
+        lights.add(m);
+    }
+    EXPECT_EQ(lights.at(1).traffic_lights.size(), size_t(osi::kMostObjects));
+}
+
 // What a live timeline needed, read again, gives the same moments to the bit.
 TEST(Timeline, ARecordingOfWhatWasNeededHasTheSameMoments) {
     Timeline live(false);

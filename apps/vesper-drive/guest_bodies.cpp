@@ -65,8 +65,7 @@ GuestBodies::GuestBodies(scene::Scene& scene, traffic::WorldFile& file, const Me
     for (const traffic::Walker& walker : world.walkers)
         if (!walker.node.empty()) world.guest_nodes.push_back(walker.node);
     world.cars.clear(), world.walkers.clear();
-    for (const std::string& node : world.guest_nodes)
-        nodes_.emplace(node, all_.size()), all_.push_back({.kind = "node " + node});
+    for (const std::string& node : world.guest_nodes) nodes_.insert(node), all_.push_back({.kind = "node " + node});
     if (!source.models.empty()) models_ = read_models(source.models);
     std::map<std::string, size_t> wanted = most_at_once(*this, messages);
     for (size_t i = 0; i < models_.size(); ++i) {

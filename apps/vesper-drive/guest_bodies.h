@@ -4,6 +4,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -44,7 +45,7 @@ private:
 
     std::vector<GuestBody> all_;
     std::vector<Model> models_;
-    std::map<std::string, size_t> nodes_;  // of the world, by name
+    std::set<std::string> nodes_;  // of the world that objects move by their models' names
     std::vector<std::string> notes_;
 };
 

@@ -23,7 +23,7 @@ glm::dvec3 turned(const glm::dvec3& p, double yaw) {
 traffic::Actor actor_of(const osi::ObjectNow& now, const MessageFrame& frame) {
     const osi::MovingObject& o = now.object;
     const double height = GuestBodies::size_of(o).z;
-    return {.position = frame.point(o.centre - height / 2 * up_of(o)),
+    return {.position = frame.point(o.centre - height / 2 * osi::axes_of(o.yaw, o.pitch, o.roll)[2]),
             .yaw = o.yaw + frame.yaw - kHalfPi,
             .pitch = -o.pitch,
             .roll = o.roll,
@@ -36,12 +36,6 @@ bool is_person(osi::MovingObject::Kind kind) {
 }
 
 }  // namespace
-
-glm::dvec3 up_of(const osi::MovingObject& o) {
-    const double cy = std::cos(o.yaw), sy = std::sin(o.yaw), cp = std::cos(o.pitch), sp = std::sin(o.pitch),
-                 cr = std::cos(o.roll), sr = std::sin(o.roll);
-    return {cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr};
-}
 
 glm::dvec3 MessageFrame::point(const glm::dvec3& p) const {
     const glm::dvec3 t = turned(p, yaw);
@@ -64,18 +58,19 @@ GuestPlaces::GuestPlaces(const GuestBodies& bodies, const std::vector<SignalLens
     for (size_t i = 0; i < bodies.all().size(); ++i) free_[bodies.all()[i].kind].insert(i);
 }
 
+void GuestPlaces::give_back(const Taken& taken) { free_[bodies_->all()[taken.body].kind].insert(taken.body); }
+
 std::optional<size_t> GuestPlaces::body_of(const osi::MovingObject& object) {
-    const std::string kind = bodies_->kind_of(object);
     if (const auto taken = taken_.find(object.id); taken != taken_.end()) {
-        if (taken->second.kind == kind) return taken->second.body;
-        free_[taken->second.kind].insert(taken->second.body);
+        if (taken->second.kind == object.kind && taken->second.model == object.model) return taken->second.body;
+        give_back(taken->second);
         taken_.erase(taken);
     }
-    std::set<size_t>& free = free_[kind];
+    std::set<size_t>& free = free_[bodies_->kind_of(object)];
     if (free.empty()) return std::nullopt;
     const size_t body = *free.begin();
     free.erase(free.begin());
-    taken_.emplace(object.id, Taken{body, kind});
+    taken_.emplace(object.id, Taken{body, object.kind, object.model});
     return body;
 }
 
@@ -86,7 +81,7 @@ Outside GuestPlaces::place(const osi::Moment& moment) {
     for (const osi::ObjectNow& now : moment.objects) here.insert(now.object.id);
     for (auto taken = taken_.begin(); taken != taken_.end();) {
         if (!here.contains(taken->first)) {
-            free_[taken->second.kind].insert(taken->second.body);
+            give_back(taken->second);
             taken = taken_.erase(taken);
         } else {
             ++taken;

@@ -44,6 +44,12 @@ public:
     Outside place(const osi::Moment&);
 
 private:
+    struct Taken {
+        size_t body;
+        osi::MovingObject::Kind kind;  // of the object that has it
+        std::string model;
+    };
+    void give_back(const Taken&);
     std::optional<size_t> body_of(const osi::MovingObject&);
 
     const GuestBodies* bodies_;
@@ -51,20 +57,13 @@ private:
     MessageFrame frame_;
     std::string host_;
     std::unordered_map<std::string, std::set<size_t>> free_;  // by kind
-    struct Taken {
-        size_t body;
-        std::string kind;
-    };
-    std::unordered_map<uint64_t, Taken> taken_;  // by the object's id
+    std::unordered_map<uint64_t, Taken> taken_;               // by the object's id
     LensFinder finder_;
 };
 
 /// Elevation of the sun, degrees: as stated; else at that time of day at an equinox at 45 degrees of latitude; else
 /// with which an overcast sky gives the illuminance in the middle of the stated level (OSI, AmbientIllumination).
 std::optional<double> sun_elevation_of(const osi::Environment&);
-
-/// Up from the ground of an object, in the frame of messages.
-glm::dvec3 up_of(const osi::MovingObject&);
 
 /// An actor's lamps as an object's states, and back. `for_seconds`: since they flash.
 osi::LightStates light_states_of(const traffic::VehicleLamps&);

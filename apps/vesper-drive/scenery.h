@@ -31,8 +31,8 @@ public:
     const scene::Scene& scene() const { return scene_; }
     const std::shared_ptr<const traffic::WorldDescription>& world() const { return world_; }
     const std::vector<std::string>& notes() const { return notes_; }
-    /// Of the source's file.
-    const std::vector<osi::Message>& messages() const { return messages_; }
+    /// Gives away those of the source's file.
+    std::vector<osi::Message> take_messages() { return std::move(messages_); }
     /// For the objects of messages.
     GuestPlaces guest_places() const { return {bodies_, lenses_, message_frame_, source_.host}; }
     const MessageFrame& message_frame() const { return message_frame_; }

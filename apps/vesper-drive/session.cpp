@@ -29,7 +29,7 @@ Session::Session(gpu::Device& device, DriveStart options, Scenery scenery)
       device_(&device),
       renderer_(std::make_unique<render::Renderer>(device, scenery_.scene())),
       recorder_(std::make_unique<DriveRecorder>(start())) {
-    for (const osi::Message& message : scenery_.messages()) timeline_.add(message);
+    for (osi::Message& message : scenery_.take_messages()) timeline_.add(std::move(message));
     if (is_live(options_.messages)) {
         heard_ = std::make_unique<MessageStore>();
         timeline_.on_use = [this](const osi::Message& message) { keep(message); };

@@ -264,9 +264,7 @@ void WindowedDrive::open_feed() {
 void WindowedDrive::listen() {
     if (!feed_ || paused_) return;  // what comes meanwhile waits, within the bounds of a Receiver
     feed_->listen(*session_);
-    const osi::StreamCounts now = feed_->counts();
-    const uint64_t count =
-        now.late + now.repeated + now.malformed + now.incomplete + now.crowded_out + now.foreign + now.astray;
+    const uint64_t count = feed_->counts().unusable();
     if (count == troubles_ || Clock::now() - troubles_said_ < std::chrono::seconds(5)) return;
     troubles_ = count, troubles_said_ = Clock::now();
     say(feed_->report());

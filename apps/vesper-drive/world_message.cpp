@@ -12,17 +12,18 @@ using Kind = osi::MovingObject::Kind;
 osi::MovingObject object_of(const traffic::Actor& actor, uint64_t id, Kind kind, double length, double width,
                             const MessageFrame& frame) {
     const double yaw = actor.yaw + std::numbers::pi / 2 - frame.yaw, pitch = -actor.pitch;
+    const glm::dmat3 axes = osi::axes_of(yaw, pitch, actor.roll);
+    const glm::dvec3 size(length, width, osi::usual_size(kind).z);
     osi::MovingObject o{.id = id,
                         .kind = kind,
                         .model = actor.node,
-                        .size = {length, width, osi::usual_size(kind).z},
+                        .size = size,
+                        .centre = frame.back(actor.position) + size.z / 2 * axes[2],
                         .yaw = yaw,
                         .pitch = pitch,
                         .roll = actor.roll,
-                        .velocity = actor.speed * glm::dvec3(std::cos(yaw) * std::cos(pitch),
-                                                             std::sin(yaw) * std::cos(pitch), -std::sin(pitch)),
+                        .velocity = actor.speed * axes[0],
                         .lights = light_states_of(actor.lamps)};
-    o.centre = frame.back(actor.position) + o.size.z / 2 * up_of(o);
     return o;
 }
 

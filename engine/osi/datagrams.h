@@ -20,6 +20,9 @@ struct StreamCounts {
     uint64_t crowded_out = 0;  ///< messages that came faster than they were taken
     uint64_t restarts = 0;     ///< of the sender, whose time began again
     bool operator==(const StreamCounts&) const = default;
+
+    /// That could not be used, in all.
+    uint64_t unusable() const { return malformed + incomplete + foreign + astray + late + repeated + crowded_out; }
 };
 
 /// Puts messages together. A datagram is either a whole message, or a packet of esmini: counter (int32), bytes of the

@@ -265,6 +265,14 @@ glm::dvec3 usual_size(MovingObject::Kind kind) {
     return {0.5, 0.6, 1};
 }
 
+glm::dmat3 axes_of(double yaw, double pitch, double roll) {
+    const double cy = std::cos(yaw), sy = std::sin(yaw), cp = std::cos(pitch), sp = std::sin(pitch),
+                 cr = std::cos(roll), sr = std::sin(roll);
+    return {{cy * cp, sy * cp, -sp},
+            {cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, cp * sr},
+            {cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr}};
+}
+
 Message parse_message(std::span<const uint8_t> bytes) {
     if (bytes.size() > kMostMessageBytes)
         throw Error("has " + std::to_string(bytes.size()) + " bytes; a message has at most " +

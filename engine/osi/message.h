@@ -42,6 +42,9 @@ struct MovingObject {
 /// Length, width and height where none are stated, m.
 glm::dvec3 usual_size(MovingObject::Kind);
 
+/// Ahead, left and up of an object that is turned by yaw, then pitch, then roll: columns, of length 1.
+glm::dmat3 axes_of(double yaw, double pitch, double roll);
+
 /// One lens of a traffic light.
 struct TrafficLight {
     enum class Colour : uint8_t { Other, Red, Yellow, Green };

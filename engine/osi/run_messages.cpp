@@ -24,16 +24,6 @@ Box box_of(const RunEntity& e, MovingObject::Kind kind) {
     return {usual, {kind < MovingObject::Kind::Bicycle ? 0.3 * usual.x : 0, 0, usual.z / 2}};
 }
 
-// The middle of the box in the world: from the reference point, turned as the entity is.
-glm::dvec3 centre_of(const RunPose& p, const glm::dvec3& offset) {
-    const double cy = std::cos(p.heading), sy = std::sin(p.heading), cp = std::cos(p.pitch), sp = std::sin(p.pitch),
-                 cr = std::cos(p.roll), sr = std::sin(p.roll);
-    const glm::dmat3 axes{{cy * cp, sy * cp, -sp},
-                          {cy * sp * sr - sy * cr, sy * sp * sr + cy * cr, cp * sr},
-                          {cy * sp * cr + sy * sr, sy * sp * cr - cy * sr, cp * cr}};
-    return p.position + axes * offset;
-}
-
 }  // namespace
 
 std::vector<Message> messages_of(const roads::EsminiRun& run) {
@@ -57,17 +47,16 @@ std::vector<Message> messages_of(const roads::EsminiRun& run) {
                    last = std::lower_bound(first, times.end(), nanoseconds(e.poses.back().time));
         for (auto time = first; time <= last; ++time) {
             const RunPose p = roads::pose_at(e, 1e-9 * double(*time));
-            const glm::dvec3 ahead(std::cos(p.heading) * std::cos(p.pitch), std::sin(p.heading) * std::cos(p.pitch),
-                                   -std::sin(p.pitch));
+            const glm::dmat3 axes = axes_of(p.heading, p.pitch, p.roll);
             messages[size_t(time - times.begin())].objects.push_back({.id = i,
                                                                       .kind = kind,
                                                                       .model = e.name,
                                                                       .size = box.size,
-                                                                      .centre = centre_of(p, box.centre),
+                                                                      .centre = p.position + axes * box.centre,
                                                                       .yaw = p.heading,
                                                                       .pitch = p.pitch,
                                                                       .roll = p.roll,
-                                                                      .velocity = p.speed * ahead,
+                                                                      .velocity = p.speed * axes[0],
                                                                       .lights = {}});
         }
     }

@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <utility>
+
+#include "base/angle.h"
 
 namespace vesper::osi {
 namespace {
@@ -25,13 +26,9 @@ bool has_lamps(const MovingObject& object) {
            object.kind == Kind::Motorcycle;
 }
 
-glm::dvec3 ahead_of(const MovingObject& o) {
-    return {std::cos(o.yaw) * std::cos(o.pitch), std::sin(o.yaw) * std::cos(o.pitch), -std::sin(o.pitch)};
-}
+glm::dvec3 ahead_of(const MovingObject& o) { return axes_of(o.yaw, o.pitch, o.roll)[0]; }
 
 LampState on_if(bool on) { return on ? LampState::On : LampState::Off; }
-
-double turned(double from, double to, double f) { return from + f * std::remainder(to - from, 2 * std::numbers::pi); }
 
 }  // namespace
 
@@ -137,8 +134,8 @@ Moment Timeline::at(double seconds) {
         if (const auto next = later.find(object.id); next != later.end()) {
             const MovingObject& o = *next->second;
             now.object.centre = glm::mix(object.centre, o.centre, f);
-            now.object.yaw = turned(object.yaw, o.yaw, f), now.object.pitch = turned(object.pitch, o.pitch, f);
-            now.object.roll = turned(object.roll, o.roll, f);
+            now.object.yaw = mix_angles(object.yaw, o.yaw, f), now.object.pitch = mix_angles(object.pitch, o.pitch, f);
+            now.object.roll = mix_angles(object.roll, o.roll, f);
             if (object.velocity && o.velocity) now.speed = glm::mix(track.speed, glm::dot(*o.velocity, ahead_of(o)), f);
         }
         moment.objects.push_back(std::move(now));

@@ -193,8 +193,6 @@ void find_speeds(RunEntity& entity) {
     }
 }
 
-double between(double a, double b, double f) { return a + std::remainder(b - a, kTwoPi) * f; }
-
 }  // namespace
 
 EsminiRun read_esmini_run(const std::filesystem::path& file) try {
@@ -250,8 +248,8 @@ RunPose pose_at(const RunEntity& entity, double time) {
     RunPose pose;
     pose.time = time;
     pose.position = glm::mix(a.position, b.position, f);
-    pose.heading = between(a.heading, b.heading, f), pose.pitch = between(a.pitch, b.pitch, f),
-    pose.roll = between(a.roll, b.roll, f);
+    pose.heading = mix_angles(a.heading, b.heading, f), pose.pitch = mix_angles(a.pitch, b.pitch, f),
+    pose.roll = mix_angles(a.roll, b.roll, f);
     pose.speed = glm::mix(a.speed, b.speed, f);
     return pose;
 }

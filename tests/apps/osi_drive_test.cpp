@@ -15,6 +15,7 @@
 #include "scenery.h"
 #include "session.h"
 #include "support/complaints.h"
+#include "support/driven_along.h"
 #include "support/program.h"
 #include "support/udp_sender.h"
 
@@ -62,36 +63,22 @@ std::string trace_of(const std::vector<osi::Message>& all) {
     return bytes;
 }
 
-struct Along {
-    drive::Scenery scenery;
-    osi::Timeline timeline;
-    drive::GuestPlaces places;
-    traffic::World world;
-    explicit Along(const std::string& scene, const drive::MessageSource& source)
-        : scenery(scene, source), places(scenery.guest_places()), world(scenery.world(), 1) {
-        for (const osi::Message& message : scenery.messages()) timeline.add(message);
+// Lit lamps of a name in the scene.
+int lit_lamps(const DrivenAlong& along, const std::string& name, const drive::Outside& outside) {
+    const gpu_scene::SceneFrame frame = along.scenery.frame(along.world.actors(), drive::DriveSettings(), outside);
+    int count = 0;
+    for (size_t i = 0; i < along.scenery.scene().nodes.size(); ++i) {
+        const scene::Node& node = along.scenery.scene().nodes[i];
+        count +=
+            node.lamp != scene::kNone && along.scenery.scene().lamps[node.lamp].name == name && frame.dimming[i] > 0;
     }
-    drive::Outside at(double seconds) {
-        drive::Outside outside = places.place(timeline.at(seconds));
-        world.place(outside.guests, outside.driver);
-        return outside;
-    }
-    // Lit lamps of a name in the scene.
-    int lit(const std::string& name, const drive::Outside& outside) const {
-        const gpu_scene::SceneFrame frame = scenery.frame(world.actors(), drive::DriveSettings(), outside);
-        int count = 0;
-        for (size_t i = 0; i < scenery.scene().nodes.size(); ++i) {
-            const scene::Node& node = scenery.scene().nodes[i];
-            count += node.lamp != scene::kNone && scenery.scene().lamps[node.lamp].name == name && frame.dimming[i] > 0;
-        }
-        return count;
-    }
-};
+    return count;
+}
 
 // In any scene: the host is the driver's car, others are bodies of their size.
 TEST(OsiDrive, ObjectsAreWhereTheyAreAndLit) {
     const TempFolder folder;
-    Along along(kScene, {.file = folder.write("a.osi", trace_of(messages()))});
+    DrivenAlong along(kScene, {.file = folder.write("a.osi", trace_of(messages()))});
     drive::Outside now = along.at(0.5);
     ASSERT_TRUE(now.driver);
     EXPECT_LT(glm::distance(now.driver->position, glm::dvec3(1.5, 0, -105)), 1e-9);
@@ -101,13 +88,13 @@ TEST(OsiDrive, ObjectsAreWhereTheyAreAndLit) {
     const traffic::Actor& truck = now.guests[0].actor;
     EXPECT_LT(glm::distance(truck.position, glm::dvec3(1.5, 0, -125)), 1e-9);
     EXPECT_LT(glm::distance(truck.scale, glm::dvec3(0.8, 2.4 / 2.5, 3.2 / 3)), 1e-12);
-    EXPECT_EQ(along.lit("low beam", now), 2);
-    EXPECT_EQ(along.lit("brake lamp", now), 0);
+    EXPECT_EQ(lit_lamps(along, "low beam", now), 2);
+    EXPECT_EQ(lit_lamps(along, "brake lamp", now), 0);
     EXPECT_EQ(now.sun_elevation, std::nullopt);
     now = along.at(1.5);
     EXPECT_EQ(now.guests.size(), 2u);
-    EXPECT_EQ(along.lit("brake lamp", now), 2);
-    EXPECT_EQ(along.lit("rear fog lamp", now), 2);
+    EXPECT_EQ(lit_lamps(along, "brake lamp", now), 2);
+    EXPECT_EQ(lit_lamps(along, "rear fog lamp", now), 2);
     EXPECT_NEAR(now.sun_elevation.value(), 0.3 * 180 / M_PI, 1e-9);
     EXPECT_GT(along.scenery.frame(along.world.actors(), drive::DriveSettings(), now).ambient->illuminance.y, 1000);
 
@@ -121,9 +108,10 @@ TEST(OsiDrive, ObjectsAreWhereTheyAreAndLit) {
     }
 
     // Somebody else is the host, or nobody; and messages may have another origin.
-    EXPECT_EQ(Along(kScene, {.file = folder / "a.osi", .host = "2"}).at(0.5).driver->position.z, -125);
-    EXPECT_FALSE(Along(kScene, {.file = folder / "a.osi", .host = "none"}).at(0.5).driver);
-    const drive::Outside moved = Along(kScene, {.file = folder / "a.osi", .origin = {10, 20, 0, M_PI / 2}}).at(0.5);
+    EXPECT_EQ(DrivenAlong(kScene, {.file = folder / "a.osi", .host = "2"}).at(0.5).driver->position.z, -125);
+    EXPECT_FALSE(DrivenAlong(kScene, {.file = folder / "a.osi", .host = "none"}).at(0.5).driver);
+    const drive::Outside moved =
+        DrivenAlong(kScene, {.file = folder / "a.osi", .origin = {10, 20, 0, M_PI / 2}}).at(0.5);
     EXPECT_LT(glm::distance(moved.driver->position, glm::dvec3(10 - 105, 0, -20 - 1.5)), 1e-9);
 }
 
@@ -200,7 +188,7 @@ TEST(OsiDrive, ModelsAreWhatTheTableSays) {
     std::filesystem::copy(glare, folder / "glare.gltf");
     folder.write("m.json", R"({"version": 1, "models": [{"reference": "cars/gl*", "scene": "glare.gltf", "front": "+z",
                                "lamps": {"low": ["headlamp"]}}]})");
-    Along along(kScene, {.file = folder / "a.osi", .models = folder / "m.json"});
+    DrivenAlong along(kScene, {.file = folder / "a.osi", .models = folder / "m.json"});
     const drive::Outside now = along.at(0.5);
     ASSERT_EQ(now.guests.size(), 1u);
     EXPECT_EQ(now.guests[0].actor.scale, glm::dvec3(1)) << "models keep their size";

@@ -12,6 +12,7 @@
 #include "roads/opendrive.h"
 #include "scenery.h"
 #include "support/complaints.h"
+#include "support/driven_along.h"
 #include "support/program.h"
 
 namespace vesper::test {
@@ -31,28 +32,10 @@ const char* kRun =
 
 drive::MessageSource run_of(const std::filesystem::path& file) { return {.file = file}; }
 
-// A road with what a file has on it, as a Session steps through it.
-struct RunOnRoads {
-    drive::Scenery scenery;
-    osi::Timeline timeline;
-    drive::GuestPlaces places;
-    traffic::World world;
-
-    explicit RunOnRoads(const std::filesystem::path& roads, const drive::MessageSource& source)
-        : scenery(roads, source), places(scenery.guest_places()), world(scenery.world(), 1) {
-        for (const osi::Message& message : scenery.messages()) timeline.add(message);
-    }
-    drive::Outside at(double seconds) {
-        drive::Outside outside = places.place(timeline.at(seconds));
-        world.place(outside.guests, outside.driver);
-        return outside;
-    }
-};
-
 TEST(RoadDrive, ARunIsWhereItWasRecorded) {
     const TempFolder folder;
     const roads::RoadNetwork network = roads::read_opendrive(kRoads);
-    RunOnRoads run(kRoads, run_of(folder.write("run.csv", kRun)));
+    DrivenAlong run(kRoads, run_of(folder.write("run.csv", kRun)));
     EXPECT_TRUE(run.scenery.world()->cars.empty());
     EXPECT_EQ(run.scenery.world()->guest_nodes.size(), 2u);
     drive::Outside now = run.at(0.5);

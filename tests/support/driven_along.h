@@ -1,0 +1,25 @@
+// What another program moves in a scene, as a Session steps through it. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "scenery.h"
+
+namespace vesper::test {
+
+struct DrivenAlong {
+    drive::Scenery scenery;
+    osi::Timeline timeline;
+    drive::GuestPlaces places;
+    traffic::World world;
+
+    DrivenAlong(const std::filesystem::path& scene, const drive::MessageSource& source)
+        : scenery(scene, source), places(scenery.guest_places()), world(scenery.world(), 1) {
+        for (osi::Message& message : scenery.take_messages()) timeline.add(std::move(message));
+    }
+    drive::Outside at(double seconds) {
+        drive::Outside outside = places.place(timeline.at(seconds));
+        world.place(outside.guests, outside.driver);
+        return outside;
+    }
+};
+
+}  // namespace vesper::test

@@ -67,6 +67,18 @@ void show(graph::FrameGraph& graph, Resource codes, const std::optional<graph::E
     if (image) graph.copy("show", codes, graph.target("shown", *image));
 }
 
+ViewStatistics statistics_of(const graph::Executor& executor, const ToneChain& chain) {
+    const glm::uvec2 size(chain.foveal_view.texels.width, chain.foveal_view.texels.height);
+    ViewStatistics statistics{
+        .histogram = read_one<shared::Histogram>(executor, chain.histogram),
+        .whole = read_one<glm::vec4>(executor, chain.whole),
+        .fovea = texels_about(executor.read_as<glm::vec4>(chain.fovea), size, chain.gaze),
+        .colours = {},
+    };
+    read_all(executor, chain.colours, statistics.colours);
+    return statistics;
+}
+
 }  // namespace
 
 Resource add_readback(graph::FrameGraph& graph, const std::string& name, Resource from, uint64_t bytes, bool wanted) {
@@ -98,11 +110,26 @@ ToneChain add_tone_chain(const FrameContext& frame, Resource scene, const ToneCh
     const FovealView fovea{level, luminance.extents[level - 1], frame.view.extent};
     const shared::ToneParameters parameters =
         tone_parameters(op, settings.histogram, settings.tone, settings.display, fovea, inputs.seconds);
+    chain.foveal_level = level;
+    if (outputs.statistics) {
+        const auto texels = [&](const char* name, Resource image, VkExtent2D size) {
+            return add_readback(frame.graph, name, image, uint64_t(size.width) * size.height * sizeof(glm::vec4),
+                                bool(image));
+        };
+        chain.histogram = add_readback(frame.graph, "histogram", histogram, sizeof(shared::Histogram));
+        chain.whole = texels("all of the picture", luminance.levels.back(), {1, 1});
+        chain.fovea = texels("fovea", luminance.levels[level - 1], fovea.texels);
+        chain.colours = texels("colours", colours.tiles, colours.extent);
+        chain.foveal_view = fovea, chain.gaze = parameters.gaze;
+        return chain;
+    }
     const auto [curve, eye] =
         inputs.curve
             ? Adaptation{frame.graph.upload("tone curve", std::vector{*inputs.curve}, VK_FORMAT_R32G32B32A32_SFLOAT),
                          {}}
-            : add_adaptation(frame, {luminance, level, histogram, colours, inputs.eye}, op, parameters);
+            : add_adaptation(frame,
+                             {luminance.levels.back(), luminance.levels[level - 1], histogram, colours, inputs.eye}, op,
+                             parameters);
 
     Resource picture = add_acuity(frame, retina, luminance, level, settings.tone.acuity_loss);
     picture = add_bands(frame, picture, luminance, level, curve, {op.bands, tone_of(op, settings.tone), parameters});
@@ -112,7 +139,6 @@ ToneChain add_tone_chain(const FrameContext& frame, Resource scene, const ToneCh
     const Resource codes = add_composite(frame, composite, codes_of(op, settings, outputs.shown));
     show(frame.graph, codes, outputs.shown);
 
-    chain.foveal_level = level;
     if (!inputs.curve) {
         chain.curve = add_readback(frame.graph, "tone curve", curve, sizeof(shared::ToneCurve));
         chain.histogram = add_readback(frame.graph, "histogram", histogram, sizeof(shared::Histogram));
@@ -136,6 +162,7 @@ void read_tone_chain(const graph::Executor& executor, const ToneChain& chain, Vk
         to.histogram = read_one<shared::Histogram>(executor, chain.histogram);
         to.eye = read_one<shared::EyeState>(executor, chain.eye);
     }
+    if (chain.whole) to.statistics = statistics_of(executor, chain);
     to.foveal_level = chain.foveal_level;
     to.timings = executor.timings();
     to.host_times = executor.host_times();

@@ -11,6 +11,7 @@
 #include "render/passes/adapt.h"
 #include "render/passes/bloom.h"
 #include "render/passes/eye_scatter.h"
+#include "render/view_statistics.h"
 
 namespace vesper::render {
 
@@ -36,6 +37,8 @@ struct Outputs {
     /// Luminance on the retina, eye scatter included. The chain ends there: no adaptation, no display. Only `scene` may
     /// be requested as well. For several pictures of one eye.
     bool retina = false;
+    /// What an eye that sees several pictures adapts to. The chain ends there, too.
+    bool statistics = false;
     /// An external image that gets the codes, too, in the order and with the bits of its format (shown_format).
     std::optional<graph::ExternalImage> shown = {};
 };
@@ -52,6 +55,9 @@ std::optional<ShownFormat> shown_format(VkFormat);
 /// Readbacks of the chain. Those that were not asked for are none.
 struct ToneChain {
     graph::Resource display, scene, retina, display_light, curve, histogram, eye;
+    graph::Resource whole, fovea, colours;  // of the statistics
+    FovealView foveal_view{};               // likewise
+    glm::vec2 gaze{0};                      // likewise, texels
     uint32_t foveal_level = 0;
 };
 
@@ -83,6 +89,7 @@ struct ToneMapped {
     shared::Histogram histogram{};
     shared::EyeState eye{};
     uint32_t foveal_level = 0;
+    std::optional<ViewStatistics> statistics;  ///< likewise
     std::vector<graph::Timing> timings;
     graph::HostTimes host_times;
     double pupil = 0;                 ///< mm, whose glare is shown; 0: of a model without one

@@ -20,6 +20,20 @@ ToneMapper::ToneMapper(gpu::Device& device, size_t views) : device_(device), fra
 
 ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture& picture, float seconds,
                            Outputs outputs) {
+    return run(settings, picture, seconds, {}, outputs);
+}
+
+ViewStatistics ToneMapper::measure(const ToneChainSettings& settings, const HostPicture& picture) {
+    return *run(settings, picture, 0, {}, {.display = false, .statistics = true}).statistics;
+}
+
+ToneMapped ToneMapper::show(const ToneChainSettings& settings, const HostPicture& picture,
+                            const shared::ToneCurve& curve, const Outputs& outputs) {
+    return run(settings, picture, 0, curve, outputs);
+}
+
+ToneMapped ToneMapper::run(const ToneChainSettings& settings, const HostPicture& picture, float seconds,
+                           const std::optional<shared::ToneCurve>& curve, const Outputs& outputs) {
     const Stopwatch watch;
     const auto [width, height] = picture.extent;
     const uint64_t pixels = uint64_t{width} * height, bytes = pixels * 4 * sizeof(float);
@@ -47,6 +61,7 @@ ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture&
     const graph::Resource scene = frame.graph.transient("scene", graph::image_shape(kSceneFormat, picture.extent));
     frame.graph.copy("picture", frame.graph.external("picture", pixels_.buffer(), bytes), scene);
     ChainInputs inputs = frames_.inputs(settings, view, seconds);
+    inputs.curve = curve;
     inputs.scatter.lamps = picture.outside, inputs.scatter.pictures = picture.beyond;
     submit(std::move(frame), scene, settings, view, inputs, outputs, {});
     return *finish();

@@ -71,9 +71,8 @@ Got adapt(PassRig& rig, const Frame& frame, const render::EyeState& eye = {.on_d
             ? render::Colours{rig.image(graph, "colours", render::kSceneFormat, frame.tiles, frame.colours),
                               frame.tiles}
             : render::Colours{};
-    const render::Pyramid pyramid{{fovea, top}, {frame.texels, {1, 1}}};
     const render::Adaptation a = render::add_adaptation(
-        rig.frame(graph, gpu_scene::View{}), {pyramid, 1, histogram, colours, eye}, frame.op(), frame.parameters());
+        rig.frame(graph, gpu_scene::View{}), {top, fovea, histogram, colours, eye}, frame.op(), frame.parameters());
     const graph::Resource curve = keep<shared::ToneCurve>(graph, a.curve), left = keep<shared::EyeState>(graph, a.eye);
     rig.run(graph);
     return {rig.got<shared::ToneCurve>(curve).at(0), rig.got<shared::EyeState>(left).at(0)};

@@ -65,7 +65,7 @@ shared::ToneParameters tone_parameters(const OperatorInfo& op, const HistogramSe
 
 Adaptation add_adaptation(const FrameContext& frame, const AdaptationInputs& inputs, const OperatorInfo& op,
                           shared::ToneParameters parameters) {
-    const auto& [pyramid, foveal_level, histogram, colours, eye] = inputs;
+    const auto& [whole, fovea, histogram, colours, eye] = inputs;
     parameters.colour_tiles = {colours.extent.width, colours.extent.height};
     const graph::Resource curve = frame.graph.transient(
         "tone curve", graph::buffer_shape(sizeof(shared::ToneCurve), VK_FORMAT_R32G32B32A32_SFLOAT));
@@ -73,10 +73,10 @@ Adaptation add_adaptation(const FrameContext& frame, const AdaptationInputs& inp
     // Declared in both cases: frames with the same resources keep their memory.
     const graph::Resource value = frame.graph.upload("eye of the host", std::vector{eye.value});
     frame.graph.dispatch("adapt", frame.kernels.get(kAdapt, {uint32_t(op.tone_operator)}),
-                         {load(pyramid.levels.back()), load(pyramid.levels.at(foveal_level - 1)), load(histogram),
+                         {load(whole), load(fovea), load(histogram),
                           load(frame.graph.upload("tone parameters", std::vector{parameters})),
                           load(eye.on_device ? history.previous : value), store(history.current), store(curve),
-                          load(colours.tiles ? colours.tiles : pyramid.levels.back())},
+                          load(colours.tiles ? colours.tiles : whole)},
                          graph::Groups{});
     return {curve, history.current};
 }

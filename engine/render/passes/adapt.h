@@ -42,8 +42,8 @@ shared::ToneParameters tone_parameters(const OperatorInfo&, const HistogramSetti
                                        const vision::Display&, const FovealView&, float seconds);
 
 struct AdaptationInputs {
-    const Pyramid& pyramid;
-    uint32_t foveal_level;
+    graph::Resource whole;  ///< the 1x1 level of the pyramid
+    graph::Resource fovea;  ///< the texels of the foveal level about the gaze, or all
     graph::Resource histogram;
     Colours colours = {};  ///< of operators whose eye adapts to colour
     EyeState eye = {};

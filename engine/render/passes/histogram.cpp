@@ -27,7 +27,7 @@ graph::Resource add_histogram(const FrameContext& frame, const Pyramid& pyramid,
     const graph::Resource histogram = graph.transient("histogram", graph::buffer_shape(sizeof(shared::Histogram)));
     graph.clear("clear histogram", histogram);
     // As many votes per pixel as 32 bits hold for all of them, twice, and for what rounding adds.
-    const uint64_t pixels = uint64_t(image.width) * image.height;
+    const uint64_t pixels = std::max(uint64_t(image.width) * image.height, settings.electorate);
     const uint32_t votes = uint32_t(std::clamp<uint64_t>(0xf0000000u / (2 * pixels), 1, 4096));
     const auto count = [&](const char* name, graph::Resource texels, VkExtent2D size, uint32_t from, bool census,
                            uint32_t overlap) {

@@ -18,7 +18,8 @@ struct HistogramSettings {
     bool fine = true;      ///< half of all votes are those of level 1, so that small lamps have bins of their own
     bool overlap =
         true;  ///< with fine votes: texels of the level itself overlap, so that the place of their grid does not matter
-    float spread = 0.1f;  ///< split votes: standard deviation of a vote in the curve, log10, for any number of bins
+    uint64_t electorate = 0;  ///< px of all pictures whose votes are added, so that all have as many; 0: of this one
+    float spread = 0.1f;      ///< split votes: standard deviation of a vote in the curve, log10, for any number of bins
 
     /// Of the curve: whole ones per bin, up to kMaxBins.
     uint32_t steps_per_bin() const { return split ? shared::kMaxBins / std::clamp(bins, 1u, shared::kMaxBins) : 1; }

@@ -3,6 +3,9 @@ include(GNUInstallDirs)
 set(documents ${CMAKE_INSTALL_DOCDIR})
 
 install(TARGETS vesper-cli vesper-drive-cli vesper-bench-cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET vesper-mpi)
+    install(TARGETS vesper-mpi LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/vesper)
+endif()
 # The generators stay with the source.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/vesper
         PATTERN generate.py EXCLUDE PATTERN rivoli/street EXCLUDE PATTERN __pycache__ EXCLUDE)

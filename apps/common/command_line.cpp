@@ -25,6 +25,7 @@
 #include "io/temporary.h"
 #include "own_data.h"
 #include "print.h"
+#include "ranks.h"
 
 namespace vesper::apps {
 namespace {
@@ -178,7 +179,13 @@ Command Command::add_command(const std::string& name, const std::string& help) {
 }
 void Command::requires_command() { app_->require_subcommand(1); }
 void Command::footer(const std::string& text) { app_->footer(text); }
-void Command::callback(const std::function<void()>& run) { app_->callback(run); }
+void Command::callback(const std::function<void()>& run) {
+    app_->callback([run, name = app_->get_name()] {
+        if (Ranks::several()) throw Error(name + " does not run on several ranks (mpirun, srun)");
+        run();
+    });
+}
+void Command::callback_of_ranks(const std::function<void()>& run) { app_->callback(run); }
 void Command::keep(std::shared_ptr<void> kept) {
     app_->parse_complete_callback([kept] {});
 }
@@ -228,12 +235,14 @@ int Program::run(int argc, char** argv) {
         // There are none.
     }
     const std::string name = app_->get_name();
+    std::string failure;
     try {
         app_->parse(argc, argv);
-        if (!output_ended(name)) return kBadInput;
+        Ranks::finish();
+        return output_ended(name) ? 0 : kBadInput;
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) {  // --help, --version
-            app_->exit(error);
+            if (Ranks::own_number() == 0) app_->exit(error);
             return output_ended(name) ? 0 : kBadInput;
         }
         std::string message = error.what();
@@ -241,16 +250,20 @@ int Program::run(int argc, char** argv) {
         const std::vector<std::string> unknown = app_->remaining(true);
         if (error.get_name() == "RequiredError" && !unknown.empty()) message = "there is no " + unknown.front();
         std::replace(message.begin(), message.end(), '\n', ' ');
-        print_error(name, one_line(message, 1000) + " (--help shows what is possible)");
+        failure = one_line(message, 1000) + " (--help shows what is possible)";
+    } catch (const AgreedError& error) {
+        if (*error.what() != '\0') print_error(name, error.what());
+        Ranks::finish();
         return kBadInput;
     } catch (const Error& error) {
-        print_error(name, error.what());
-        return kBadInput;
+        failure = error.what();
     } catch (const std::bad_alloc&) {
-        print_error(name, "out of memory");
-        return kBadInput;
+        failure = "out of memory";
     }
-    return 0;
+    failure = Ranks::fail(failure);
+    if (!failure.empty()) print_error(name, failure);
+    Ranks::finish();
+    return kBadInput;
 }
 
 void Program::parse(const std::vector<std::string>& words) {

@@ -104,6 +104,8 @@ public:
     void footer(const std::string& text);
     /// Runs when the command was given and all its arguments are possible.
     void callback(const std::function<void()>&);
+    /// The same where several ranks may run it together (Ranks); others refuse that.
+    void callback_of_ranks(const std::function<void()>&);
     /// Keeps `kept` as long as the command.
     void keep(std::shared_ptr<void> kept);
     /// Options that are declared from here on belong to that group of --help-all; without a name, to the first page.

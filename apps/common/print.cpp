@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/one_line.h"
+#include "ranks.h"
 
 namespace vesper::apps {
 namespace {
@@ -122,10 +123,15 @@ void print_report(const std::string& lines) {
     if (more > 0) print("and %zu more lines\n", size_t(more));
 }
 
-void print_note(const std::string& text) { print_line(stderr, "note: ", text); }
-void print_warning(const std::string& text) { print_line(stderr, "warning: ", text); }
+void print_note(const std::string& text) {
+    if (Ranks::own_number() == 0) print_line(stderr, "note: ", text);
+}
+void print_warning(const std::string& text) {
+    if (Ranks::own_number() == 0) print_line(stderr, "warning: ", text);
+}
 
 void print_notes(const std::vector<std::string>& notes, const std::string& before) {
+    if (Ranks::own_number() != 0) return;
     std::FILE* to = before.empty() ? stdout : stderr;
     std::map<std::string, size_t> kinds;
     size_t printed = 0;

@@ -19,7 +19,8 @@ void print_text(const std::string& lines);
 /// The same of what a file holds: 400 lines at most, then how many more there are.
 void print_report(const std::string& lines);
 
-/// Prints "note: TEXT" or "warning: TEXT" to standard error; TEXT is made plain.
+/// Prints "note: TEXT" or "warning: TEXT" to standard error; TEXT is made plain. Of several ranks the first does so, as
+/// others have the same to say.
 void print_note(const std::string& text);
 void print_warning(const std::string& text);
 /// Prints notes, at most 20 of a kind and 100 in all, then how many more there are. Notes are of one kind if they

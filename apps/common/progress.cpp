@@ -5,11 +5,12 @@
 #include <cstdio>
 
 #include "base/one_line.h"
+#include "ranks.h"
 
 namespace vesper::apps {
 
 Progress::Progress(std::string what, unsigned total)
-    : what_(std::move(what)), total_(total), visible_(total > 1 && isatty(STDERR_FILENO)) {}
+    : what_(std::move(what)), total_(total), visible_(total > 1 && isatty(STDERR_FILENO) && Ranks::own_number() == 0) {}
 
 Progress::~Progress() {
     if (visible_) std::fputc('\n', stderr);

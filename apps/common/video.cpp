@@ -23,7 +23,8 @@ extern char** environ;
 namespace vesper::apps {
 namespace {
 
-constexpr int kFilm = 3;  // the descriptor of the film in ffmpeg
+constexpr const char* kThreads = "4";  // of its own, or films would depend on how many processors there are
+constexpr int kFilm = 3;               // the descriptor of the film in ffmpeg
 
 std::vector<std::string> command_line(uint32_t width, uint32_t height, double fps, const vision::Display& display) {
     const bool wide = display.bits == 10, pq = display.eotf == vision::Eotf::Pq;
@@ -49,8 +50,8 @@ std::vector<std::string> command_line(uint32_t width, uint32_t height, double fp
     const auto add = [&](std::initializer_list<const char*> more) {
         words.insert(words.end(), more.begin(), more.end());
     };
-    add({"-vf", filter.c_str(), "-c:v", wide ? "libx265" : "libx264", "-crf", "14", "-preset", "medium", "-pix_fmt",
-         wide ? "yuv420p10le" : "yuv420p"});
+    add({"-vf", filter.c_str(), "-c:v", wide ? "libx265" : "libx264", "-crf", "14", "-threads", kThreads, "-preset",
+         "medium", "-pix_fmt", wide ? "yuv420p10le" : "yuv420p"});
     if (wide) add({"-x265-params", "log-level=error", "-tag:v", "hvc1"});
     add({"-color_primaries", display.primaries == io::kRec2020     ? "bt2020"
                              : display.primaries == io::kDisplayP3 ? "smpte432"

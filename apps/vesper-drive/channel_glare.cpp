@@ -11,7 +11,7 @@ constexpr int kGuard = vision::LightElsewhere::kGuard;
 
 // Lamps of the scene, but for what any of the pictures has of them. One that several have a part of is taken to be
 // wholly in them.
-std::vector<vision::UnseenLamp> unseen(const std::vector<render::Frame>& frames,
+std::vector<vision::UnseenLamp> unseen(const std::vector<std::vector<gpu_scene::GlareSource>>& seen_by,
                                        std::span<const vision::EyePicture> pictures,
                                        const std::vector<gpu_scene::OffscreenLamp>& others) {
     struct Seen {
@@ -19,8 +19,8 @@ std::vector<vision::UnseenLamp> unseen(const std::vector<render::Frame>& frames,
         double inside = 0;
     };
     std::map<uint32_t, Seen> lamps;  // by their nodes
-    for (size_t i = 0; i < frames.size(); ++i)
-        for (const gpu_scene::GlareSource& source : frames[i].glare_sources)
+    for (size_t i = 0; i < pictures.size(); ++i)
+        for (const gpu_scene::GlareSource& source : seen_by[i])
             lamps.try_emplace(source.node, Seen{{pictures[i].turn * source.direction, source.illuminance}, 0})
                 .first->second.inside += source.inside;
     std::vector<vision::UnseenLamp> left;
@@ -68,42 +68,90 @@ gpu_scene::View ChannelGlare::guarded(const gpu_scene::View& view) {
     return wider;
 }
 
-void ChannelGlare::scatter(const render::RenderSettings& settings, std::span<const gpu_scene::View> guarded,
-                           std::span<const glm::dmat3> turns, const std::optional<shared::EyeState>& eye, float seconds,
-                           std::vector<render::Frame>& frames) {
+// Every process then knows of the nodes of its views whose light others take.
+void ChannelGlare::prepare(const gpu_scene::ScatterSettings& settings, std::vector<vision::EyePicture> pictures) {
+    const std::vector<size_t> views = link_.own(pictures.size());
+    if (pictures.size() != pictures_.size())
+        mapper_ = std::make_unique<render::ToneMapper>(device_, std::max<size_t>(views.size(), 1));
+    light_turns_.forget();
+    own_.clear(), pictures_.clear();  // before the next ones take their memory
+    const vision::EyeScatter psf = gpu_scene::eye_scatter(settings);
+    apps::PacketWriter wants;
+    for (const size_t view : views) {
+        Own& own = own_.emplace_back(Own{.view = view,
+                                         .sums = vision::LightSums(pictures[view].image),
+                                         .elsewhere = vision::LightElsewhere(psf, pictures, view),
+                                         .wanted = std::vector<std::vector<uint32_t>>(pictures.size())});
+        wants.value(uint64_t{view});
+        for (size_t of = 0; of < pictures.size(); ++of) wants.list(own.elsewhere.nodes(of));
+    }
+    link_.say(ChannelLink::Kind::Nodes, wants.take());
+    for (const apps::Bytes& bytes : link_.hear(ChannelLink::Kind::Nodes))
+        for (apps::PacketReader wanted(bytes); !wanted.at_end();) {
+            const auto taker = wanted.value<uint64_t>();
+            for (size_t of = 0; of < pictures.size(); ++of) {
+                std::vector<uint32_t> nodes = wanted.list<uint32_t>();
+                for (Own& own : own_)
+                    if (own.view == of) own.wanted.at(taker) = std::move(nodes);
+            }
+        }
+    pictures_ = std::move(pictures), settings_ = settings;
+}
+
+apps::Bytes ChannelGlare::shed_by_own(const std::vector<render::Frame>& frames) const {
+    apps::PacketWriter packet;
+    for (const Own& own : own_) {
+        packet.value(uint64_t{own.view});
+        packet.list(frames[own.view].glare_sources);
+        for (const std::vector<uint32_t>& nodes : own.wanted) packet.list(own.sums.at(nodes));
+    }
+    return packet.take();
+}
+
+ChannelGlare::Shed ChannelGlare::shed_of(const std::vector<apps::Bytes>& turn) const {
+    const size_t views = pictures_.size();
+    Shed shed{.lamps = std::vector<std::vector<gpu_scene::GlareSource>>(views),
+              .by_taker = std::vector(own_.size(), std::vector<std::vector<glm::vec3>>(views))};
+    for (const apps::Bytes& bytes : turn)
+        for (apps::PacketReader packet(bytes); !packet.at_end();) {
+            const auto giver = packet.value<uint64_t>();
+            shed.lamps.at(giver) = packet.list<gpu_scene::GlareSource>();
+            for (size_t taker = 0; taker < views; ++taker) {
+                std::vector<glm::vec3> light = packet.list<glm::vec3>();
+                for (size_t i = 0; i < own_.size(); ++i)
+                    if (own_[i].view == taker) shed.by_taker[i].at(giver) = std::move(light);
+            }
+        }
+    return shed;
+}
+
+void ChannelGlare::scatter(const Moment& moment, std::span<const gpu_scene::View> guarded,
+                           std::span<const glm::dmat3> turns, std::vector<render::Frame>& frames) {
+    const render::RenderSettings& settings = moment.settings;
     std::vector<vision::EyePicture> pictures;
     for (size_t i = 0; i < guarded.size(); ++i)
         pictures.push_back({gpu_scene::angles_of(guarded[i]), turns[i], kGuard});
-    if (pictures != pictures_ || settings.scatter != settings_) {
-        if (pictures.size() != pictures_.size())
-            mapper_ = std::make_unique<render::ToneMapper>(device_, pictures.size());
-        sums_.clear(), elsewhere_.clear(), pictures_.clear();  // before the next ones take their memory
-        const vision::EyeScatter psf = gpu_scene::eye_scatter(settings.scatter);
-        for (size_t i = 0; i < pictures.size(); ++i) {
-            sums_.emplace_back(pictures[i].image);
-            elsewhere_.emplace_back(psf, pictures, i);
-        }
-        pictures_ = pictures, settings_ = settings.scatter;
-    }
-    for (size_t i = 0; i < frames.size(); ++i) sums_[i].take(frames[i].retina);
-    const std::vector<vision::UnseenLamp> lamps = unseen(frames, pictures_, settings.offscreen_lamps);
-    std::vector<vision::OffscreenLight> beyond;
-    for (const vision::LightElsewhere& elsewhere : elsewhere_) beyond.push_back(elsewhere.of(sums_, lamps));
-    for (size_t i = 0; i < frames.size(); ++i) {
-        render::Frame& frame = frames[i];
-        mapper_->set_eye(eye.value_or(shared::EyeState{}));
-        const VkExtent2D extent = guarded[i].extent;
-        render::ToneMapped seen = mapper_->map(settings,
-                                               {.extent = extent,
-                                                .values = frame.retina,
-                                                .channels = 4,
-                                                .angles = &pictures_[i].image,
-                                                .beyond = &beyond[i]},
-                                               seconds, {.display = false, .retina = true});
+    if (pictures != pictures_ || settings.scatter != settings_) prepare(settings.scatter, std::move(pictures));
+    for (Own& own : own_) own.sums.take(frames[own.view].retina);
+    Shed shed = shed_of(light_turns_.tell(shed_by_own(frames), moment.late));
+    for (const Own& own : own_) shed.lamps[own.view] = frames[own.view].glare_sources;
+    const std::vector<vision::UnseenLamp> lamps = unseen(shed.lamps, pictures_, settings.offscreen_lamps);
+    for (size_t i = 0; i < own_.size(); ++i) {
+        Own& own = own_[i];
+        const vision::EyePicture& picture = pictures_[own.view];
+        render::Frame& frame = frames[own.view];
+        shed.by_taker[i][own.view] = own.sums.at(own.elsewhere.nodes(own.view));  // of this moment in any case
+        const vision::OffscreenLight beyond = own.elsewhere.of(shed.by_taker[i], lamps);
+        mapper_->set_eye(moment.eye.value_or(shared::EyeState{}));
+        const VkExtent2D extent = guarded[own.view].extent;
+        render::ToneMapped seen = mapper_->map(
+            settings,
+            {.extent = extent, .values = frame.retina, .channels = 4, .angles = &picture.image, .beyond = &beyond},
+            moment.seconds, {.display = false, .retina = true});
         frame.scene = without_border(frame.retina, extent);
         frame.retina = without_border(seen.retina, extent);
         frame.extent = {extent.width - 2 * kGuard, extent.height - 2 * kGuard};
-        frame.outside = beside(frame, pictures_[i], settings.offscreen_lamps);
+        frame.outside = beside(frame, picture, settings.offscreen_lamps);
         frame.timings.insert(frame.timings.end(), seen.timings.begin(), seen.timings.end());
         frame.pupil = seen.pupil, frame.pattern_milliseconds = seen.pattern_milliseconds;
         frame.milliseconds += seen.milliseconds;

@@ -1,6 +1,7 @@
 #include "channels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "base/angle.h"
 #include "base/one_line.h"
+#include "graph/times.h"
 #include "io/read_file.h"
 #include "scene/json_value.h"
 
@@ -19,8 +21,8 @@ constexpr size_t kMost = 32;
 constexpr uint64_t kMostPixels = 1ull << 27;  // of all: sixteen times 3840 x 2160
 
 ScreenChannel channel_of(const scene::JsonValue& value) {
-    value.allow_only(
-        {"name", "size_px", "yaw_deg", "pitch_deg", "roll_deg", "left_deg", "right_deg", "bottom_deg", "top_deg"});
+    value.allow_only({"name", "size_px", "yaw_deg", "pitch_deg", "roll_deg", "left_deg", "right_deg", "bottom_deg",
+                      "top_deg", "rank", "monitor"});
     ScreenChannel c;
     c.name = value.at("name").text();
     const auto size = value.at("size_px").elements(2);
@@ -33,6 +35,11 @@ ScreenChannel channel_of(const scene::JsonValue& value) {
     c.left = edge("left_deg"), c.right = edge("right_deg"), c.bottom = edge("bottom_deg"), c.top = edge("top_deg");
     if (!(c.right > c.left + 1e-3)) value.at("right_deg").fail("must be more than left_deg");
     if (!(c.top > c.bottom + 1e-3)) value.at("top_deg").fail("must be more than bottom_deg");
+    const auto number = [&](const char* key) {
+        const auto given = value.find(key);
+        return given ? std::optional(int(given->integer(4096))) : std::nullopt;
+    };
+    c.rank = number("rank"), c.monitor = number("monitor");
     return c;
 }
 
@@ -42,17 +49,39 @@ glm::dmat4 turned(const ScreenChannel& c) {
     return glm::rotate(glm::rotate(turned, c.pitch, glm::dvec3(1, 0, 0)), -c.roll, glm::dvec3(0, 0, 1));
 }
 
-// What `picture` tells of each channel, side by side. What is not finite has no vote.
-std::vector<float> side_by_side(const ChannelMosaic& wall, VkExtent2D extent,
-                                std::vector<float> render::Frame::*picture) {
-    std::vector<float> pixels(size_t(extent.width) * extent.height * 4, std::numeric_limits<float>::quiet_NaN());
+// What `picture` tells of each channel, side by side; `beside` where there is none.
+template <class T>
+std::vector<T> side_by_side(const ChannelMosaic& wall, std::vector<T> render::ToneMapped::*picture,
+                            std::array<T, 4> beside) {
+    if (std::ranges::all_of(wall.channels, [&](const render::Frame& channel) { return (channel.*picture).empty(); }))
+        return {};
+    const auto [width, height] = wall.shown.extent;
+    std::vector<T> pixels(size_t(width) * height * 4);
+    for (size_t i = 0; i < pixels.size(); ++i) pixels[i] = beside[i % 4];
     for (size_t i = 0; i < wall.channels.size(); ++i) {
-        const auto [width, height] = wall.channels[i].extent;
-        for (size_t y = 0; y < height; ++y)
-            std::copy_n(&(wall.channels[i].*picture)[4 * y * width], 4 * width,
-                        &pixels[4 * (y * extent.width + wall.columns[i])]);
+        const size_t columns = wall.channels[i].extent.width, rows = wall.channels[i].extent.height;
+        const std::vector<T>& from = wall.channels[i].*picture;
+        if (from.empty()) continue;
+        for (size_t y = 0; y < rows; ++y)
+            std::copy_n(&from[4 * y * columns], 4 * columns, &pixels[4 * (y * width + wall.columns[i])]);
     }
     return pixels;
+}
+
+// One channel's, as the processes tell each other.
+void write_statistics(apps::PacketWriter& packet, size_t channel, const render::ViewStatistics& seen) {
+    packet.value(uint64_t{channel});
+    packet.value(seen.histogram), packet.value(seen.whole);
+    packet.value(seen.fovea.size), packet.value(seen.fovea.gaze), packet.list(seen.fovea.texels);
+    packet.list(seen.colours);
+}
+
+render::ViewStatistics read_statistics(apps::PacketReader& packet) {
+    render::ViewStatistics seen;
+    packet.value(seen.histogram), packet.value(seen.whole);
+    packet.value(seen.fovea.size), packet.value(seen.fovea.gaze);
+    seen.fovea.texels = packet.list<glm::vec4>(), seen.colours = packet.list<glm::vec4>();
+    return seen;
 }
 
 }  // namespace
@@ -94,26 +123,62 @@ gpu_scene::View channel_view(const ScreenChannel& c, const gpu_scene::View& driv
     return view;
 }
 
-render::Frame looked_at(ChannelMosaic& wall, const Channels& channels) {
+void put_together(ChannelMosaic& wall) {
+    VkExtent2D extent{0, 0};
+    wall.columns.clear();
+    for (const render::Frame& channel : wall.channels) {
+        wall.columns.push_back(extent.width);
+        extent = {extent.width + channel.extent.width, std::max(extent.height, channel.extent.height)};
+    }
+    wall.shown.extent = extent;
+    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();  // has no vote in what is measured
+    constexpr uint8_t kOpaque = 255;  // the darkest code of 8 bits; of 10 bits, as well, but for the bits of alpha
+    wall.shown.display = side_by_side<uint8_t>(wall, &render::ToneMapped::display, {0, 0, 0, kOpaque});
+    wall.shown.scene = side_by_side<float>(wall, &render::ToneMapped::scene, {kNone, kNone, kNone, kNone});
+}
+
+render::Frame logged_frame(ChannelMosaic& wall, size_t channel) {
     double device = 0;
-    for (const render::Frame& channel : wall.channels)
-        for (const graph::Timing& timing : channel.timings) device += timing.milliseconds;
-    render::Frame frame = std::move(wall.channels[channels.gaze]);
+    for (const render::Frame& each : wall.channels)
+        for (const graph::Timing& timing : each.timings) device += timing.milliseconds;
+    render::Frame frame = std::move(wall.channels[channel]);
     frame.curve = wall.shown.curve, frame.eye = wall.shown.eye, frame.histogram = wall.shown.histogram;
     frame.timings = wall.shown.timings;
     frame.timings.push_back({.pass = "channels", .milliseconds = device});
     return frame;
 }
 
+ChannelRenderer::ChannelRenderer(gpu::Device& device, ChannelLink* link)
+    : link_(link ? *link : alone_),
+      turns_(link_, ChannelLink::Kind::Statistics),
+      glare_(device, link_),
+      mapper_(device),
+      shared_eye_(device) {}
+
+void ChannelRenderer::reset_adaptation() {
+    eye_.reset(), shared_eye_.reset_adaptation();
+    turns_.forget(), glare_.forget();
+}
+
+std::vector<render::ViewStatistics> ChannelRenderer::statistics_of_all(const std::vector<apps::Bytes>& turn,
+                                                                       size_t channels) const {
+    std::vector<std::optional<render::ViewStatistics>> found(channels);
+    for (const apps::Bytes& bytes : turn)
+        for (apps::PacketReader packet(bytes); !packet.at_end();) {
+            const auto channel = packet.value<uint64_t>();
+            found.at(channel) = read_statistics(packet);
+        }
+    std::vector<render::ViewStatistics> all;
+    for (std::optional<render::ViewStatistics>& one : found) all.push_back(std::move(one.value()));
+    return all;
+}
+
 ChannelMosaic ChannelRenderer::render(render::Renderer& renderer, const Channels& channels,
                                       const render::RenderSettings& settings, const gpu_scene::View& driver,
                                       const gpu_scene::SceneFrame& frame, float seconds, render::Outputs outputs) {
     ChannelMosaic wall;
-    VkExtent2D extent{0, 0};
-    for (const ScreenChannel& c : channels.screens) {
-        wall.columns.push_back(extent.width);
-        extent = {extent.width + c.extent.width, std::max(extent.height, c.extent.height)};
-    }
+    wall.channels.resize(channels.screens.size());
+    const std::vector<size_t> own = link_.own(channels.screens.size());
     // Light that the eye scatters from one screen to others is known when there are pictures of all.
     const bool scatters = settings.glare == render::Glare::Scatter && settings.tone_operator != render::Operator::Ldr,
                together = scatters && channels.screens.size() > 1;
@@ -125,29 +190,51 @@ ChannelMosaic ChannelRenderer::render(render::Renderer& renderer, const Channels
         const gpu_scene::View view = channel_view(c, driver);
         views.push_back(together ? ChannelGlare::guarded(view) : view);
         turns.emplace_back(turned(c));
-        wall.channels.push_back(renderer.render(drawn, views.back(), frame, 0,
-                                                {.display = false, .scene = scatters && !together, .retina = true}));
-        if (!scatters) wall.channels.back().scene = std::exchange(wall.channels.back().retina, {});
     }
-    if (together) glare_.scatter(settings, views, turns, eye_, seconds, wall.channels);
-    const std::vector<float> pixels =
-        side_by_side(wall, extent, scatters ? &render::Frame::retina : &render::Frame::scene);
+    if (eye_)
+        renderer.set_eye(*eye_);
+    else
+        renderer.reset_adaptation();
+    for (const size_t i : own) {
+        wall.channels[i] = renderer.render(drawn, views[i], frame, scatters && !together ? seconds : 0,
+                                           {.display = false, .scene = scatters && !together, .retina = true});
+        if (!scatters) wall.channels[i].scene = std::exchange(wall.channels[i].retina, {});
+    }
+    if (together) glare_.scatter({settings, eye_, seconds, late_}, views, turns, wall.channels);
 
     render::ToneChainSettings shown = settings;
     if (shown.glare == render::Glare::Scatter) shown.glare = render::Glare::None;  // it is in them
-    const ScreenChannel& looked_at = channels.screens[channels.gaze];
-    const glm::vec2 size(looked_at.extent.width, looked_at.extent.height), corner(wall.columns[channels.gaze], 0);
-    shown.tone.gaze = (corner + settings.tone.gaze * size) / glm::vec2(extent.width, extent.height);
-    // A pixel of the wall covers the angle that one in the middle of that channel does.
-    const double tangent =
-        (std::tan(looked_at.top) - std::tan(looked_at.bottom)) / looked_at.extent.height * extent.height;
-    const bool wants_scene = outputs.scene;
-    outputs.scene = wants_scene && !scatters, outputs.retina = false;
-    wall.shown = mapper_.map(
-        shown, {.extent = extent, .values = pixels, .channels = 4, .vertical_fov = 2 * std::atan(tangent / 2)}, seconds,
-        outputs);
-    if (wants_scene && scatters) wall.shown.scene = side_by_side(wall, extent, &render::Frame::scene);
+    shown.histogram.electorate = 0;
+    for (const ScreenChannel& c : channels.screens)
+        shown.histogram.electorate += uint64_t(c.extent.width) * c.extent.height;
+    std::vector<vision::ImageAngles> angles;
+    for (const ScreenChannel& c : channels.screens) angles.push_back(gpu_scene::angles_of(channel_view(c, driver)));
+    const auto picture = [&](size_t i) {
+        const render::Frame& channel = wall.channels[i];
+        return render::HostPicture{.extent = channels.screens[i].extent,
+                                   .values = scatters ? channel.retina : channel.scene,
+                                   .channels = 4,
+                                   .angles = &angles[i]};
+    };
+    apps::PacketWriter packet;
+    for (const size_t i : own) {
+        render::ViewStatistics seen = mapper_.measure(shown, picture(i));
+        if (i != channels.gaze) seen.fovea = {};
+        write_statistics(packet, i, seen);
+    }
+    wall.shown = shared_eye_.adapt(shown, statistics_of_all(turns_.tell(packet.take(), late_), channels.screens.size()),
+                                   channels.gaze, seconds);
     eye_ = wall.shown.eye;
+    for (const size_t i : own) {
+        render::Frame& channel = wall.channels[i];
+        if (outputs.display) {
+            render::ToneMapped mapped = mapper_.show(shown, picture(i), wall.shown.curve, {.display = true});
+            channel.display = std::move(mapped.display), channel.foveal_level = mapped.foveal_level;
+            graph::add_times(wall.shown.timings, mapped.timings);
+        }
+    }
+    put_together(wall);
+    if (!outputs.scene) wall.shown.scene.clear();
     return wall;
 }
 

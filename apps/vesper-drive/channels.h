@@ -3,11 +3,13 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "channel_glare.h"
 #include "render/renderer.h"
+#include "render/shared_eye.h"
 #include "render/tone_mapper.h"
 
 namespace vesper::drive {
@@ -18,7 +20,9 @@ struct ScreenChannel {
     VkExtent2D extent{1680, 1050};        ///< px
     double yaw = 0, pitch = 0, roll = 0;  ///< of its axis against the driver's: left, up, clockwise; in that order; rad
     double left = 0, right = 0, bottom = 0,
-           top = 0;  ///< edges of the picture, from the axis, rad; left and bottom negative
+           top = 0;              ///< edges of the picture, from the axis, rad; left and bottom negative
+    std::optional<int> rank;     ///< that shows it (ChannelRanks), 0 or more
+    std::optional<int> monitor;  ///< that its window fills there, 0 or more
 };
 
 struct Channels {
@@ -31,32 +35,47 @@ Channels read_channels(const std::filesystem::path&);
 /// What a channel of the driver's view sees.
 gpu_scene::View channel_view(const ScreenChannel&, const gpu_scene::View& driver);
 
-/// All channels of a moment, side by side, tops aligned; what lies below the shorter ones is black.
+/// Channels of a moment, side by side, tops aligned; what lies below the shorter ones is black.
 struct ChannelMosaic {
-    render::ToneMapped shown;       ///< the picture of all of them; `scene`: before anything is scattered in the eye
-    std::vector<uint32_t> columns;  ///< where each begins
-    std::vector<render::Frame> channels;  ///< each with its lamps and times; of `retina` and `scene` the first is empty
-                                          ///< where nothing is scattered
+    render::ToneMapped shown;       ///< the picture of those of this process, and the eye of all; `scene`: before
+                                    ///< anything is scattered in the eye
+    std::vector<uint32_t> columns;  ///< where each begins; of channels that are not in it, where the next one does
+    std::vector<render::Frame> channels;  ///< each with its codes, lamps and times, empty where others render it; of
+                                          ///< `retina` and `scene` the first is empty where nothing is scattered
 };
+/// Puts the pictures of those channels together that have any.
+void put_together(ChannelMosaic&);
 
-/// The channel that is looked at, with the eye, curve and times of the whole: what is logged.
-render::Frame looked_at(ChannelMosaic&, const Channels&);
+/// A channel of this process, with the eye, curve and times of the whole: what is logged of the one that is looked at.
+render::Frame logged_frame(ChannelMosaic&, size_t channel);
 
-/// Renders channels one after the other, scatters the light of all of them in the one eye, then adapts and shows them
-/// as one picture: one histogram, one eye, one tone curve.
+/// Renders channels one after the other, scatters the light of all of them in the one eye, lets it adapt to all of them
+/// and shows each with the same curve: one histogram, one eye, one tone curve, whatever processes render them.
 class ChannelRenderer {
 public:
-    explicit ChannelRenderer(gpu::Device& device) : glare_(device), mapper_(device) {}
+    /// `link`: to the processes that render the other channels; without, all are rendered here.
+    explicit ChannelRenderer(gpu::Device& device, ChannelLink* link = nullptr);
+    /// Hears what is unheard.
+    void leave() { turns_.forget(), glare_.forget(); }
 
+    /// How many moments what the eye sees of each channel is late, 0 or 1, so that none waits for the others.
+    void set_latency(unsigned moments) { late_ = moments > 0; }
     ChannelMosaic render(render::Renderer&, const Channels&, const render::RenderSettings&,
                          const gpu_scene::View& driver, const gpu_scene::SceneFrame&, float seconds, render::Outputs);
-    void reset_adaptation() { eye_.reset(), mapper_.reset_adaptation(); }
-    void set_eye(const shared::EyeState& eye) { eye_ = eye, mapper_.set_eye(eye); }
+    void reset_adaptation();
+    void set_eye(const shared::EyeState& eye) { eye_ = eye, shared_eye_.set_eye(eye); }
 
 private:
+    std::vector<render::ViewStatistics> statistics_of_all(const std::vector<apps::Bytes>&, size_t channels) const;
+
+    ChannelLink alone_;
+    ChannelLink& link_;
+    ChannelTurns turns_;
     ChannelGlare glare_;
     render::ToneMapper mapper_;
+    render::SharedEye shared_eye_;
     std::optional<shared::EyeState> eye_;  // what the last frame left
+    bool late_ = false;
 };
 
 }  // namespace vesper::drive

@@ -12,6 +12,7 @@
 #include "osi/receiver.h"
 #include "own_data.h"
 #include "picture_arguments.h"
+#include "ranks.h"
 #include "windowed.h"
 
 namespace vesper::drive {
@@ -54,6 +55,7 @@ void refuse_idle(const apps::Command& program, const DriveArguments& a) {
         {a.headless,
          {"--window", "--fullscreen", "--vsync", "--limit", "--scaling", "--controllers"},
          "has a meaning only in a window, not with --headless"},
+        {a.channels.empty(), {"--latency"}, "of which channels? give --channels"},
         {!a.channels.empty(), {"--size", "--fov"}, "channels have sizes and angles of their own (--channels)"},
         {!films && !logs, {"--fps"}, "of what? give --video or --log"},
         {!logs, {"--probe"}, "is a column of the log: give --log"},
@@ -95,6 +97,7 @@ void check(const apps::Command& program, DriveArguments& a) {
     for (const std::string& file :
          {a.messages.file.string(), a.messages.models.string(), a.scene, a.replay, a.channels, a.controllers})
         io::announce_read(file);
+    if (apps::Ranks::own_number() != 0) return;  // the first rank alone writes
     for (const auto& [option, file] : growing_outputs(a)) {
         io::announce_write(option, file);
         std::error_code failed;
@@ -173,6 +176,11 @@ void add_drive(apps::Command program) {
     program.help_group("Window");
     program.add_option("--channels", a->channels,
                        "A file of views of the driver's eye, on screens side by side (docs/simulator.md)");
+    program
+        .add_option("--latency", a->latency,
+                    "1: the eye adapts to channels as they were a frame ago, so that none waits for others to be drawn")
+        .check(apps::range(0u, 1u))
+        .shows_default();
     program.help_group("Roads and traffic");
     program.add_option("--seed", a->seed, "Seed of random pedestrians and traffic").shows_default();
     program.help_group();
@@ -203,7 +211,7 @@ void add_drive(apps::Command program) {
         "  vesper-drive street.glb --autopilot             a scene of your own\n"
         "  vesper-drive --headless --autopilot --seconds 60 --record mine.json\n"
         "  vesper-drive --headless --replay mine.json --glare cie --age 60 --video mine.mp4\n");
-    program.callback([a, program] {
+    program.callback_of_ranks([a, program] {
         a->settings = DriveSettings::given(program);
         if (program.count("--shadow-cache")) a->shadow_cache = program.option("--shadow-cache").results().back();
         take_messages(program, *a);

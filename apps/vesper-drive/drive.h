@@ -21,6 +21,7 @@ struct DriveArguments {
     std::string table, trace, models, origin;
     std::string osi_udp, osi_out;  ///< [ADDRESS:]PORT to listen at; a trace to write
     double osi_delay = 0.1;        ///< s
+    unsigned latency = 0;          ///< moments, of what the eye sees of channels: 0 or 1
     bool headless = false, autopilot = false;
     double seconds = 20;  ///< of a drive without a window, s
     double fps = 0;       ///< of films, 1/s; 0: the recording's own frames, or 30

@@ -27,25 +27,13 @@ std::string csv_name(std::string name) {
 
 constexpr double kPercents[]{1, 5, 25, 50, 75, 95, 99, 99.9};  // as luminance_statistics has them
 
-constexpr const char* kAfterProbes =
-    ",lamps,openings,lost_lights,outdated_shadows,scrubbed_pixels,device_ms,frame_ms\n";
+constexpr const char* kAfterProbes = ",lamps,openings,lost_lights,outdated_shadows,scrubbed_pixels,device_ms,frame_ms";
 
 double luminance_at(const render::Frame& frame, glm::dvec2 place) {
     const auto part = [](double p, uint32_t size) { return size_t(std::clamp(p * size, 0.0, double(size - 1))); };
     const float* p =
         &frame.scene[4 * (part(place.y, frame.extent.height) * frame.extent.width + part(place.x, frame.extent.width))];
     return luminance(glm::dvec3(p[0], p[1], p[2]));
-}
-
-std::string heading(const std::vector<LogProbe>& probes) {
-    std::string line =
-        "frame,step,seconds,eye_step,operator,x,y,z,yaw,pitch,speed,acceleration,wheel_angle,lane,throttle,brake,"
-        "steering,touched,contacts,adaptation,cone_sigma,cone_pigment,cone_fast,cone_slow,log_average,minimum,maximum,"
-        "mean";
-    for (const double percent : kPercents) line += format(",p%g", percent);
-    line += apps::glare_columns();
-    for (size_t i = 0; i < probes.size(); ++i) line += format(",probe%zu", i);
-    return line + kAfterProbes;
 }
 
 }  // namespace
@@ -70,16 +58,28 @@ std::vector<LogProbe> probes_of(const std::vector<std::string>& texts) {
     return probes;
 }
 
-DriveLog::DriveLog(const std::string& file, std::vector<LogProbe> probes) : file_(file), probes_(std::move(probes)) {
-    file_.append(heading(probes_));
+DriveLog::DriveLog(const std::string& file, std::vector<LogProbe> probes, const std::string& more)
+    : file_(file), rows_(std::move(probes)) {
+    append(rows_.heading(), more);
+}
+
+std::string DriveRows::heading() const {
+    std::string line =
+        "frame,step,seconds,eye_step,operator,x,y,z,yaw,pitch,speed,acceleration,wheel_angle,lane,throttle,brake,"
+        "steering,touched,contacts,adaptation,cone_sigma,cone_pigment,cone_fast,cone_slow,log_average,minimum,maximum,"
+        "mean";
+    for (const double percent : kPercents) line += format(",p%g", percent);
+    line += apps::glare_columns();
+    for (size_t i = 0; i < probes_.size(); ++i) line += format(",probe%zu", i);
+    return line + kAfterProbes;
 }
 
 // NODE@SPEED of each, the speed (m/s) at which they met; several are parted by semicolons.
-void DriveLog::add(const traffic::Contact& contact) {
+void DriveRows::add(const traffic::Contact& contact) {
     contacts_ += (contacts_.empty() ? "" : ";") + csv_name(contact.node) + format("@%.3g", contact.speed);
 }
 
-void DriveLog::add(const Session& session, const gpu_scene::View& view, const render::Frame& frame) {
+std::string DriveRows::next(const Session& session, const gpu_scene::View& view, const render::Frame& frame) {
     const traffic::World& world = session.world();
     const traffic::Actor& me = session.actors().front();
     const traffic::VehicleState& car = world.driver();
@@ -97,7 +97,7 @@ void DriveLog::add(const Session& session, const gpu_scene::View& view, const re
                               frame.eye.cones.fast, frame.eye.cones.slow, frame.curve.log_average})
         line += format(",%.9g", double(value));
     if (frame.scene.empty()) {
-        const std::string columns = heading(probes_);
+        const std::string columns = heading();
         line += std::string(size_t(std::count(columns.begin() + ptrdiff_t(columns.find(",minimum")),
                                               columns.begin() + ptrdiff_t(columns.find(kAfterProbes)), ',')),
                             ',');
@@ -112,8 +112,8 @@ void DriveLog::add(const Session& session, const gpu_scene::View& view, const re
     double device = 0;
     for (const graph::Timing& timing : frame.timings) device += timing.milliseconds;
     // Every lamp counts: froxels whose lists overflow look at all of them.
-    file_.append(line + format(",%u,%u,0,%u,%u,%.3f,%.3f\n", frame.lamps, frame.luminaires, frame.maps.carried,
-                               frame.histogram.non_finite, device, frame.milliseconds));
+    return line + format(",%u,%u,0,%u,%u,%.3f,%.3f", frame.lamps, frame.luminaires, frame.maps.carried,
+                         frame.histogram.non_finite, device, frame.milliseconds);
 }
 
 }  // namespace vesper::drive

@@ -17,22 +17,41 @@ struct LogProbe {
 /// X,Y of every --probe. Throws Error.
 std::vector<LogProbe> probes_of(const std::vector<std::string>& texts);
 
+/// The rows of a log, one after the other. Throws Error.
+class DriveRows {
+public:
+    explicit DriveRows(std::vector<LogProbe> probes) : probes_(std::move(probes)) {}
+
+    /// Names of the columns, in a line that has no end yet.
+    std::string heading() const;
+    /// What the next row says was met.
+    void add(const traffic::Contact&);
+    /// The next row is made elsewhere.
+    void skip() { ++rows_, contacts_.clear(); }
+    /// The next row. `frame` must have its luminances; without them (the ldr operator) the columns that need them are
+    /// empty.
+    std::string next(const Session&, const gpu_scene::View&, const render::Frame& frame);
+
+private:
+    std::vector<LogProbe> probes_;
+    unsigned rows_ = 0;
+    std::string contacts_;  // since the last row, as the next has them
+};
+
 /// The log, on disk row by row (GrowingFile). Throws Error.
 class DriveLog {
 public:
-    DriveLog(const std::string& file, std::vector<LogProbe> probes);
+    /// `more`: names of columns behind those of the rows.
+    DriveLog(const std::string& file, std::vector<LogProbe> probes, const std::string& more = "");
 
-    /// What the next row says was met.
-    void add(const traffic::Contact&);
-    /// `frame` must have its luminances; without them (the ldr operator) the columns that need them are empty.
-    void add(const Session&, const gpu_scene::View&, const render::Frame& frame);
+    DriveRows& rows() { return rows_; }
+    /// A row, and values of the further columns.
+    void append(const std::string& row, const std::string& more = "") { file_.append(row + more + "\n"); }
     void complete() { file_.complete(); }
 
 private:
     io::GrowingFile file_;
-    std::vector<LogProbe> probes_;
-    unsigned rows_ = 0;
-    std::string contacts_;  // since the last row, as the next has them
+    DriveRows rows_;
 };
 
 }  // namespace vesper::drive

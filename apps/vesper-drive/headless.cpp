@@ -7,10 +7,12 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
+#include "channel_ranks.h"
 #include "drive.h"
 #include "drive_file.h"
 #include "drive_log.h"
 #include "edge_arguments.h"
+#include "frame_relay.h"
 #include "indirect_arguments.h"
 #include "io/file_gate.h"
 #include "io/image_file.h"
@@ -77,7 +79,9 @@ std::pair<double, bool> rate_of(const DriveEvents& events, double time_step) {
 /// Where frames go.
 class Outlet {
 public:
-    Outlet(const DriveArguments& a, VkExtent2D extent) : arguments_(a), extent_(extent), probes_(probes_of(a.probes)) {
+    /// `meets`: ranks do so to show a frame.
+    Outlet(const DriveArguments& a, VkExtent2D extent, bool meets)
+        : arguments_(a), extent_(extent), probes_(probes_of(a.probes)), meets_(meets) {
         if (!a.video.empty()) {
             film_ = a.video.ends_with(".mp4");
             exr_ = a.video.ends_with(".exr");
@@ -87,7 +91,7 @@ public:
             if (!film_ && !names_)
                 throw Error("--video " + one_line(a.video) +
                             ": one file a frame needs a number in the name, such as %05d");
-            io::announce_write("--video", film_ ? a.video : names_->at(0));
+            if (apps::Ranks::own_number() == 0) io::announce_write("--video", film_ ? a.video : names_->at(0));
         }
     }
     bool wanted() const { return film_ || names_ || !arguments_.log.empty(); }
@@ -106,27 +110,35 @@ public:
     /// Once everything is read, and before anything is written: no name of so many frames may be another file's.
     void open(size_t frames) {
         if (names_) announce_numbered(frames);
-        if (!arguments_.log.empty()) log_.emplace(arguments_.log, probes_);
+        if (logs()) log_.emplace(arguments_.log, probes_, meets_ ? ",skew_us,last_rank" : "");
     }
-    void add(const traffic::Contact& contact) {
-        if (log_) log_->add(contact);
-    }
+    /// On other ranks than the first, in its place.
+    bool logs() const { return !arguments_.log.empty(); }
+    DriveRows& rows() { return log_ ? log_->rows() : rows_; }
+    bool wants_scene() const { return exr_; }
     render::Outputs outputs(const Session& session) const {
         const bool ldr = session.settings().render().tone_operator == render::Operator::Ldr;
-        return {.display = film_ || (names_ && !exr_), .scene = exr_ || (log_ && !ldr)};
+        return {.display = film_ || (names_ && !exr_), .scene = exr_ || (logs() && !ldr)};
     }
-    /// `shown`: the picture; `logged`: what the log says of it, seen by `view`.
-    void take(unsigned index, const Session& session, const gpu_scene::View& view, const render::ToneMapped& shown,
-              const render::Frame& logged, double fps) {
+    /// Writes the files of a frame. Returns what is to be appended to others: of the picture, and of the row.
+    apps::Bytes take(unsigned index, const Session& session, const render::ToneMapped& shown, uint32_t lamps,
+                     const std::string& row) {
         const vision::Display& display = session.settings().render().display;
-        if (film_ && !video_)
-            video_ = std::make_unique<apps::Video>(arguments_.video, extent_.width, extent_.height, fps, display);
-        if (video_) video_->add(shown.display);
         if (names_ && !exr_) apps::write_codes(names_->at(index), shown, display);
         if (names_ && exr_)
-            io::write_exr(names_->at(index), extent_.width, extent_.height, shown.scene,
-                          header(session, shown, logged.lamps));
-        if (log_) log_->add(session, view, logged);
+            io::write_exr(names_->at(index), extent_.width, extent_.height, shown.scene, header(session, shown, lamps));
+        apps::PacketWriter packet;
+        packet.list(film_ ? std::span(shown.display) : std::span<const uint8_t>());
+        packet.list(row);
+        return packet.take();
+    }
+    void append(const apps::Bytes& taken, double fps) {
+        apps::PacketReader packet(taken);
+        const std::vector<uint8_t> codes = packet.list<uint8_t>();
+        if (film_ && !video_)
+            video_ = std::make_unique<apps::Video>(arguments_.video, extent_.width, extent_.height, fps, *first_);
+        if (video_) video_->add(codes);
+        if (log_) log_->append(packet.text());
     }
     void finish() {
         if (video_) video_->finish();
@@ -172,14 +184,48 @@ private:
     std::optional<apps::NumberedName> names_;
     std::unique_ptr<apps::Video> video_;
     std::optional<DriveLog> log_;
+    const bool meets_;
+    DriveRows rows_{probes_};
 };
 
+// The row of the channel that is looked at, where this process has it.
+std::string row_of(Outlet& outlet, const Session& session, const Channels& channels, ChannelMosaic& wall) {
+    render::Frame& seen = wall.channels[channels.gaze];
+    if (!outlet.logs() || seen.extent.width == 0) return "";
+    render::Frame logged = logged_frame(wall, channels.gaze);
+    std::string row =
+        outlet.rows().next(session, channel_view(channels.screens[channels.gaze], session.view({1, 1})), logged);
+    seen = std::move(logged);
+    return row;
+}
+
 // One picture of all channels; the log is of the one that is looked at.
-void take_wall(Outlet& outlet, unsigned index, Session& session, const Channels& channels, double fps) {
-    ChannelMosaic wall = session.render(channels, outlet.outputs(session));
-    const render::Frame logged = looked_at(wall, channels);
-    outlet.take(index, session, channel_view(channels.screens[channels.gaze], session.view({1, 1})), wall.shown, logged,
-                fps);
+void take_wall(Outlet& outlet, unsigned index, Session& session, const Channels& channels, ChannelRanks* ranks,
+               double fps) {
+    const render::Outputs outputs = outlet.outputs(session);
+    if (ranks) ranks->begin_frame({.display = outputs.display, .scene = outlet.wants_scene(), .row = outlet.logs()});
+    ChannelMosaic wall = session.render(channels, outputs);
+    std::string more;
+    if (ranks) {
+        const ChannelRanks::Meeting meeting = ranks->meet(wall.shown.eye);
+        more = apps::format(",%.0f,%d", meeting.skew * 1e6, meeting.last);
+    }
+    std::string row = row_of(outlet, session, channels, wall);
+    if (ranks) row += ranks->collect(wall);
+    outlet.append(outlet.take(index, session, wall.shown, wall.channels[channels.gaze].lamps, row + more), fps);
+}
+
+// What other ranks than the first do: they follow it.
+void follow(Outlet& outlet, Session& session, const Channels& channels, ChannelRanks& ranks) {
+    while (const auto wanted = ranks.follow(session)) {
+        const bool ldr = session.settings().render().tone_operator == render::Operator::Ldr;
+        ChannelMosaic wall =
+            session.render(channels, {.display = wanted->display, .scene = wanted->scene || (wanted->row && !ldr)});
+        ranks.meet(wall.shown.eye);
+        const std::string row = wanted->row ? row_of(outlet, session, channels, wall) : "";
+        ranks.report(*wanted, wall, row);
+    }
+    session.leave_channels();
 }
 
 VkExtent2D extent_of(const Channels& channels) {
@@ -217,13 +263,21 @@ private:
 void run_headless(const DriveArguments& a) {
     std::optional<Channels> channels;
     if (!a.channels.empty()) channels = read_channels(a.channels);
+    std::optional<ChannelRanks> ranks;
+    if (channels && apps::Ranks::several()) ranks.emplace(apps::Ranks::all(), *channels);
+    const bool first = apps::Ranks::own_number() == 0;
+    if (apps::Ranks::several() && !channels) {
+        if (a.messages.live) throw Error("--osi-udp: what is sent is shown by several ranks with --channels only");
+        if (a.settings.contains("shadow-budget"))
+            throw Error("--shadow-budget: a frame then depends on the one before; not with several ranks");
+    }
     Drive drive;
     const bool replays = !a.replay.empty();
     if (replays) drive = read_drive(a.replay);
     const VkExtent2D extent = channels                            ? extent_of(*channels)
                               : drive.start.size && !a.size_given ? VkExtent2D{drive.start.size->x, drive.start.size->y}
                                                                   : apps::parse_size(a.size);
-    Outlet outlet(a, extent);
+    Outlet outlet(a, extent, ranks.has_value());
     const DriveStart options = start_of(a, drive.start);
     if (!drive.complete) apps::print_note(one_line(a.replay) + " breaks off; what there is of it is driven");
     const DriveEvent step{.kind = DriveEvent::Kind::Step,
@@ -257,38 +311,60 @@ void run_headless(const DriveArguments& a) {
         throw Error("nothing to do: give --video, --log, --record or --osi-out");
     gpu::Device device({.select = a.device});
     Session session(device, options, std::move(scenery));
+    if (channels) session.share_channels(ranks ? &*ranks : nullptr, a.latency);
+    apps::Ranks::all().agree_on_files();
     const std::shared_ptr<Cache> cache = apps::shadow_cache(a.shadow_cache);
     session.keep_maps(cache);
     const render::RenderSettings& shown = session.settings().render();
-    if (outlet.wanted() && shown.indirect && shown.tone_operator != render::Operator::Ldr) {
+    const bool renders = outlet.wanted() && (!ranks || !ranks->own(channels->screens.size()).empty());
+    const auto gather = [&] {
+        if (!renders || !shown.indirect || shown.tone_operator == render::Operator::Ldr) return;
         const gpu_scene::SceneFrame rest = session.moment();
         session.set_radiosity(apps::gathered(session.scenery().scene(), rest.world, rest.moving, cache.get()));
-    }
+    };
+    apps::Ranks::all().in_turns(gather);
     session.on_maps = [](const render::MapReport& report) { apps::print_cache_note(report.note); };
+    session.on_contact = [&](const traffic::Contact& contact) { outlet.rows().add(contact); };
+    if (ranks && !first) return follow(outlet, session, *channels, *ranks);
+    if (ranks) ranks->lead(session);
     Playback playback(std::move(drive.events), a.settings);
     std::optional<Live> live;
     if (a.messages.live) live.emplace(a, session, playback);
-    outlet.open(playback.frames());
-    session.on_contact = [&](const traffic::Contact& contact) { outlet.add(contact); };
+    if (first) outlet.open(playback.frames());
     apps::print_notes(session.scenery().notes());
-    if (!a.osi_out.empty()) session.write_trace(a.osi_out);
-    if (!a.record.empty())
+    if (first && !a.osi_out.empty()) session.write_trace(a.osi_out);
+    if (first && !a.record.empty())
         session.record(a.record, outlet.wanted() && !channels ? std::optional(glm::uvec2(extent.width, extent.height))
                                                               : std::nullopt);
     apps::Progress progress(replays ? "replaying" : "driving", unsigned(std::max<size_t>(1, playback.frames())));
+    apps::FrameRelay relay(device, apps::Ranks::all(), unsigned(playback.frames()));
     unsigned index = 0;
+    session.frame_maker = [&](auto& renderer, auto& settings, auto& view, auto& moment, float seconds, auto& outputs,
+                              bool fresh) {
+        return relay.render(renderer, settings, view, moment, seconds, outputs, index, {.fresh = fresh});
+    };
+    const auto take = [&](unsigned, const apps::Bytes& taken) {
+        outlet.append(taken, fps);
+        progress.step();
+    };
     while (const auto kind = playback.next(session)) {
         if (live && live->is_over()) break;
         if (kind != DriveEvent::Kind::Frame || !outlet.wanted()) continue;
         if (channels) {
-            take_wall(outlet, index++, session, *channels, fps);
-        } else {
+            take_wall(outlet, index, session, *channels, ranks ? &*ranks : nullptr, fps);
+            progress.step();
+        } else if (relay.has(index)) {
             const gpu_scene::View view = session.view(extent);
             const render::Frame frame = session.render(view, outlet.outputs(session));
-            outlet.take(index++, session, view, frame, frame, fps);
+            const std::string row = outlet.logs() ? outlet.rows().next(session, view, frame) : "";
+            relay.deliver(index, outlet.take(index, session, frame, frame.lamps, row), take);
+        } else {
+            session.skip_frame(), outlet.rows().skip();
         }
-        progress.step();
+        ++index;
     }
+    if (!channels && outlet.wanted() && !live) relay.finish(take);
+    if (ranks) ranks->end_drive(), session.leave_channels();
     outlet.finish();
     session.stop_recording();
     session.finish_trace();

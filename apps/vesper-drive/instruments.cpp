@@ -16,8 +16,9 @@ namespace vesper::drive {
 namespace {
 
 constexpr double kPastSeconds = 60;
-constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav |
-                                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
+constexpr ImGuiWindowFlags kPlainWindow = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                                          ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize |
+                                          ImGuiWindowFlags_NoFocusOnAppearing;
 
 }  // namespace
 
@@ -130,7 +131,7 @@ void Instruments::draw_status(const FrameState& now) const {
     };
     ImGui::SetNextWindowPos({8, ImGui::GetIO().DisplaySize.y - 8}, ImGuiCond_Always, {0, 1});
     ImGui::SetNextWindowBgAlpha(0.55f);
-    if (ImGui::Begin("status", nullptr, kPlain)) {
+    if (ImGui::Begin("status", nullptr, kPlainWindow)) {
         ImGui::PushTextWrapPos(ImGui::GetIO().DisplaySize.x - 32);
         const char* beam = input.beam == traffic::Beam::Low    ? "low beam"
                            : input.beam == traffic::Beam::High ? "high beam"
@@ -156,7 +157,7 @@ void Instruments::draw_message(const std::string& message) const {
     const ImVec2 window = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({window.x / 2, window.y / 3}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSizeConstraints({0, 0}, {window.x * 0.8f, window.y});
-    if (ImGui::Begin("message", nullptr, kPlain)) {
+    if (ImGui::Begin("message", nullptr, kPlainWindow)) {
         ImGui::PushTextWrapPos(window.x * 0.75f);
         ImGui::TextUnformatted(message.c_str());
         ImGui::PopTextWrapPos();

@@ -2,19 +2,13 @@
 
 namespace vesper::drive {
 
-std::optional<DriveEvent::Kind> Playback::next(Session& session) {
-    if (next_ == events_.end()) return std::nullopt;
-    const DriveEvent& event = *next_;
-    const DriveEvent::Kind kind = event.kind;
+void perform(Session& session, const DriveEvent& event) {
     switch (event.kind) {
-        case DriveEvent::Kind::Step: {
-            session.step(event.input, event.shown || !live_moment ? event.shown : live_moment());
-            const traffic::VehicleState& me = session.world().driver();
-            strayed_ |= event.pose && glm::dvec4(me.position, me.yaw, me.speed) != *event.pose;
+        case DriveEvent::Kind::Step:
+            session.step(event.input, event.shown);
             break;
-        }
         case DriveEvent::Kind::Set:
-            if (!kept_.contains(event.name)) session.set(event.name, event.value);
+            session.set(event.name, event.value);
             break;
         case DriveEvent::Kind::Restart:
             session.restart();
@@ -22,8 +16,18 @@ std::optional<DriveEvent::Kind> Playback::next(Session& session) {
         case DriveEvent::Kind::Frame:
             break;
     }
+}
+
+std::optional<DriveEvent::Kind> Playback::next(Session& session) {
+    if (next_ == events_.end()) return std::nullopt;
+    DriveEvent event = *next_;
+    const bool steps = event.kind == DriveEvent::Kind::Step;
+    if (steps && !event.shown && live_moment) event.shown = live_moment();
+    if (event.kind != DriveEvent::Kind::Set || !kept_.contains(event.name)) perform(session, event);
+    const traffic::VehicleState& me = session.world().driver();
+    strayed_ |= steps && event.pose && glm::dvec4(me.position, me.yaw, me.speed) != *event.pose;
     ++next_;
-    return kind;
+    return event.kind;
 }
 
 void Playback::rewind(Session& session) {

@@ -7,6 +7,9 @@
 
 namespace vesper::drive {
 
+/// Does what an event says; a Frame is left to the caller.
+void perform(Session&, const DriveEvent&);
+
 /// What windows and the headless program drive by when nobody holds the wheel: a recording, or steps made for the
 /// purpose. What was given beside a recording (`kept`) wins over what it sets.
 class Playback {

@@ -45,7 +45,15 @@ DriveStart Session::start() const {
     return now;
 }
 
-osi::Timeline::Added Session::hear(osi::Message message) { return timeline_.add(std::move(message)); }
+osi::Timeline::Added Session::hear(osi::Message message) {
+    if (on_message) on_message(message);
+    return timeline_.add(std::move(message));
+}
+
+void Session::note(const DriveEvent& event) {
+    recorder_->add(event);
+    if (on_event) on_event(&event);
+}
 
 // What cannot be kept ends a recording, and nothing else.
 void Session::keep(const osi::Message& message) {
@@ -71,12 +79,12 @@ void Session::step(const traffic::DriverInput& input, std::optional<double> show
     look_outside(options_.messages.live ? shown : world_->seconds());
     for (size_t i = met; on_contact && i < world_->contacts().size(); ++i) on_contact(world_->contacts()[i]);
     const traffic::VehicleState& me = world_->driver();
-    recorder_->add({.kind = DriveEvent::Kind::Step,
-                    .input = input,
-                    .pose = glm::dvec4(me.position, me.yaw, me.speed),
-                    .shown = options_.messages.live ? shown : std::nullopt,
-                    .name = {},
-                    .value = {}});
+    note({.kind = DriveEvent::Kind::Step,
+          .input = input,
+          .pose = glm::dvec4(me.position, me.yaw, me.speed),
+          .shown = options_.messages.live ? shown : std::nullopt,
+          .name = {},
+          .value = {}});
     if (trace_) ++traced_, trace_->append(osi::trace_bytes_of(message_now()));
 }
 
@@ -88,15 +96,18 @@ void Session::restart() {
     rendered_.reset();
     renderer_->reset_adaptation();
     if (wall_) wall_->reset_adaptation();
+    const DriveEvent event{.kind = DriveEvent::Kind::Restart, .name = {}, .value = {}};
     if (recording())
-        recorder_->add({.kind = DriveEvent::Kind::Restart, .name = {}, .value = {}});
+        recorder_->add(event);
     else
         recorder_ = std::make_unique<DriveRecorder>(start());
+    if (on_event) on_event(&event);
 }
 
 void Session::rewind() {
     settings_ = DriveSettings(options_.settings);
     restart();
+    if (on_event) on_event(nullptr);
 }
 
 void Session::set(const std::string& name, const std::string& value) {
@@ -104,7 +115,7 @@ void Session::set(const std::string& name, const std::string& value) {
     wanted.set(name, value);
     scenery_.check(wanted);
     settings_ = std::move(wanted);
-    recorder_->add({.kind = DriveEvent::Kind::Set, .shown = {}, .name = name, .value = value});
+    note({.kind = DriveEvent::Kind::Set, .shown = {}, .name = name, .value = value});
 }
 
 gpu_scene::SceneFrame Session::moment() const { return scenery_.frame(actors_, settings_, outside_); }
@@ -140,20 +151,29 @@ void Session::begin_frame(const gpu_scene::SceneFrame& moment) {
 void Session::end_frame(const shared::EyeState& eye) {
     rendered_ = world_->steps();
     eye_ = eye;
-    recorder_->add({.kind = DriveEvent::Kind::Frame, .name = {}, .value = {}});
+    note({.kind = DriveEvent::Kind::Frame, .name = {}, .value = {}});
 }
+
+void Session::skip_frame() { end_frame(eye_); }
 
 render::Frame Session::render(const gpu_scene::View& view, render::Outputs outputs) {
     const gpu_scene::SceneFrame now = moment();
     begin_frame(now);
-    render::Frame frame = renderer_->render(frame_settings(), view, now, float(eye_step_), outputs);
+    render::Frame frame = frame_maker ? frame_maker(*renderer_, frame_settings(), view, now, float(eye_step_), outputs,
+                                                    !rendered_.has_value())
+                                      : renderer_->render(frame_settings(), view, now, float(eye_step_), outputs);
     end_frame(frame.eye);
     if (on_maps) on_maps(frame.maps);
     return frame;
 }
 
+void Session::make_wall() {
+    wall_ = std::make_unique<ChannelRenderer>(*device_, link_);
+    wall_->set_latency(latency_);
+}
+
 ChannelMosaic Session::render(const Channels& channels, render::Outputs outputs) {
-    if (!wall_) wall_ = std::make_unique<ChannelRenderer>(*device_);
+    if (!wall_) make_wall();
     const gpu_scene::SceneFrame now = moment();
     begin_frame(now);
     ChannelMosaic wall =
@@ -175,7 +195,7 @@ void Session::use(gpu::Device& device) {
     renderer_->set_lamp_reflections(lamp_reflections_);
     if (rendered_) renderer_->set_eye(eye_);
     if (!had_wall) return;
-    wall_ = std::make_unique<ChannelRenderer>(device);
+    make_wall();
     if (rendered_) wall_->set_eye(eye_);
 }
 

@@ -58,6 +58,10 @@ public:
     const Outside& outside() const { return outside_; }
     /// Called in step() for everything that the car meets.
     std::function<void(const traffic::Contact&)> on_contact;
+    /// Called after each event, for whoever drives along; after a rewind() with nothing.
+    std::function<void(const DriveEvent*)> on_event;
+    /// Called in hear() before the message is known.
+    std::function<void(const osi::Message&)> on_message;
     /// Back to the start, with the eye adapted anew. A recording goes on; what was not recorded is forgotten.
     void restart();
     /// The same, with the settings of the start.
@@ -87,6 +91,13 @@ public:
     gpu_scene::View view(VkExtent2D) const;
     /// Where everything stands now and how it is lit.
     gpu_scene::SceneFrame moment() const;
+    /// Renders frames of one view, as FrameRelay does; at first the renderer. `fresh`: the eye has seen nothing yet.
+    using FrameMaker =
+        std::function<render::Frame(render::Renderer&, const render::RenderSettings&, const gpu_scene::View&,
+                                    const gpu_scene::SceneFrame&, float seconds, const render::Outputs&, bool fresh)>;
+    FrameMaker frame_maker;
+    /// The frame of this moment is rendered elsewhere; the time of the eye goes on.
+    void skip_frame();
     /// The picture of this moment. The first one, and one after a restart, is seen by an eye that is adapted.
     render::Frame render(VkExtent2D, render::Outputs);
     /// The same of another view.
@@ -94,6 +105,13 @@ public:
     /// All channels of this moment, seen by one eye. Not to be mixed with frames of one view: each way has an eye of
     /// its own.
     ChannelMosaic render(const Channels&, render::Outputs);
+    /// The processes that render other channels, and how many moments, 0 or 1, what their eye sees is late
+    /// (ChannelRenderer); before the first frame. At first none and 0.
+    void share_channels(ChannelLink* link, unsigned latency) { link_ = link, latency_ = latency; }
+    /// After the last frame of all of them: hears what others have said of it.
+    void leave_channels() {
+        if (wall_) wall_->leave();
+    }
     /// Seconds that passed for the eye before the last frame.
     double eye_step() const { return eye_step_; }
     render::Renderer& renderer() { return *renderer_; }
@@ -114,6 +132,8 @@ public:
 
 private:
     DriveStart start() const;
+    void note(const DriveEvent&);
+    void make_wall();
     render::RenderSettings frame_settings() const;
     void keep(const osi::Message&);
     void look_outside(std::optional<double> shown);
@@ -137,7 +157,9 @@ private:
     gpu::Device* device_;
     std::unique_ptr<render::Renderer> renderer_;
     std::unique_ptr<ChannelRenderer> wall_;  // made when first asked for
-    std::optional<uint64_t> rendered_;       // steps at the last frame
+    ChannelLink* link_ = nullptr;
+    unsigned latency_ = 0;
+    std::optional<uint64_t> rendered_;  // steps at the last frame
     shared::EyeState eye_{};
     double eye_step_ = 0;
     uint64_t shadow_budget_ = render::kNoShadowBudget;

@@ -273,7 +273,7 @@ void WindowedDrive::listen() {
 void WindowedDrive::watch_contacts() {
     session_->on_contact = [this](const traffic::Contact& contact) {
         say(format("collision with %s at %.0f km/h", contact.node.c_str(), contact.speed * 3.6));
-        if (log_) log_->add(contact);
+        if (log_) log_->rows().add(contact);
     };
 }
 
@@ -313,7 +313,7 @@ std::string WindowedDrive::standing_message() const {
 void WindowedDrive::draw(const render::Outputs& outputs, ChannelMosaic& wall) {
     if (channels_) {
         wall = session_->render(*channels_, outputs);
-        frame_ = looked_at(wall, *channels_);
+        frame_ = logged_frame(wall, channels_->gaze);
     } else {
         frame_ = session_->render(view_, outputs);
     }
@@ -345,7 +345,8 @@ void WindowedDrive::render(bool moved) {
     instruments_.remember(*session_, frame_);
     if (log_) {
         try {
-            log_->add(*session_, channels_ ? channel_view(channels_->screens[channels_->gaze], view_) : view_, frame_);
+            log_->append(log_->rows().next(
+                *session_, channels_ ? channel_view(channels_->screens[channels_->gaze], view_) : view_, frame_));
         } catch (const Error& error) {
             log_.reset();
             say("--log " + std::string(error.what()), true);

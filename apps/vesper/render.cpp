@@ -10,6 +10,7 @@
 #include "base/one_line.h"
 #include "commands.h"
 #include "edge_arguments.h"
+#include "frame_relay.h"
 #include "glare_arguments.h"
 #include "indirect_arguments.h"
 #include "io/file_gate.h"
@@ -46,7 +47,7 @@ struct RenderArguments {
     transport::TraceSettings tracing;
     apps::GlareArguments glare;
     std::vector<std::string> outputs;
-    std::string statistics_file, log_file, replay_file, sources_file;
+    std::string statistics_file, log_file, replay_file, sources_file, eye_in, eye_out;
     render::RenderSettings settings;
     unsigned frames = 1;
     double dt = 1.0 / 30, start = 0;
@@ -180,6 +181,7 @@ void check_arguments(RenderArguments& arguments) {
     check_paths(arguments);
     io::announce_read(arguments.scene);
     io::announce_read(arguments.replay_file);
+    io::announce_read(arguments.eye_in);
     io::announce_read(arguments.glare.lamps);
     for (const std::string& output : arguments.outputs) {
         const bool exr = output.ends_with(".exr");
@@ -187,7 +189,14 @@ void check_arguments(RenderArguments& arguments) {
         if (exr && settings.tone_operator == render::Operator::Ldr)
             throw Error("-o " + output + ": the ldr operator has no luminances to write; use .png");
     }
+    if (apps::Ranks::several()) {
+        if (settings.shadow_budget != render::kNoShadowBudget)
+            throw Error("--shadow-budget: a frame then depends on the one before; not with several ranks");
+        if (settings.display_average) throw Error("--display-average is not made by several ranks");
+    }
+    if (apps::Ranks::own_number() != 0) return;  // the first rank alone writes these
     io::announce_write("--stats-json", arguments.statistics_file);
+    io::announce_write("--eye-out", arguments.eye_out);
     for (const auto& [option, file] :
          {std::pair("--log", arguments.log_file), std::pair("--glare-sources", arguments.sources_file)}) {
         io::announce_write(option, file);
@@ -196,10 +205,11 @@ void check_arguments(RenderArguments& arguments) {
 }
 
 void check_wanted(const RenderArguments& a) {
-    const bool files =
-        !a.outputs.empty() || !a.log_file.empty() || !a.sources_file.empty() || !a.statistics_file.empty();
+    const bool files = !a.outputs.empty() || !a.log_file.empty() || !a.sources_file.empty() ||
+                       !a.statistics_file.empty() || !a.eye_out.empty();
     if (!files && !a.statistics && !a.plan && a.glare.target.empty())
-        throw Error("nothing to do: give -o, --stats, --stats-json, --log, --glare-sources, --target or --plan");
+        throw Error(
+            "nothing to do: give -o, --stats, --stats-json, --log, --glare-sources, --eye-out, --target or --plan");
 }
 
 // A frame to render: its time, how long after the one before, and, in a replay, what the eye remembers.
@@ -209,12 +219,10 @@ struct FrameTime {
     std::optional<shared::EyeState> eye;
 };
 
-// A replay shows what was logged: with the operator and the histogram of the log, at its times.
-void check_replay(const RenderArguments& arguments, const std::vector<apps::LoggedFrame>& log) {
-    const auto fail = [&](const std::string& reason) {
-        throw Error("--replay " + one_line(arguments.replay_file) + ": " + reason);
-    };
-    if (arguments.tone.eye.command.count("--dt")) fail("times are those of the log: --dt has no meaning beside it");
+// What is logged goes on with the operator and the histogram of the log.
+void check_log(const RenderArguments& arguments, const std::string& option, const std::string& file,
+               std::span<const apps::LoggedFrame> log) {
+    const auto fail = [&](const std::string& reason) { throw Error(option + " " + one_line(file) + ": " + reason); };
     const std::string wanted = apps::name_of(arguments.settings.tone_operator);
     const render::HistogramSettings& bins = arguments.settings.histogram;
     for (const apps::LoggedFrame& frame : log) {
@@ -238,10 +246,20 @@ std::vector<FrameTime> moments_of(const RenderArguments& arguments) {
     if (arguments.replay_file.empty()) {
         for (unsigned i = 0; i < arguments.frames; ++i)
             moments.push_back({arguments.start + i * arguments.dt, i == 0 ? 0.0f : float(arguments.dt), {}});
+        if (arguments.eye_in.empty()) return moments;
+        const std::vector<apps::LoggedFrame> log = apps::read_log(arguments.eye_in);
+        check_log(arguments, "--eye-in", arguments.eye_in, std::span(log).last(1));
+        moments.front().step = float(arguments.dt), moments.front().eye = log.back().eye;
         return moments;
     }
+    const auto idle = [&](const char* option, const char* why) {
+        if (arguments.tone.eye.command.count(option))
+            throw Error("--replay " + one_line(arguments.replay_file) + ": " + why + ": " + option +
+                        " has no meaning beside it");
+    };
+    idle("--dt", "times are those of the log"), idle("--eye-in", "eyes are those of the log");
     const std::vector<apps::LoggedFrame> log = apps::read_log(arguments.replay_file);
-    check_replay(arguments, log);
+    check_log(arguments, "--replay", arguments.replay_file, log);
     const unsigned frames = arguments.tone.eye.command.count("--frames") ? arguments.frames : ~0u;
     for (size_t i = 0; i < log.size() && moments.size() < frames; ++i)
         if (log[i].seconds >= arguments.start)
@@ -267,6 +285,44 @@ private:
 
     unsigned steps_, done_ = 0;
     apps::Progress bar_;
+};
+
+// What a frame adds to files of all frames.
+struct FrameRows {
+    std::string log, sources, eye;
+
+    apps::Bytes packed() const {
+        apps::PacketWriter packet;
+        for (const std::string* rows : {&log, &sources, &eye}) packet.list(*rows);
+        return packet.take();
+    }
+};
+
+// Files of all frames: of the first rank.
+class FrameFiles {
+public:
+    explicit FrameFiles(const RenderArguments& a) : eye_file_(a.eye_out) {
+        const auto begin = [](std::optional<io::GrowingFile>& grows, const std::string& file,
+                              const std::string& heading) {
+            if (!file.empty()) grows.emplace(file).append(heading);
+        };
+        begin(log_, a.log_file, apps::log_heading()), begin(sources_, a.sources_file, apps::glare_sources_heading());
+    }
+    void add(const apps::Bytes& rows) {
+        apps::PacketReader packet(rows);
+        for (auto* file : {&log_, &sources_})
+            if (const std::string text = packet.text(); *file) (*file)->append(text);
+        const std::string eye = packet.text();
+        if (!eye_file_.empty() && !eye.empty()) apps::write_text(eye_file_, apps::log_heading() + eye);
+    }
+    void complete() {
+        for (auto* file : {&log_, &sources_})
+            if (*file) (*file)->complete();
+    }
+
+private:
+    std::string eye_file_;
+    std::optional<io::GrowingFile> log_, sources_;
 };
 
 void run(RenderArguments& arguments) {
@@ -299,12 +355,16 @@ void run(RenderArguments& arguments) {
     const std::vector<std::string> cameras = gpu_scene::camera_names(scene);
     if (arguments.camera.empty() && !cameras.empty()) arguments.camera = cameras.front();
 
+    apps::Ranks& ranks = apps::Ranks::all();
     gpu::Device device({.select = arguments.device});
     render::Renderer renderer(device, scene);
     const std::shared_ptr<Cache> cache = apps::shadow_cache(arguments.shadows.cache);
     renderer.keep_maps(cache);
+    ranks.agree_on_files();
     if (arguments.settings.indirect && !arguments.traces && !ldr)  // which shows lamps alone
-        renderer.set_radiosity(apps::gathered(scene, moment.world, scene::animated_nodes(scene), cache.get()));
+        ranks.in_turns([&] {
+            renderer.set_radiosity(apps::gathered(scene, moment.world, scene::animated_nodes(scene), cache.get()));
+        });
     if (arguments.settings.moving_reflections)
         renderer.set_lamp_reflections(
             std::make_shared<const transport::LampReflections>(scene, moment.world, scene::animated_nodes(scene)));
@@ -312,16 +372,16 @@ void run(RenderArguments& arguments) {
     unsigned number = 0;  // of the frame
     if (!arguments.traces) renderer.watch_samples([&](uint32_t done) { progress.sampled(number, done); });
     std::vector<double> milliseconds;
-    std::optional<io::GrowingFile> log, sources;
-    const auto begin = [](std::optional<io::GrowingFile>& grows, const std::string& file, const std::string& heading) {
-        if (!file.empty()) grows.emplace(file).append(heading);
+    FrameFiles files(ranks.is_first() ? arguments : RenderArguments());
+    const auto take = [&](unsigned index, const apps::Bytes& rows) {
+        files.add(rows);
+        progress.at(index, 1);
     };
-    begin(log, arguments.log_file, apps::log_heading()),
-        begin(sources, arguments.sources_file, apps::glare_sources_heading());
+    apps::FrameRelay relay(device, ranks, arguments.frames);
     for (unsigned index = 0; index < arguments.frames; ++index) {
+        if (!relay.has(index)) continue;
         const auto& [seconds, step, eye] = moments[index];
         number = index;
-        if (eye) renderer.set_eye(*eye);
         moment.world = scene::world_transforms(scene, seconds);
         const gpu_scene::View view = gpu_scene::camera_view(scene, moment, arguments.camera, extent);
         const bool last = index + 1 == arguments.frames;
@@ -329,9 +389,9 @@ void run(RenderArguments& arguments) {
             renderer.set_illuminance(
                 other_light(traced_light(device, scene, renderer.scene(), moment, view, arguments.tracing,
                                          [&](double share) { progress.at(index, share); })));
-        const render::Frame frame =
-            renderer.render(arguments.settings, view, moment, step,
-                            {.display = outputs.display, .scene = outputs.scene || (last && wants_statistics)});
+        const render::Frame frame = relay.render(
+            renderer, arguments.settings, view, moment, step,
+            {.display = outputs.display, .scene = outputs.scene || (last && wants_statistics)}, index, {.eye = eye});
         milliseconds.push_back(frame.milliseconds);
         apps::print_cache_note(frame.maps.note);
         if (const std::string note = apps::photometry_note(loaded, arguments.scene); index == 0 && !note.empty())
@@ -341,13 +401,14 @@ void run(RenderArguments& arguments) {
             glare =
                 apps::glare_of(arguments.glare, arguments.settings, frame, gpu_scene::angles_of(view), frame.outside);
         write_outputs(arguments, device, view, frame, glare, index, seconds);
-        if (log)
-            log->append(
-                apps::log_line(index, {seconds, step, apps::name_of(arguments.settings.tone_operator), frame.eye},
-                               frame.curve, arguments.settings.tone_operator, arguments.settings.display, glare));
-        if (sources)
-            sources->append(
-                apps::glare_sources_lines(index, scene, frame.glare_sources, arguments.settings.scatter.eye));
+        FrameRows rows;
+        const std::string row =
+            apps::log_line(index, {seconds, step, apps::name_of(arguments.settings.tone_operator), frame.eye},
+                           frame.curve, arguments.settings.tone_operator, arguments.settings.display, glare);
+        if (!arguments.log_file.empty()) rows.log = row;
+        if (!arguments.sources_file.empty())
+            rows.sources = apps::glare_sources_lines(index, scene, frame.glare_sources, arguments.settings.scatter.eye);
+        if (last) rows.eye = row;
         if (index == 0 && arguments.plan) apps::print_text(renderer.plan());
         if (last) {
             if (wants_target) apps::print_text(apps::target_line(glare));
@@ -356,10 +417,10 @@ void run(RenderArguments& arguments) {
                 apps::write_text(arguments.statistics_file,
                                  apps::json_of(apps::luminance_statistics(frame.scene)) + "\n");
         }
-        progress.at(index, 1);
+        relay.deliver(index, rows.packed(), take);
     }
-    if (log) log->complete();
-    if (sources) sources->complete();
+    relay.finish(take);
+    files.complete();
 }
 
 }  // namespace
@@ -386,6 +447,9 @@ void add_render(apps::Command program) {
     command.add_option("--replay", a->replay_file,
                        "Take times and the state of the eye from such a log: the same frames to the last bit; --start "
                        "and --frames choose from them");
+    command.add_option("--eye-in", a->eye_in,
+                       "Go on with the eye that another run has left: a file of --eye-out, or the last row of a --log");
+    command.add_option("--eye-out", a->eye_out, "Write the state of the eye after the last frame to a CSV file");
     command.add_option("--start", a->start, "Time of the first frame, s")
         .check(apps::between(0.0, 1e6))
         .shows_default();
@@ -433,9 +497,9 @@ void add_render(apps::Command program) {
         "  vesper render night.gltf --camera driver --samples 64 -o night.exr\n"
         "  vesper render night.gltf --camera driver --size 640x400 --indirect exact --paths 64 -o exact.png\n"
         "  mkdir drive && vesper render night.gltf --camera driver --frames 300 --dt 0.0333 -o drive/%04d.png\n");
-    command.callback([a, command] {
-        a->options = apps::options_of(
-            command, {"--output", "--log", "--glare-sources", "--stats", "--stats-json", "--plan", "--shadow-cache"});
+    command.callback_of_ranks([a, command] {
+        a->options = apps::options_of(command, {"--output", "--log", "--glare-sources", "--eye-out", "--stats",
+                                                "--stats-json", "--plan", "--shadow-cache"});
         run(*a);
     });
 }

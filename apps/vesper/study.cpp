@@ -13,6 +13,7 @@
 #include "io/file_gate.h"
 #include "picture_arguments.h"
 #include "print.h"
+#include "ranks.h"
 
 namespace vesper::commands {
 namespace {
@@ -50,14 +51,17 @@ void run(const StudyArguments& arguments, const std::string& what, const std::st
         pictures.back().name = names[i];
     }
     std::error_code error;
-    if (!fs::is_directory(arguments.folder) && !fs::create_directory(arguments.folder, error))
+    fs::create_directory(arguments.folder, error);  // another rank may have made it
+    if (!fs::is_directory(arguments.folder))
         throw Error("-o " + one_line(arguments.folder) + ": cannot be made a folder");
+    apps::Ranks::all().agree_on_files();
     render::ToneMapper mapper(device);
     Study all{arguments, settings, mapper, pictures, StudyPage(title)};
     all.page.paragraph(apps::format("Display from %.4g to %.4g cd/m\u00b2, %u bits. ", double(settings.display.low()),
                                     double(settings.display.high()), settings.display.bits) +
                        "Differences are of display codes.");
     study(all);
+    if (!apps::Ranks::all().is_first()) return;
     apps::write_text(all.file(what + ".html"), all.page.html());
     apps::print("%s\n", all.file(what + ".html").c_str());
 }
@@ -89,7 +93,7 @@ Command add_one(Command studies, const std::shared_ptr<StudyArguments>& a, const
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     apps::add_tone_options(command, a->tone);
     command.footer("Example:\n  vesper study " + name + " " + example + "\n");
-    command.callback([a, name, title, study] {
+    command.callback_of_ranks([a, name, title, study] {
         while (a->folder.size() > 1 && a->folder.ends_with('/')) a->folder.pop_back();
         run(*a, name, title, study);
     });

@@ -1,6 +1,7 @@
 // Studies of the tone operators: what their settings do to pictures. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,6 +24,14 @@ struct StudyArguments {
     apps::ToneArguments tone;
 };
 
+/// What one condition adds to a study: an operator, with a picture or over time.
+struct StudyPart {
+    std::vector<std::vector<std::string>> rows;
+    std::vector<apps::PlotLine> lines;
+    std::vector<StudyPage::Figure> shown;
+    std::vector<double> numbers;
+};
+
 /// What every study works with.
 struct Study {
     const StudyArguments& arguments;
@@ -34,6 +43,10 @@ struct Study {
     std::string file(const std::string& name) const { return arguments.folder + "/" + name; }
     /// The picture as an eye adapted to it sees it.
     render::ToneMapped map(const StudyPicture& picture, const render::ToneChainSettings& with) const;
+    /// The parts of so many conditions, in order. Each rank makes every size-th of them, with their files; the first
+    /// one has all, and others have none and are done.
+    std::vector<StudyPart> parts(const std::string& what, size_t conditions,
+                                 const std::function<StudyPart(size_t)>& make) const;
 };
 
 /// Operators that a study compares: the one given, which has to be among `candidates`, or all of those. Throws Error.

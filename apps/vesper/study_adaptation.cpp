@@ -80,8 +80,37 @@ void study_adaptation(Study& study) {
     const std::vector<double> times = moments(a.seconds);
     const Step steps[]{{"in", a.outside, a.inside}, {"out", a.inside, a.outside}};
     std::vector<std::vector<std::string>> rows;
-    apps::Progress progress("adaptation", unsigned(ops.size() * std::size(steps)));
-    for (const Step& step : steps) {
+    const auto make = [&](size_t condition) {
+        const Step& step = steps[condition / ops.size()];
+        const render::Operator op = ops[condition % ops.size()];
+        StudyPart part;
+        render::ToneChainSettings settings = study.settings;
+        settings.tone_operator = op;
+        const bool dashed = condition % ops.size() > 1;  // thresholds of two may be the same
+        part.lines.assign(3, {.name = apps::name_of(op), .points = {}, .dashed = dashed});
+        study.mapper.reset_adaptation();
+        look(study, settings, step.from, 0);
+        double before = 0;
+        for (const double t : times) {
+            const render::ToneMapped got = look(study, settings, step.to, t - before);
+            before = t;
+            const Sensitivity s = op == render::Operator::Pattanaik ? of_lagging(got, step.to)
+                                                                    : of_eye(got, settings.tone.observer, step.to);
+            const double light = render::shown_luminance(op, got.curve, step.to, settings.display);
+            part.lines[0].points.push_back({t, s.ratio});
+            part.lines[1].points.push_back({t, s.sigma});
+            part.lines[2].points.push_back({t, light});
+            part.rows.push_back({apps::name_of(op), step.name, format("%g", t), format("%g", step.to),
+                                 format("%.5f", s.pigment), format("%.6g", s.sigma),
+                                 s.threshold ? format("%.6g", *s.threshold) : "", format("%.5g", s.ratio),
+                                 format("%.5g", light)});
+        }
+        return part;
+    };
+    const std::vector<StudyPart> parts = study.parts("adaptation", std::size(steps) * ops.size(), make);
+    if (parts.empty()) return;
+    for (size_t i = 0; i < std::size(steps); ++i) {
+        const Step& step = steps[i];
         const std::string title = format("From %g to %g cd/m\u00b2", step.from, step.to),
                           name = std::string("adaptation-") + step.name;
         apps::LinePlot ratio{.title = title + ": threshold over that of the adapted eye",
@@ -102,31 +131,10 @@ void study_adaptation(Study& study) {
                              .y_name = "cd/m\u00b2 on the display",
                              .lines = {},
                              .log_x = true};
-        for (const render::Operator op : ops) {
-            render::ToneChainSettings settings = study.settings;
-            settings.tone_operator = op;
-            for (apps::LinePlot* plot : {&ratio, &sigma, &shown})
-                plot->lines.push_back({.name = apps::name_of(op),
-                                       .points = {},
-                                       .dashed = plot->lines.size() > 1});  // thresholds of two may be the same
-            study.mapper.reset_adaptation();
-            look(study, settings, step.from, 0);
-            double before = 0;
-            for (const double t : times) {
-                const render::ToneMapped got = look(study, settings, step.to, t - before);
-                before = t;
-                const Sensitivity s = op == render::Operator::Pattanaik ? of_lagging(got, step.to)
-                                                                        : of_eye(got, settings.tone.observer, step.to);
-                const double light = render::shown_luminance(op, got.curve, step.to, settings.display);
-                ratio.lines.back().points.push_back({t, s.ratio});
-                sigma.lines.back().points.push_back({t, s.sigma});
-                shown.lines.back().points.push_back({t, light});
-                rows.push_back({apps::name_of(op), step.name, format("%g", t), format("%g", step.to),
-                                format("%.5f", s.pigment), format("%.6g", s.sigma),
-                                s.threshold ? format("%.6g", *s.threshold) : "", format("%.5g", s.ratio),
-                                format("%.5g", light)});
-            }
-            progress.step();
+        for (const StudyPart& part : std::span(parts).subspan(i * ops.size(), ops.size())) {
+            rows.insert(rows.end(), part.rows.begin(), part.rows.end());
+            ratio.lines.push_back(part.lines[0]), sigma.lines.push_back(part.lines[1]);
+            shown.lines.push_back(part.lines[2]);
         }
         study.page.heading(title);
         for (const auto& [plot, kind] :

@@ -24,14 +24,11 @@ const std::vector<std::string> kBinsColumns{"picture",       "operator",        
 
 bool is_shown(uint32_t bins) { return bins == 16 || bins == 32 || bins == 64 || bins == 100; }
 
-struct Results {
-    std::vector<std::vector<std::string>> rows, answers;
-    Fewest shared_curve, whole_curve;  // over all pictures and operators
-    double of_default = 0;             // largest difference of the default's curve, codes
-};
-
-void study_one(Study& study, const StudyPicture& picture, render::Operator op, Results& all,
-               std::vector<double> worst[2], apps::Progress& progress) {
+// Rows: of all numbers of bins, and last the answer. Numbers: largest difference of the curve for each, codes, with
+// whole votes and with shared ones; last that of the default.
+StudyPart study_one(const Study& study, const StudyPicture& picture, render::Operator op) {
+    StudyPart part;
+    part.numbers.resize(2 * std::size(kBins) + 1);
     render::ToneChainSettings settings = study.settings;
     settings.tone_operator = op;
     const std::vector<double> luminances = luminances_of(picture);
@@ -53,7 +50,7 @@ void study_one(Study& study, const StudyPicture& picture, render::Operator op, R
         for (size_t i = 0; i < codes.size(); ++i) plot.lines.back().points.push_back({luminances[i], codes[i]});
     };
     add_curve("256, shared votes", finest_codes);
-    std::vector<StudyPage::Figure> shown{{stem + "-256-shared.png", "256 bins, shared votes: the finest"}};
+    part.shown.push_back({stem + "-256-shared.png", "256 bins, shared votes: the finest"});
     Fewest curve[2], most[2], pixels[2];
     for (const bool split : {true, false}) {
         const std::string votes = split ? "shared" : "whole";
@@ -66,27 +63,24 @@ void study_one(Study& study, const StudyPicture& picture, render::Operator op, R
             curve[split].add(bins, d.curve <= kLimit);
             most[split].add(bins, d.percentile <= kLimit);
             pixels[split].add(bins, d.largest <= kLimit);
-            worst[split][i] = std::max(worst[split][i], d.curve);
-            if (split && bins == render::HistogramSettings{}.bins) all.of_default = std::max(all.of_default, d.curve);
-            all.rows.push_back({picture.name, apps::name_of(op), votes, std::to_string(bins), format("%.4f", d.curve),
-                                format("%.0f", d.largest), format("%.0f", d.percentile), format("%.5f", d.mean)});
+            part.numbers[(split ? std::size(kBins) : 0) + i] = d.curve;
+            if (split && bins == render::HistogramSettings{}.bins) part.numbers.back() = d.curve;
+            part.rows.push_back({picture.name, apps::name_of(op), votes, std::to_string(bins), format("%.4f", d.curve),
+                                 format("%.0f", d.largest), format("%.0f", d.percentile), format("%.5f", d.mean)});
             if (is_shown(bins)) {
                 const std::string name = stem + "-" + std::to_string(bins) + "-" + votes;
                 apps::write_codes(study.file(name + ".png"), got, settings.display);
                 save_difference(study.file(name + "-difference.png"), got.extent.width, got.extent.height, d.map);
-                shown.push_back({name + ".png", std::to_string(bins) + " bins, " + votes + " votes"});
-                shown.push_back({name + "-difference.png", "difference to the finest: " + describe(d)});
+                part.shown.push_back({name + ".png", std::to_string(bins) + " bins, " + votes + " votes"});
+                part.shown.push_back({name + "-difference.png", "difference to the finest: " + describe(d)});
                 if (bins == 16 || bins == 100) add_curve(std::to_string(bins) + ", " + votes + " votes", codes);
             }
-            progress.step();
         }
     }
-    all.answers.push_back({picture.name, apps::name_of(op), curve[1].text(), curve[0].text(), most[1].text(),
-                           most[0].text(), pixels[1].text(), pixels[0].text()});
+    part.rows.push_back({picture.name, apps::name_of(op), curve[1].text(), curve[0].text(), most[1].text(),
+                         most[0].text(), pixels[1].text(), pixels[0].text()});
     apps::save_plot(study.file(stem + "-curves.png"), plot);
-    study.page.heading(picture.name + ", " + apps::name_of(op));
-    study.page.plot(stem + "-curves.png");
-    study.page.pictures(shown);
+    return part;
 }
 
 }  // namespace
@@ -94,13 +88,22 @@ void study_one(Study& study, const StudyPicture& picture, render::Operator op, R
 void study_bins(Study& study) {
     const std::vector<render::Operator> ops =
         studied_operators(study.arguments, histogram_operators(), "it does not adjust a histogram");
-    Results all;
-    std::vector<double> worst[2]{std::vector<double>(std::size(kBins)), std::vector<double>(std::size(kBins))};
-    {
-        apps::Progress progress("bins", unsigned(study.pictures.size() * ops.size() * 2 * std::size(kBins)));
-        for (const StudyPicture& picture : study.pictures)
-            for (const render::Operator op : ops) study_one(study, picture, op, all, worst, progress);
+    const std::vector<StudyPart> parts = study.parts("bins", study.pictures.size() * ops.size(), [&](size_t condition) {
+        return study_one(study, study.pictures[condition / ops.size()], ops[condition % ops.size()]);
+    });
+    if (parts.empty()) return;
+    std::vector<std::vector<std::string>> rows, answers;
+    Fewest shared_curve, whole_curve;  // over all pictures and operators
+    std::vector<double> worst(2 * std::size(kBins) + 1);
+    for (const StudyPart& part : parts) {
+        const std::string &picture = part.rows.back()[0], &op = part.rows.back()[1];
+        rows.insert(rows.end(), part.rows.begin(), part.rows.end() - 1), answers.push_back(part.rows.back());
+        for (size_t i = 0; i < worst.size(); ++i) worst[i] = std::max(worst[i], part.numbers[i]);
+        study.page.heading(picture + ", " + op);
+        study.page.plot(picture + "-" + op + "-curves.png");
+        study.page.pictures(part.shown);
     }
+    const double of_default = worst.back();  // codes
     apps::LinePlot plot{
         .title = "Largest difference of the curve to 256 bins with shared votes, all pictures and operators",
         .x_name = "bins",
@@ -112,12 +115,13 @@ void study_bins(Study& study) {
     for (const bool split : {true, false}) {
         plot.lines.push_back({.name = split ? "shared votes" : "whole votes", .points = {}, .marks = true});
         for (size_t i = 0; i < std::size(kBins); ++i) {
-            plot.lines.back().points.push_back({double(kBins[i]), worst[split][i]});
-            (split ? all.shared_curve : all.whole_curve).add(kBins[i], worst[split][i] <= kLimit);
+            const double codes = worst[(split ? std::size(kBins) : 0) + i];
+            plot.lines.back().points.push_back({double(kBins[i]), codes});
+            (split ? shared_curve : whole_curve).add(kBins[i], codes <= kLimit);
         }
     }
     apps::save_plot(study.file("bins.png"), plot);
-    apps::write_text(study.file("bins.csv"), csv_of(kBinsColumns, all.rows));
+    apps::write_text(study.file("bins.csv"), csv_of(kBinsColumns, rows));
     const std::vector<std::string> columns{"picture",
                                            "operator",
                                            "curve, shared votes",
@@ -129,19 +133,19 @@ void study_bins(Study& study) {
     const std::string answer = format(
         "Fewest bins from which on every curve is within %g code of that of 256 bins with shared votes: %s with shared "
         "votes, %s with whole votes.",
-        kLimit, all.shared_curve.text().c_str(), all.whole_curve.text().c_str());
+        kLimit, shared_curve.text().c_str(), whole_curve.text().c_str());
     const uint32_t standard = render::HistogramSettings{}.bins;
-    const bool follows = all.of_default <= kLimit;
+    const bool follows = of_default <= kLimit;
     const std::string verdict =
-        format("The default of %u bins with shared votes is %.2f codes away at most: it %s.", standard, all.of_default,
+        format("The default of %u bins with shared votes is %.2f codes away at most: it %s.", standard, of_default,
                follows ? "follows" : "does not follow from this criterion");
     study.page.heading("Answer");
     study.page.paragraph(answer + " " + verdict);
-    study.page.table(columns, all.answers);
+    study.page.table(columns, answers);
     study.page.plot("bins.png");
     study.page.heading("All figures");
-    study.page.table(kBinsColumns, all.rows);
-    for (const auto& row : all.answers)
+    study.page.table(kBinsColumns, rows);
+    for (const auto& row : answers)
         apps::print(
             "%s, %s: within %g code from so many bins on with shared (whole) votes: curve %s (%s), 99 %% of pixels %s "
             "(%s), every pixel %s (%s)\n",

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "print.h"
+#include "ranks.h"
 #include "study.h"
 
 namespace vesper::commands {
@@ -32,7 +33,72 @@ double code_of(const vision::DisplayCurve& curve, double luminance, uint32_t lar
     return (low + high) / 2 * largest;
 }
 
+void write_texts(apps::PacketWriter& packet, const std::vector<std::string>& texts) {
+    packet.value(texts.size());
+    for (const std::string& text : texts) packet.list(text);
+}
+
+std::vector<std::string> read_texts(apps::PacketReader& packet) {
+    std::vector<std::string> texts;
+    for (auto left = packet.value<size_t>(); left > 0; --left) texts.push_back(packet.text());
+    return texts;
+}
+
+apps::Bytes bytes_of(const StudyPart& part) {
+    apps::PacketWriter packet;
+    packet.value(part.rows.size());
+    for (const std::vector<std::string>& row : part.rows) write_texts(packet, row);
+    packet.value(part.lines.size());
+    for (const apps::PlotLine& line : part.lines)
+        packet.list(line.name), packet.list(line.points), packet.value(line.dashed), packet.value(line.marks);
+    packet.value(part.shown.size());
+    for (const StudyPage::Figure& figure : part.shown) packet.list(figure.file), packet.list(figure.caption);
+    packet.list(part.numbers);
+    return packet.take();
+}
+
+StudyPart part_of(const apps::Bytes& bytes) {
+    apps::PacketReader packet(bytes);
+    StudyPart part;
+    for (auto left = packet.value<size_t>(); left > 0; --left) part.rows.push_back(read_texts(packet));
+    for (auto left = packet.value<size_t>(); left > 0; --left) {
+        apps::PlotLine& line = part.lines.emplace_back();
+        line.name = packet.text(), line.points = packet.list<glm::dvec2>();
+        packet.value(line.dashed), packet.value(line.marks);
+    }
+    for (auto left = packet.value<size_t>(); left > 0; --left) {
+        StudyPage::Figure& figure = part.shown.emplace_back();
+        figure.file = packet.text(), figure.caption = packet.text();
+    }
+    part.numbers = packet.list<double>();
+    return part;
+}
+
 }  // namespace
+
+std::vector<StudyPart> Study::parts(const std::string& what, size_t conditions,
+                                    const std::function<StudyPart(size_t)>& make) const {
+    apps::Ranks& ranks = apps::Ranks::all();
+    apps::Progress progress(what, unsigned(conditions));
+    std::vector<StudyPart> all;
+    const auto rank_of = [&](size_t condition) { return int(condition % size_t(ranks.size())); };
+    const auto take_until = [&](size_t condition) {
+        for (; all.size() < condition; progress.step())
+            all.push_back(part_of(ranks.receive(rank_of(all.size()), apps::Ranks::Stream::Records)));
+    };
+    for (size_t i = 0; i < conditions; ++i) {
+        if (rank_of(i) != ranks.rank()) continue;
+        StudyPart part = make(i);
+        if (!ranks.is_first()) {
+            ranks.send(0, apps::Ranks::Stream::Records, bytes_of(part));
+            continue;
+        }
+        take_until(i);
+        all.push_back(std::move(part)), progress.step();
+    }
+    if (ranks.is_first()) take_until(conditions);
+    return all;
+}
 
 render::ToneMapped Study::map(const StudyPicture& picture, const render::ToneChainSettings& with) const {
     mapper.reset_adaptation();

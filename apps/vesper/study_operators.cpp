@@ -65,10 +65,54 @@ void study_operators(Study& study) {
                "percentile of square degrees. Lost: share of "
                "square degrees where the target is visible in the scene and not on the display; gained: the reverse.",
                target.size, contrast, target.age));
-    apps::Progress progress("operators", unsigned(study.pictures.size() * ops.size()));
-    for (const StudyPicture& picture : study.pictures) {
+    const auto make = [&](size_t condition) {
+        const StudyPicture& picture = study.pictures[condition / ops.size()];
+        const render::Operator op = ops[condition % ops.size()];
         const std::vector<double> backgrounds = degree_luminances(picture), luminances = luminances_of(picture);
-        if (backgrounds.empty()) continue;
+        StudyPart part;
+        if (backgrounds.empty()) return part;
+        render::ToneChainSettings settings = study.settings;
+        settings.tone_operator = op;
+        const render::ToneMapped got = study.map(picture, settings);
+        const auto display = [&](double l) { return render::shown_luminance(op, got.curve, l, settings.display); };
+        std::vector<double> contrasts, scene, screen, displayed;
+        double visible_scene = 0, visible_shown = 0, lost = 0, gained = 0;
+        for (const double l : backgrounds) {
+            const double low = display(l), high = display(l * (1 + contrast));
+            displayed.push_back(low), contrasts.push_back(high / low - 1);
+            scene.push_back(vision::visibility_level(l * (1 + contrast), l, target)),
+                screen.push_back(vision::visibility_level(high, low, target));
+            const bool in_scene = scene.back() >= 1, on_screen = screen.back() >= 1;
+            visible_scene += in_scene, visible_shown += on_screen, lost += in_scene && !on_screen,
+                gained += !in_scene && on_screen;
+        }
+        const double count = double(backgrounds.size());
+        part.rows.push_back({picture.name, apps::name_of(op), format("%.3f", log_range(backgrounds)),
+                             format("%.3f", log_range(displayed)), format("%g", contrast),
+                             format("%.4f", percentile(contrasts, 0.5)), format("%.3f", percentile(scene, 0.5)),
+                             format("%.3f", percentile(screen, 0.5)), format("%.4f", visible_scene / count),
+                             format("%.4f", visible_shown / count), format("%.4f", lost / count),
+                             format("%.4f", gained / count)});
+        part.lines.push_back({.name = apps::name_of(op),
+                              .points = {},
+                              .dashed = op == render::Operator::Durand});  // often over ferwerda
+        for (const double l : luminances)
+            part.lines.back().points.push_back(
+                {l, vision::visibility_level(display(l * (1 + contrast)), display(l), target)});
+        const std::string name = picture.name + "-" + apps::name_of(op) + ".png";
+        apps::write_codes(study.file(name), got, settings.display);
+        part.shown.push_back(
+            {name, format("%s: contrast %.3f, visibility level %.2f (scene %.2f), lost %.1f %%, gained %.1f %%",
+                          apps::name_of(op).c_str(), percentile(contrasts, 0.5), percentile(screen, 0.5),
+                          percentile(scene, 0.5), 100 * lost / count, 100 * gained / count)});
+        return part;
+    };
+    const std::vector<StudyPart> parts = study.parts("operators", study.pictures.size() * ops.size(), make);
+    if (parts.empty()) return;
+    for (size_t p = 0; p < study.pictures.size(); ++p) {
+        const StudyPicture& picture = study.pictures[p];
+        const std::vector<double> luminances = luminances_of(picture);
+        if (luminances.empty()) continue;
         apps::LinePlot levels{
             .title = picture.name + format(": visibility level of a target of %g', contrast %g", target.size, contrast),
             .x_name = "luminance of the background in the scene, cd/m\u00b2",
@@ -80,43 +124,12 @@ void study_operators(Study& study) {
         for (const double l : luminances)
             levels.lines[0].points.push_back({l, vision::visibility_level(l * (1 + contrast), l, target)});
         std::vector<StudyPage::Figure> shown;
-        for (const render::Operator op : ops) {
-            render::ToneChainSettings settings = study.settings;
-            settings.tone_operator = op;
-            const render::ToneMapped got = study.map(picture, settings);
-            const auto display = [&](double l) { return render::shown_luminance(op, got.curve, l, settings.display); };
-            std::vector<double> contrasts, scene, screen, displayed;
-            double visible_scene = 0, visible_shown = 0, lost = 0, gained = 0;
-            for (const double l : backgrounds) {
-                const double low = display(l), high = display(l * (1 + contrast));
-                displayed.push_back(low), contrasts.push_back(high / low - 1);
-                scene.push_back(vision::visibility_level(l * (1 + contrast), l, target)),
-                    screen.push_back(vision::visibility_level(high, low, target));
-                const bool in_scene = scene.back() >= 1, on_screen = screen.back() >= 1;
-                visible_scene += in_scene, visible_shown += on_screen, lost += in_scene && !on_screen,
-                    gained += !in_scene && on_screen;
-            }
-            const double count = double(backgrounds.size());
-            rows.push_back({picture.name, apps::name_of(op), format("%.3f", log_range(backgrounds)),
-                            format("%.3f", log_range(displayed)), format("%g", contrast),
-                            format("%.4f", percentile(contrasts, 0.5)), format("%.3f", percentile(scene, 0.5)),
-                            format("%.3f", percentile(screen, 0.5)), format("%.4f", visible_scene / count),
-                            format("%.4f", visible_shown / count), format("%.4f", lost / count),
-                            format("%.4f", gained / count)});
-            levels.lines.push_back({.name = apps::name_of(op),
-                                    .points = {},
-                                    .dashed = op == render::Operator::Durand});  // often over ferwerda
-            for (const double l : luminances)
-                levels.lines.back().points.push_back(
-                    {l, vision::visibility_level(display(l * (1 + contrast)), display(l), target)});
-            const std::string name = picture.name + "-" + apps::name_of(op) + ".png";
-            apps::write_codes(study.file(name), got, settings.display);
-            shown.push_back(
-                {name, format("%s: contrast %.3f, visibility level %.2f (scene %.2f), lost %.1f %%, gained %.1f %%",
-                              apps::name_of(op).c_str(), percentile(contrasts, 0.5), percentile(screen, 0.5),
-                              percentile(scene, 0.5), 100 * lost / count, 100 * gained / count)});
-            progress.step();
+        for (const StudyPart& part : std::span(parts).subspan(p * ops.size(), ops.size())) {
+            rows.insert(rows.end(), part.rows.begin(), part.rows.end());
+            levels.lines.insert(levels.lines.end(), part.lines.begin(), part.lines.end());
+            shown.insert(shown.end(), part.shown.begin(), part.shown.end());
         }
+        if (shown.empty()) continue;
         apps::save_plot(study.file(picture.name + "-visibility.png"), levels);
         study.page.heading(picture.name);
         study.page.pictures(shown);

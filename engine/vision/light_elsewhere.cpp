@@ -137,10 +137,10 @@ public:
         : to_(to),
           pictures_(pictures),
           own_(own),
+          other_(other),
           from_(pictures[other]),
           nodes_(from_.image),
           shown_(Shown::of(to.own_)) {
-        giver_.picture = other;
         bounds_ = {Pyramid(pictures[own]), shown_.pyramid};
         for (size_t k = 0; k < pictures.size(); ++k)
             if (k != own && k != other) bounds_.emplace_back(pictures[k]);
@@ -167,6 +167,7 @@ public:
             weights = std::move(rest);
         }
         giver_.columns = columns_.size();
+        number_nodes();
         return std::move(giver_);
     }
 
@@ -213,7 +214,21 @@ private:
         return true;
     }
 
-    double share_of(dvec3 direction) const { return share(pictures_, own_, giver_.picture, direction); }
+    // From nodes of the picture to their places among those that are taken.
+    void number_nodes() {
+        std::vector<uint32_t>& taken = giver_.nodes;
+        for (const Near& near : giver_.near) taken.push_back(near.node);
+        for (const Far& far : giver_.far) taken.push_back(far.node);
+        std::sort(taken.begin(), taken.end());
+        taken.erase(std::unique(taken.begin(), taken.end()), taken.end());
+        const auto number = [&](uint32_t& node) {
+            node = uint32_t(std::lower_bound(taken.begin(), taken.end(), node) - taken.begin());
+        };
+        for (Near& near : giver_.near) number(near.node);
+        for (Far& far : giver_.far) number(far.node);
+    }
+
+    double share_of(dvec3 direction) const { return share(pictures_, own_, other_, direction); }
     static double far_apart(double distance) { return std::min(kFar * distance, kWidest); }
     // Between nodes of a level at a place, rad.
     double spacing(int level, dvec2 place) const {
@@ -257,7 +272,7 @@ private:
 
     const LightElsewhere& to_;
     std::span<const EyePicture> pictures_;
-    size_t own_;
+    size_t own_, other_;
     const EyePicture& from_;
     LightNodes nodes_;
     Shown shown_;
@@ -299,7 +314,7 @@ void LightElsewhere::add(std::vector<vec4>& level, const Splash& splash, int str
     }
 }
 
-OffscreenLight LightElsewhere::of(std::span<const LightSums> sums, std::span<const UnseenLamp> lamps) const {
+OffscreenLight LightElsewhere::of(std::span<const std::vector<vec3>> light, std::span<const UnseenLamp> lamps) const {
     OffscreenLight beyond;
     std::vector<int> strides;
     for (int l = 0; l <= levels_; ++l) {
@@ -311,19 +326,20 @@ OffscreenLight LightElsewhere::of(std::span<const LightSums> sums, std::span<con
     std::array<std::vector<float>, 3> veil;
     veil.fill(std::vector<float>(places, 0));
     std::vector<vec3> columns;
-    for (const Giver& giver : givers_) {
-        const LightSums& from = sums[giver.picture];
+    for (size_t picture = 0; picture < givers_.size(); ++picture) {
+        const Giver& giver = givers_[picture];
+        const std::vector<vec3>& from = light[picture];
         for (const Near& near : giver.near) {
-            const vec3 light = near.weight * from.at(near.node);
-            if (light != vec3(0)) add(beyond.levels[near.splash.level], near.splash, strides[near.splash.level], light);
+            const vec3 lx = near.weight * from[near.node];
+            if (lx != vec3(0)) add(beyond.levels[near.splash.level], near.splash, strides[near.splash.level], lx);
         }
         columns.assign(giver.columns, vec3(0));
-        for (const Far& far : giver.far) columns[far.column] += far.weight * from.at(far.node);
+        for (const Far& far : giver.far) columns[far.column] += far.weight * from[far.node];
         for (size_t i = 0; i < giver.columns; ++i)
             for (int c = 0; c < 3; ++c) {
-                const float light = columns[i][c], *weights = &giver.veils[i * places];
+                const float lx = columns[i][c], *weights = &giver.veils[i * places];
                 float* sum = veil[size_t(c)].data();
-                for (size_t p = 0; p < places; ++p) sum[p] += light * weights[p];
+                for (size_t p = 0; p < places; ++p) sum[p] += lx * weights[p];
             }
     }
     for (const UnseenLamp& lamp : lamps) {
@@ -356,7 +372,8 @@ OffscreenLight LightElsewhere::of(std::span<const LightSums> sums, std::span<con
 uint64_t LightElsewhere::bytes() const {
     uint64_t sum = 0;
     for (const Giver& g : givers_)
-        sum += g.near.size() * sizeof(Near) + g.far.size() * sizeof(Far) + g.veils.size() * sizeof(float);
+        sum += g.nodes.size() * sizeof(uint32_t) + g.near.size() * sizeof(Near) + g.far.size() * sizeof(Far) +
+               g.veils.size() * sizeof(float);
     return sum;
 }
 

@@ -43,9 +43,11 @@ class LightElsewhere {
 public:
     LightElsewhere(const EyeScatter&, std::span<const EyePicture> pictures, size_t own);
 
-    /// Off-screen light of a frame. `sums`: of each picture, including the own one. Borders (EyePicture::guard) are
-    /// kGuard wide.
-    OffscreenLight of(std::span<const LightSums> sums, std::span<const UnseenLamp> lamps) const;
+    /// The nodes of a picture whose light it takes, ascending.
+    const std::vector<uint32_t>& nodes(size_t picture) const { return givers_[picture].nodes; }
+    /// Off-screen light of a frame. `light`: of each picture, including the own one, that of its nodes()
+    /// (LightSums::at), lx. Borders (EyePicture::guard) are kGuard wide.
+    OffscreenLight of(std::span<const std::vector<glm::vec3>> light, std::span<const UnseenLamp> lamps) const;
     /// Bytes of host memory.
     uint64_t bytes() const;
 
@@ -59,7 +61,7 @@ private:
         std::array<float, 5> x{}, y{};  ///< y: times cd/m^2 of a texel per lx
     };
     struct Near {
-        uint32_t node;
+        uint32_t node;  // index in Giver::nodes
         float weight;
         Splash splash;
     };
@@ -69,7 +71,7 @@ private:
     };
     /// Contributions of one other picture.
     struct Giver {
-        size_t picture = 0;
+        std::vector<uint32_t> nodes;
         std::vector<Near> near;
         std::vector<Far> far;
         size_t columns = 0;

@@ -37,6 +37,13 @@ glm::vec3 LightSums::at(uint32_t node) const {
     return node < steradians_.size() ? pixel(node) : coarse_[node - steradians_.size()];
 }
 
+std::vector<glm::vec3> LightSums::at(std::span<const uint32_t> nodes) const {
+    std::vector<glm::vec3> light;
+    light.reserve(nodes.size());
+    for (const uint32_t node : nodes) light.push_back(at(node));
+    return light;
+}
+
 void LightSums::take(std::span<const float> rgba) {
     rgba_ = rgba;
     const size_t pixels = steradians_.size();

@@ -35,6 +35,7 @@ public:
     void take(std::span<const float> rgba);
     /// Of a node (LightNodes::index): RGB lx, on a plane at the eye that faces it.
     glm::vec3 at(uint32_t node) const;
+    std::vector<glm::vec3> at(std::span<const uint32_t> nodes) const;
     const LightNodes& nodes() const { return nodes_; }
 
 private:

@@ -112,6 +112,14 @@ private:
     std::vector<std::pair<dvec3, double>> others_;
 };
 
+/// What a picture takes of all.
+std::vector<std::vector<glm::vec3>> taken(const vision::LightElsewhere& elsewhere,
+                                          const std::vector<vision::LightSums>& sums) {
+    std::vector<std::vector<glm::vec3>> light;
+    for (size_t i = 0; i < sums.size(); ++i) light.push_back(sums[i].at(elsewhere.nodes(i)));
+    return light;
+}
+
 /// What falls on the retina of one of them.
 Plane retina(const EyeScatter& psf, const std::vector<EyePicture>& pictures, const std::vector<Plane>& scenes,
              size_t own, const std::vector<vision::UnseenLamp>& lamps = {}) {
@@ -122,7 +130,8 @@ Plane retina(const EyeScatter& psf, const std::vector<EyePicture>& pictures, con
         sums.emplace_back(pictures[i].image);
         sums.back().take(values.back());
     }
-    const vision::OffscreenLight beyond = vision::LightElsewhere(psf, pictures, own).of(sums, lamps);
+    const vision::LightElsewhere elsewhere(psf, pictures, own);
+    const vision::OffscreenLight beyond = elsewhere.of(taken(elsewhere, sums), lamps);
     return scatter(scenes[own], vision::fit_scatter(psf, pictures[own].image, kStrip), {}, {}, beyond);
 }
 
@@ -228,7 +237,8 @@ TEST(LightElsewhere, ALampCrossesASeam) {
             }
             for (size_t i = 0; i < 3; ++i) sums[i].take(values[i]);
             for (size_t own = 0; own < 3; ++own) {
-                const Plane seen = scatter(scenes[own], fits[own], {}, {}, elsewhere[own].of(sums, {}));
+                const Plane seen =
+                    scatter(scenes[own], fits[own], {}, {}, elsewhere[own].of(taken(elsewhere[own], sums), {}));
                 const ivec2 at(own == 0   ? kGuard + 5
                                : own == 1 ? seen.size.x - kGuard - 5
                                           : seen.size.x / 2,

@@ -1,0 +1,312 @@
+#include "ranks.h"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+#include <thread>
+
+#include "base/digest.h"
+#include "io/file_gate.h"
+#include "io/read_file.h"
+#include "message_passing.h"
+#include "print.h"
+
+namespace vesper::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kBeat = std::chrono::milliseconds(250);
+constexpr int kEndCode = 2;
+const MessagePassing kAlone;
+Ranks* started = nullptr;
+
+double since(Clock::time_point time) { return std::chrono::duration<double>(Clock::now() - time).count(); }
+
+int number_in(std::initializer_list<const char*> names, int otherwise) {
+    for (const char* name : names)
+        if (const char* value = std::getenv(name)) return std::atoi(value);
+    return otherwise;
+}
+
+// Between looks for a message that was waited for so long: at first none, for others are often as fast; later so that
+// they have the processor.
+void rest(double seconds) {
+    if (seconds > 1e-4) std::this_thread::sleep_for(std::chrono::microseconds(seconds < 5e-3 ? 50 : 200));
+}
+
+// Beside this program, or where it is installed.
+const MessagePassing* load() {
+    std::error_code failed;
+    const fs::path programs = fs::read_symlink("/proc/self/exe", failed).parent_path();
+    std::string problem = "vesper-mpi.so is not there";
+    for (const fs::path& file :
+         {programs / "vesper-mpi.so", (programs / VESPER_MPI_FROM_PROGRAMS).lexically_normal()}) {
+        if (!fs::exists(file, failed)) continue;
+        // Parts of Open MPI look for its symbols among those of all.
+        void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL);
+        if (!library) {
+            problem = dlerror();
+            continue;
+        }
+        const auto start = reinterpret_cast<StartMessagePassing>(dlsym(library, kStartMessagePassing));
+        if (const MessagePassing* passing = start ? start() : nullptr) return passing;
+        problem = "MPI does not start";
+    }
+    throw Error("several processes were started together, but they cannot reach each other: " + problem);
+}
+
+}  // namespace
+
+struct Ranks::Shared {
+    const MessagePassing* passing = &kAlone;
+    std::mutex mutex;  // of what `passing` offers, and of the following
+    std::vector<std::string> roles, hosts;
+    std::vector<Clock::time_point> heard;
+    std::atomic<bool> over{false};
+    bool agreed = false, failed = false;
+    std::thread beats;
+
+    void check(int error) const {
+        if (error != 0) throw Error(std::string("messages to other ranks: ") + passing->text_of(error));
+    }
+    std::string name(int rank) const {
+        const std::string &role = roles[size_t(rank)], &host = hosts[size_t(rank)];
+        std::string about = role;
+        if (!host.empty()) about += (about.empty() ? "on " : ", on ") + host;
+        return "rank " + std::to_string(rank) + (about.empty() ? "" : " (" + about + ")");
+    }
+    std::optional<Bytes> take(int from, Stream stream) {
+        long bytes = -1;
+        check(passing->look(from, int(stream), &bytes));
+        if (bytes < 0) return std::nullopt;
+        Bytes taken(static_cast<size_t>(bytes));
+        check(passing->take(from, int(stream), taken.data(), taken.size()));
+        return taken;
+    }
+    void move_on() {
+        size_t left = 0;
+        check(passing->move_on(&left));
+    }
+    [[noreturn]] void end(const std::string& text) {
+        print_error("vesper", text);
+        passing->end_all(kEndCode);
+        std::_Exit(kEndCode);
+    }
+    // Of the first rank to all others, and of these to the first.
+    void beat() {
+        Clock::time_point last = Clock::now();
+        while (!over) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            const std::scoped_lock lock(mutex);
+            try {
+                move_on();
+                if (Clock::now() - last < kBeat) continue;
+                // Whoever was stopped itself has heard nobody.
+                if (since(last) > kSilence / 2) heard.assign(heard.size(), Clock::now());
+                last = Clock::now();
+                for (int other = 0; other < passing->size; ++other) {
+                    if (other == passing->rank || (passing->rank != 0 && other != 0)) continue;
+                    check(passing->send(other, int(Stream::Beats), nullptr, 0));
+                    while (take(other, Stream::Beats)) heard[size_t(other)] = Clock::now();
+                    // The first rank is to name who is silent; where it is silent itself the others do.
+                    const double longest = passing->rank == 0 ? kSilence : kSilence + 0.5;
+                    if (since(heard[size_t(other)]) > longest && !over)
+                        end(name(other) + " has been silent for " + format("%.0f s", kSilence) + ": the run ends");
+                }
+            } catch (const Error& error) {
+                end(error.what());
+            }
+        }
+    }
+};
+
+Ranks& Ranks::all() {
+    static Ranks ranks;
+    started = &ranks;
+    return ranks;
+}
+
+void Ranks::finish() {
+    if (!started || started->size() == 1) return;
+    Shared& shared = *started->shared_;
+    started->exchange(Stream::Start, {});
+    shared.over = true;
+    shared.beats.join();
+    for (size_t left = 1; left > 0;) shared.check(shared.passing->move_on(&left));
+    shared.passing->finish();
+}
+
+std::string Ranks::fail(const std::string& text) {
+    if (!several()) return text;
+    if (!started) try {
+            all();
+        } catch (const Error& error) {
+            return own_number() == 0 ? error.what() : "";
+        }
+    Shared& shared = *started->shared_;
+    if (shared.agreed) shared.end(started->name(started->rank()) + ": " + text);
+    const std::vector<std::string> failures = started->start(text, {});
+    const auto same = [&](const std::string& other) { return other == text; };
+    if (std::ranges::find_if(failures, same) - failures.begin() != started->rank()) return "";  // another one prints it
+    return std::ranges::all_of(failures, same) ? text : started->name(started->rank()) + ": " + text;
+}
+
+bool Ranks::several() { return number_in({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}, 1) > 1; }
+
+int Ranks::own_number() {
+    return several() ? number_in({"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK", "SLURM_PROCID"}, 0) : 0;
+}
+
+Ranks::Ranks() : shared_(std::make_unique<Shared>()) {
+    Shared& s = *shared_;
+    if (several()) {
+        s.passing = load();
+        if (s.passing->size == 1)
+            throw Error("several processes were started together, but MPI knows of one: with srun, give --mpi=pmix");
+    }
+    const auto size = size_t(s.passing->size);
+    s.roles.resize(size), s.hosts.resize(size);
+    s.heard.assign(size, Clock::now());
+    if (size > 1) s.beats = std::thread([&s] { s.beat(); });
+}
+
+Ranks::~Ranks() {
+    shared_->over = true;
+    if (shared_->beats.joinable()) shared_->beats.join();
+}
+
+int Ranks::rank() const { return shared_->passing->rank; }
+int Ranks::size() const { return shared_->passing->size; }
+
+std::string Ranks::name(int rank) const {
+    const std::scoped_lock lock(shared_->mutex);
+    return shared_->name(rank);
+}
+
+void Ranks::set_role(int rank, const std::string& role) {
+    const std::scoped_lock lock(shared_->mutex);
+    shared_->roles.at(size_t(rank)) = role;
+}
+
+void Ranks::send(int to, Stream stream, Bytes bytes) {
+    const std::scoped_lock lock(shared_->mutex);
+    shared_->check(shared_->passing->send(to, int(stream), bytes.data(), bytes.size()));
+}
+
+std::optional<Bytes> Ranks::poll(int from, Stream stream) {
+    const std::scoped_lock lock(shared_->mutex);
+    shared_->move_on();
+    return shared_->take(from, stream);
+}
+
+Bytes Ranks::receive(int from, Stream stream) {
+    const Clock::time_point begin = Clock::now();
+    for (;;) {
+        if (auto bytes = poll(from, stream)) return std::move(*bytes);
+        rest(since(begin));
+    }
+}
+
+Bytes Ranks::broadcast(Stream stream, Bytes bytes) {
+    if (!is_first()) return receive(0, stream);
+    for (int other = 1; other < size(); ++other) send(other, stream, bytes);
+    return bytes;
+}
+
+std::vector<Bytes> Ranks::gather(Stream stream, Bytes bytes) {
+    if (!is_first()) {
+        send(0, stream, std::move(bytes));
+        return {};
+    }
+    std::vector<Bytes> all;
+    all.push_back(std::move(bytes));
+    for (int other = 1; other < size(); ++other) all.push_back(receive(other, stream));
+    return all;
+}
+
+std::vector<Bytes> Ranks::exchange(Stream stream, Bytes bytes) {
+    std::vector<Bytes> all = gather(stream, std::move(bytes));
+    PacketWriter packet;
+    for (const Bytes& one : all) packet.list(one);
+    const Bytes joined = broadcast(stream, packet.take());
+    if (is_first()) return all;
+    for (PacketReader reader(joined); !reader.at_end();) all.push_back(reader.list<std::byte>());
+    return all;
+}
+
+std::vector<Ranks::Arrival> Ranks::arrivals(Stream stream) {
+    const Clock::time_point begin = Clock::now();
+    std::vector<Arrival> all(static_cast<size_t>(size()));
+    std::vector<bool> here(all.size(), false);
+    here[size_t(rank())] = true;
+    while (!std::ranges::all_of(here, [](bool one) { return one; })) {
+        for (int other = 0; other < size(); ++other) {
+            if (here[size_t(other)]) continue;
+            if (auto bytes = poll(other, stream)) {
+                all[size_t(other)] = {std::move(*bytes), since(begin)};
+                here[size_t(other)] = true;
+            }
+        }
+        rest(since(begin));
+    }
+    return all;
+}
+
+// Says what this rank has come to, and hears it of all: why they failed, if they did.
+std::vector<std::string> Ranks::start(const std::string& failure, const std::vector<Sameness>& says) {
+    PacketWriter own;
+    own.list(std::string(shared_->passing->host)), own.list(failure);
+    for (const Sameness& one : says) own.list(one.value);
+    said_ = exchange(Stream::Start, own.take());
+    shared_->agreed = true;
+    std::vector<std::string> failures;
+    for (size_t other = 0; other < said_.size(); ++other) {
+        PacketReader packet(said_[other]);
+        const std::string host = packet.text();
+        failures.push_back(packet.text());
+        const std::scoped_lock lock(shared_->mutex);
+        shared_->hosts[other] = host;
+    }
+    return failures;
+}
+
+void Ranks::agree(const std::vector<Sameness>& says) {
+    const std::vector<std::string> failures = start("", says);
+    if (std::ranges::any_of(failures, [](const std::string& text) { return !text.empty(); })) throw AgreedError("");
+    for (size_t other = 1; other < said_.size(); ++other) {
+        PacketReader first(said_.front()), packet(said_[other]);
+        for (int i = 0; i < 2; ++i) first.text(), packet.text();
+        for (const Sameness& one : says)
+            if (first.text() != packet.text())
+                throw AgreedError(is_first() ? name(int(other)) + " has " + one.what + " than " + name(0) : "");
+    }
+}
+
+void Ranks::agree_on_files() {
+    if (size() == 1) return;
+    const Digest::Value files = io::contents_read();
+    const std::vector<uint8_t> program = io::read_file("/proc/self/exe", uint64_t{1} << 30);
+    Digest build;
+    build.add_list(program);
+    agree({{"another build of Vesper", hexadecimal(build.value())}, {"other files", hexadecimal(files)}});
+}
+
+void Ranks::in_turns(const std::function<void()>& task) {
+    const std::vector<std::string>& hosts = shared_->hosts;
+    std::vector<int> turns;
+    for (size_t i = 0; i < hosts.size(); ++i)
+        turns.push_back(int(std::count(hosts.begin(), hosts.begin() + ptrdiff_t(i), hosts[i])));
+    for (int turn = 0; turn <= *std::ranges::max_element(turns); ++turn) {
+        if (turns[size_t(rank())] == turn) task();
+        if (size() > 1) exchange(Stream::Start, {});
+    }
+}
+
+}  // namespace vesper::apps

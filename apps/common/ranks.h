@@ -1,0 +1,92 @@
+// The processes that mpirun or srun has started together. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "packet.h"
+
+namespace vesper::apps {
+
+/// What ended the start of all ranks: a text where this rank is the one to print it, else an empty one.
+class AgreedError : public Error {
+public:
+    using Error::Error;
+};
+
+/// The processes of one run, which are alike but for their number; or this process alone. Messages of one stream from
+/// one rank to another arrive whole and in order. While it lives a thread tells the others every 0.25 s that this
+/// process does: one that is silent for kSilence ends the run with a line that names it, and exit code 2. Functions
+/// throw Error; one thread may call them.
+class Ranks {
+public:
+    static constexpr double kSilence = 4;  ///< s
+    enum class Stream : uint8_t { Beats, Start, Events, Nodes, Light, Statistics, Ready, Records, Eyes, Pictures };
+
+    /// Those that were started together with this process. The first call starts to talk to them.
+    static Ranks& all();
+    /// Whether there are others, before any talk: as the environment says.
+    static bool several();
+    /// Number of this process, as the environment says; 0 without others.
+    static int own_number();
+    /// At the end of a run, waits until all have come so far. Does nothing where all() was never called.
+    static void finish();
+    /// This process cannot go on, and so none can. During the start every rank comes to know; returns what this one is
+    /// to print of it, or nothing. Later this ends the run at once.
+    static std::string fail(const std::string& text);
+
+    int rank() const;
+    int size() const;
+    bool is_first() const { return rank() == 0; }
+    /// "rank 2 (right, on node7)", for messages.
+    std::string name(int rank) const;
+    /// What a rank does, for name(); to be said alike on all.
+    void set_role(int rank, const std::string& role);
+
+    void send(int to, Stream stream, Bytes bytes);
+    Bytes receive(int from, Stream stream);
+    std::optional<Bytes> poll(int from, Stream stream);
+    /// Of the first rank, on all.
+    Bytes broadcast(Stream stream, Bytes bytes);
+    /// Of all ranks, in their order, on the first; elsewhere nothing.
+    std::vector<Bytes> gather(Stream stream, Bytes bytes);
+    /// The same on all.
+    std::vector<Bytes> exchange(Stream stream, Bytes bytes);
+    /// Waits, and does `meanwhile`, until messages of a stream from all other ranks are there; for the first rank.
+    /// Returns them with the seconds since the call at which they came.
+    struct Arrival {
+        Bytes bytes;
+        double seconds = 0;
+    };
+    std::vector<Arrival> arrivals(Stream stream);
+
+    /// The end of the start: every rank has read its files. What `says` must be the same on all, such as digests, each
+    /// with its words; otherwise, or where one has failed, every rank throws AgreedError.
+    struct Sameness {
+        std::string what;  ///< "another build of Vesper"
+        std::string value;
+    };
+    void agree(const std::vector<Sameness>& says);
+    /// agree() on the program and on all files that this thread has read (io::contents_read).
+    void agree_on_files();
+    /// After agree(): ranks of one machine do it one after the other, so that each finds what those before it have left
+    /// in a cache; machines at once.
+    void in_turns(const std::function<void()>& task);
+
+    ~Ranks();
+
+private:
+    Ranks();
+    std::vector<std::string> start(const std::string& failure, const std::vector<Sameness>& says);
+
+    struct Shared;  // with the thread
+    std::unique_ptr<Shared> shared_;
+    std::vector<Bytes> said_;  // at the start
+};
+
+}  // namespace vesper::apps

@@ -1,0 +1,229 @@
+#include "channel_ranks.h"
+
+#include <algorithm>
+
+#include "base/digest.h"
+#include "base/error.h"
+#include "base/one_line.h"
+#include "playback.h"
+
+namespace vesper::drive {
+namespace {
+
+using apps::Bytes, apps::PacketReader, apps::PacketWriter, apps::Ranks;
+
+enum class News : uint8_t { Event, Message, Rewind, Frame, End };
+
+Ranks::Stream stream_of(ChannelLink::Kind kind) {
+    switch (kind) {
+        case ChannelLink::Kind::Nodes:
+            return Ranks::Stream::Nodes;
+        case ChannelLink::Kind::Light:
+            return Ranks::Stream::Light;
+        case ChannelLink::Kind::Statistics:
+            break;
+    }
+    return Ranks::Stream::Statistics;
+}
+
+void write_event(PacketWriter& news, const DriveEvent& event) {
+    news.value(News::Event);
+    news.value(event.kind), news.value(event.input);
+    news.value(event.shown.has_value()), news.value(event.shown.value_or(0));
+    news.list(event.name), news.list(event.value);
+}
+
+DriveEvent read_event(PacketReader& news) {
+    DriveEvent event{.pose = {}, .shown = {}, .name = {}, .value = {}};
+    news.value(event.kind), news.value(event.input);
+    const bool has_moment = news.value<bool>();
+    const auto moment = news.value<double>();
+    if (has_moment) event.shown = moment;
+    event.name = news.text(), event.value = news.text();
+    return event;
+}
+
+Digest::Value digest_of(const shared::EyeState& eye) {
+    Digest digest;
+    digest.add_value(eye);
+    return digest.value();
+}
+
+}  // namespace
+
+std::vector<int> ranks_of(const Channels& channels, int ranks) {
+    const size_t count = channels.screens.size();
+    if (ranks == 1) return std::vector<int>(count, 0);
+    std::vector<int> found;
+    for (const ScreenChannel& c : channels.screens)
+        if (c.rank) found.push_back(*c.rank);
+    if (found.empty()) {
+        const auto viewers = size_t(ranks - 1);
+        if (viewers > count)
+            throw Error("there are " + std::to_string(ranks) + " ranks, one that drives and " +
+                        std::to_string(viewers) + " for " + std::to_string(count) +
+                        " channels: no rank may be without a channel");
+        for (size_t viewer = 0; viewer < viewers; ++viewer)
+            found.resize((viewer + 1) * count / viewers, int(viewer) + 1);
+        return found;
+    }
+    for (const ScreenChannel& c : channels.screens) {
+        if (!c.rank) throw Error("channel " + one_line(c.name) + " has no rank, and others have");
+        if (*c.rank >= ranks)
+            throw Error("channel " + one_line(c.name) + " is of rank " + std::to_string(*c.rank) +
+                        ", and there are ranks 0 to " + std::to_string(ranks - 1));
+    }
+    for (int rank = 1; rank < ranks; ++rank)
+        if (std::ranges::find(found, rank) == found.end())
+            throw Error("rank " + std::to_string(rank) + " has no channel");
+    return found;
+}
+
+ChannelRanks::ChannelRanks(Ranks& ranks, const Channels& channels)
+    : ranks_(ranks), rank_of_(ranks_of(channels, ranks.size())), gaze_(channels.gaze) {
+    std::vector<std::string> roles(size_t(ranks.size()));
+    for (size_t i = 0; i < rank_of_.size(); ++i) {
+        std::string& role = roles[size_t(rank_of_[i])];
+        role += (role.empty() ? "" : " and ") + one_line(channels.screens[i].name, 40);
+    }
+    for (int rank = 0; rank < ranks.size(); ++rank) ranks.set_role(rank, roles[size_t(rank)]);
+}
+
+std::vector<size_t> ChannelRanks::own(size_t channels) const {
+    std::vector<size_t> mine;
+    for (size_t i = 0; i < channels; ++i)
+        if (has(i)) mine.push_back(i);
+    return mine;
+}
+
+void ChannelRanks::say(Kind kind, Bytes bytes) {
+    if (is_first())
+        said_[size_t(kind)].push_back(std::move(bytes));
+    else
+        ranks_.send(0, stream_of(kind), std::move(bytes));
+}
+
+std::vector<Bytes> ChannelRanks::hear(Kind kind) {
+    std::vector<Bytes> all;
+    if (!is_first()) {
+        const Bytes joined = ranks_.receive(0, stream_of(kind));
+        for (PacketReader reader(joined); !reader.at_end();) all.push_back(reader.list<std::byte>());
+        return all;
+    }
+    all.push_back(std::move(said_[size_t(kind)].front()));
+    said_[size_t(kind)].pop_front();
+    for (int other = 1; other < ranks_.size(); ++other) all.push_back(ranks_.receive(other, stream_of(kind)));
+    PacketWriter joined;
+    for (const Bytes& one : all) joined.list(one);
+    ranks_.broadcast(stream_of(kind), joined.take());
+    return all;
+}
+
+void ChannelRanks::lead(Session& session) {
+    session.on_event = [this](const DriveEvent* event) {
+        if (!event)
+            news_.value(News::Rewind);
+        else if (event->kind != DriveEvent::Kind::Frame)
+            write_event(news_, *event);
+    };
+    session.on_message = [this](const osi::Message& message) {
+        news_.value(News::Message);
+        news_.list(osi::bytes_of(message));
+    };
+}
+
+void ChannelRanks::begin_frame(const Wanted& wanted) {
+    wanted_ = wanted;
+    news_.value(News::Frame), news_.value(wanted);
+    ranks_.broadcast(Ranks::Stream::Events, std::exchange(news_, {}).take());
+}
+
+void ChannelRanks::end_drive() {
+    news_.value(News::End);
+    ranks_.broadcast(Ranks::Stream::Events, std::exchange(news_, {}).take());
+}
+
+std::optional<ChannelRanks::Wanted> ChannelRanks::follow(Session& session) {
+    const Bytes bytes = ranks_.receive(0, Ranks::Stream::Events);
+    for (PacketReader news(bytes);;) {
+        switch (news.value<News>()) {
+            case News::Event:
+                perform(session, read_event(news));
+                break;
+            case News::Message: {
+                const std::vector<uint8_t> message = news.list<uint8_t>();
+                session.hear(osi::parse_message(message));
+                break;
+            }
+            case News::Rewind:
+                session.rewind();
+                break;
+            case News::Frame:
+                return news.value<Wanted>();
+            case News::End:
+                return std::nullopt;
+        }
+    }
+}
+
+void ChannelRanks::report(const Wanted& wanted, const ChannelMosaic& wall, const std::string& row) {
+    const bool tells = (wanted.row && has(gaze_)) || wanted.display || wanted.scene;
+    if (!tells) return;
+    PacketWriter packet;
+    packet.list(row);
+    for (size_t i = 0; i < rank_of_.size(); ++i) {
+        if (!has(i) || !(wanted.display || wanted.scene)) continue;
+        const render::Frame& channel = wall.channels[i];
+        packet.value(uint64_t{i});
+        packet.value(channel.extent), packet.value(channel.lamps);
+        packet.list(wanted.display ? channel.display : std::vector<uint8_t>());
+        packet.list(wanted.scene ? channel.scene : std::vector<float>());
+    }
+    ranks_.send(0, Ranks::Stream::Records, packet.take());
+}
+
+std::string ChannelRanks::collect(ChannelMosaic& wall) {
+    std::string row;
+    const bool pictures = wanted_.display || wanted_.scene;
+    for (int other = 1; other < ranks_.size(); ++other) {
+        if (!pictures && !(wanted_.row && rank_of_[gaze_] == other)) continue;
+        const Bytes bytes = ranks_.receive(other, Ranks::Stream::Records);
+        PacketReader packet(bytes);
+        row += packet.text();
+        while (!packet.at_end()) {
+            render::Frame& channel = wall.channels.at(packet.value<uint64_t>());
+            packet.value(channel.extent), packet.value(channel.lamps);
+            channel.display = packet.list<uint8_t>(), channel.scene = packet.list<float>();
+        }
+    }
+    if (pictures) put_together(wall);
+    return row;
+}
+
+ChannelRanks::Meeting ChannelRanks::meet(const shared::EyeState& eye) {
+    const Digest::Value mine = digest_of(eye);
+    ++frames_;
+    if (!is_first()) {
+        PacketWriter packet;
+        packet.value(mine);
+        ranks_.send(0, Ranks::Stream::Ready, packet.take());
+        ranks_.receive(0, Ranks::Stream::Ready);
+        return {};
+    }
+    const std::vector<Ranks::Arrival> ready = ranks_.arrivals(Ranks::Stream::Ready);
+    double first = 0;
+    Meeting meeting{0, 1};
+    for (int other = 1; other < ranks_.size(); ++other) {
+        const Ranks::Arrival& one = ready[size_t(other)];
+        if (PacketReader(one.bytes).value<Digest::Value>() != mine)
+            throw Error(ranks_.name(other) + ": its eye is not that of " + ranks_.name(0) + " in frame " +
+                        std::to_string(frames_));
+        if (other == 1 || one.seconds < first) first = one.seconds;
+        if (one.seconds > ready[size_t(meeting.last)].seconds) meeting.last = other;
+    }
+    meeting.skew = ready[size_t(meeting.last)].seconds - first;
+    ranks_.broadcast(Ranks::Stream::Ready, {});
+    return meeting;
+}
+
+}  // namespace vesper::drive

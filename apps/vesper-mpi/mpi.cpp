@@ -1,0 +1,80 @@
+// Messages between processes by MPI, behind message_passing.h. SPDX-License-Identifier: MIT
+#include <mpi.h>
+
+#include <climits>
+#include <iterator>
+#include <list>
+#include <vector>
+
+#include "message_passing.h"
+
+namespace {
+
+struct Sending {
+    std::vector<std::byte> bytes;
+    MPI_Request request = MPI_REQUEST_NULL;
+};
+
+std::list<Sending> sending;
+char host[MPI_MAX_PROCESSOR_NAME + 1];
+char text[MPI_MAX_ERROR_STRING + 1];
+
+int send(int to, int stream, const std::byte* bytes, size_t count) {
+    if (count > size_t{INT_MAX}) return MPI_ERR_COUNT;
+    Sending& one = sending.emplace_back(Sending{std::vector<std::byte>(bytes, bytes + count)});
+    return MPI_Isend(one.bytes.data(), int(count), MPI_BYTE, to, stream, MPI_COMM_WORLD, &one.request);
+}
+
+int move_on(size_t* left) {
+    for (auto one = sending.begin(); one != sending.end();) {
+        int done = 0;
+        if (const int error = MPI_Test(&one->request, &done, MPI_STATUS_IGNORE); error != MPI_SUCCESS) return error;
+        one = done ? sending.erase(one) : std::next(one);
+    }
+    *left = sending.size();
+    return MPI_SUCCESS;
+}
+
+int look(int from, int stream, long* bytes) {
+    int there = 0;
+    MPI_Status status;
+    *bytes = -1;
+    if (const int error = MPI_Iprobe(from, stream, MPI_COMM_WORLD, &there, &status); error != MPI_SUCCESS || !there)
+        return error;
+    int count = 0;
+    const int error = MPI_Get_count(&status, MPI_BYTE, &count);
+    *bytes = count;
+    return error;
+}
+
+int take(int from, int stream, std::byte* to, size_t count) {
+    return MPI_Recv(to, int(count), MPI_BYTE, from, stream, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+}
+
+const char* text_of(int error) {
+    int length = 0;
+    text[0] = '\0';
+    MPI_Error_string(error, text, &length);
+    return text;
+}
+
+void end_all(int code) { MPI_Abort(MPI_COMM_WORLD, code); }
+void finish() { MPI_Finalize(); }
+
+vesper::apps::MessagePassing passing;
+
+}  // namespace
+
+extern "C" const vesper::apps::MessagePassing* vesper_message_passing_1() {
+    int threads = 0, length = 0;
+    if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &threads) != MPI_SUCCESS) return nullptr;
+    if (threads < MPI_THREAD_SERIALIZED) return nullptr;
+    MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN);
+    MPI_Comm_rank(MPI_COMM_WORLD, &passing.rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &passing.size);
+    MPI_Get_processor_name(host, &length);
+    passing.host = host;
+    passing.send = send, passing.look = look, passing.take = take, passing.move_on = move_on;
+    passing.text_of = text_of, passing.end_all = end_all, passing.finish = finish;
+    return &passing;
+}

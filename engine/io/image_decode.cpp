@@ -3,6 +3,7 @@
 #include "io/image_file.h"
 
 #include <algorithm>
+#include <bit>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
@@ -23,8 +24,10 @@ struct Job {
     std::span<const uint8_t> bytes;
     uint32_t max_side;
     uint64_t max_texels;
+    bool wide = false;  // 16 bits a channel, of PNG alone
     size_t read = 0;
     Image image;
+    WideImage wide_image;
     std::vector<uint8_t> row;
     char reason[JMSG_LENGTH_MAX + 100] = "";
     std::jmp_buf escape;
@@ -48,10 +51,12 @@ bool acceptable(Job& job, uint64_t width, uint64_t height, uint64_t max_texels_p
 }
 
 void make_image(Job& job, uint32_t width, uint32_t height) {
-    job.image.width = width;
-    job.image.height = height;
-    spend(uint64_t{width} * height * 4);
-    job.image.rgba.resize(static_cast<size_t>(width) * height * 4);
+    spend(uint64_t{width} * height * (job.wide ? 8 : 4));
+    const size_t values = static_cast<size_t>(width) * height * 4;
+    if (job.wide)
+        job.wide_image.width = width, job.wide_image.height = height, job.wide_image.rgba.resize(values);
+    else
+        job.image.width = width, job.image.height = height, job.image.rgba.resize(values);
 }
 
 [[noreturn]] void png_fail(png_structp png, png_const_charp message) {
@@ -95,19 +100,25 @@ bool decode_png(Job& job, const PngReading& reading) {
     const png_uint_32 width = png_get_image_width(png, header), height = png_get_image_height(png, header);
     // Deflate packs at most 1032 : 1, and a texel may be a single bit.
     if (!acceptable(job, width, height, 1040 * 8)) return false;
-    png_set_expand(png);
-    png_set_scale_16(png);
+    if (job.wide) {
+        png_set_expand_16(png);
+        if (std::endian::native == std::endian::little) png_set_swap(png);
+    } else {
+        png_set_expand(png);
+        png_set_scale_16(png);
+    }
     png_set_gray_to_rgb(png);
-    png_set_add_alpha(png, 0xff, PNG_FILLER_AFTER);
+    png_set_add_alpha(png, job.wide ? 0xffff : 0xff, PNG_FILLER_AFTER);
     const int passes = png_set_interlace_handling(png);
     png_read_update_info(png, header);
     make_image(job, width, height);
-    const size_t stride = static_cast<size_t>(width) * 4;
+    const size_t stride = static_cast<size_t>(width) * (job.wide ? 8 : 4);
     if (png_get_rowbytes(png, header) != stride) png_error(png, "unexpected row size");
+    uint8_t* const rows = job.wide ? reinterpret_cast<uint8_t*>(job.wide_image.rgba.data()) : job.image.rgba.data();
     for (int pass = 0; pass < passes; ++pass)
         for (png_uint_32 y = 0; y < height; ++y) {
             check_time();
-            png_read_row(png, job.image.rgba.data() + y * stride, nullptr);
+            png_read_row(png, rows + y * stride, nullptr);
         }
     png_read_end(png, nullptr);
     return true;
@@ -248,6 +259,13 @@ Image decode_image(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t m
     Job job{.bytes = bytes, .max_side = max_side, .max_texels = max_texels};
     run(job);
     return std::move(job.image);
+}
+
+WideImage decode_wide_png(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t max_texels) {
+    if (media_type(bytes) != "image/png") throw Error("is no PNG");
+    Job job{.bytes = bytes, .max_side = max_side, .max_texels = max_texels, .wide = true};
+    run(job);
+    return std::move(job.wide_image);
 }
 
 }  // namespace vesper::io

@@ -17,6 +17,14 @@ namespace vesper::io {
 /// CMYK files are converted; colour profiles and gamma chunks are ignored, as glTF demands.
 Image decode_image(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t max_texels = UINT64_MAX);
 
+/// A picture of 16 bits per channel: RGBA, rows from the top, not linear.
+struct WideImage {
+    uint32_t width = 0, height = 0;
+    std::vector<uint16_t> rgba;  ///< width * height * 4 codes
+};
+/// The same for a PNG, with all its bits: codes of fewer are stretched, so that the largest is 65535.
+WideImage decode_wide_png(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t max_texels = UINT64_MAX);
+
 /// The media type of a PNG or JPEG ("image/png"), or of another picture format we know but do not read; "" otherwise.
 std::string media_type(std::span<const uint8_t> bytes);
 

@@ -9,6 +9,7 @@
 #include <png.h>
 
 #include "io/jpeg_files.h"
+#include "io/png_files.h"
 #include "io/read_file.h"
 #include "scene/scene_files.h"
 
@@ -16,36 +17,6 @@ namespace vesper::test {
 namespace {
 
 using io::decode_image;
-
-/// Encodes rows of 8 or 16 bit samples as PNG.
-std::vector<uint8_t> png_of(uint32_t width, uint32_t height, int depth, int type, const std::vector<uint8_t>& rows,
-                            bool interlaced = false, double gamma = 0) {
-    std::vector<uint8_t> file;
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
-    png_infop header = png_create_info_struct(png);
-    png_set_write_fn(
-        png, &file,
-        [](png_structp p, png_bytep bytes, size_t count) {
-            auto& out = *static_cast<std::vector<uint8_t>*>(png_get_io_ptr(p));
-            out.insert(out.end(), bytes, bytes + count);
-        },
-        nullptr);
-    png_set_IHDR(png, header, width, height, depth, type, interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE, 0, 0);
-    const png_color palette[2] = {{10, 20, 30}, {200, 100, 50}};
-    const png_byte alpha[2] = {255, 77};
-    if (type == PNG_COLOR_TYPE_PALETTE) {
-        png_set_PLTE(png, header, palette, 2);
-        png_set_tRNS(png, header, alpha, 2, nullptr);
-    }
-    if (gamma > 0) png_set_gAMA(png, header, gamma);
-    std::vector<png_bytep> pointers;
-    for (uint32_t y = 0; y < height; ++y)
-        pointers.push_back(const_cast<png_bytep>(rows.data()) + y * (rows.size() / height));
-    png_set_rows(png, header, pointers.data());
-    png_write_png(png, header, PNG_TRANSFORM_IDENTITY, nullptr);
-    png_destroy_write_struct(&png, &header);
-    return file;
-}
 
 using Codes = std::vector<uint8_t>;
 
@@ -128,6 +99,31 @@ TEST(ImageFile, WritesPngOfTenBits) {
     for (const char* chunk : {"cICP", "sRGB"})
         EXPECT_EQ(std::string(other.begin(), other.end()).find(chunk), std::string::npos) << chunk;
     EXPECT_THROW(io::write_png_10bit(folder / "x.png", 3, 1, words, io::PngColour()), Error);
+}
+
+using WideCodes = std::vector<uint16_t>;
+
+// Codes of fewer bits are stretched to 16, and those of 16 are kept.
+TEST(ImageFile, ReadsPngWithAllItsBits) {
+    const auto wide = [](const std::vector<uint8_t>& file) { return io::decode_wide_png(file, 9).rgba; };
+    EXPECT_EQ(wide(png_of(2, 1, 16, PNG_COLOR_TYPE_GRAY, {0x12, 0x34, 0xff, 0xfe})),
+              (WideCodes{0x1234, 0x1234, 0x1234, 65535, 65534, 65534, 65534, 65535}));
+    EXPECT_EQ(wide(png_of(1, 1, 16, PNG_COLOR_TYPE_RGB_ALPHA, {1, 2, 3, 4, 5, 6, 7, 8})),
+              (WideCodes{0x102, 0x304, 0x506, 0x708}));
+    EXPECT_EQ(wide(png_of(1, 1, 8, PNG_COLOR_TYPE_RGB, {1, 128, 255})), (WideCodes{257, 128 * 257, 65535, 65535}));
+    EXPECT_EQ(wide(png_of(2, 1, 1, PNG_COLOR_TYPE_GRAY, {0x40})),
+              (WideCodes{0, 0, 0, 65535, 65535, 65535, 65535, 65535}));
+    EXPECT_EQ(wide(png_of(2, 1, 1, PNG_COLOR_TYPE_PALETTE, {0x40})),
+              (WideCodes{10 * 257, 20 * 257, 30 * 257, 65535, 200 * 257, 100 * 257, 50 * 257, 77 * 257}));
+    Codes rows;
+    for (int i = 0; i < 9 * 9 * 2; ++i) rows.push_back(uint8_t(i * 7));
+    EXPECT_EQ(wide(png_of(9, 9, 16, PNG_COLOR_TYPE_GRAY, rows, true)),
+              wide(png_of(9, 9, 16, PNG_COLOR_TYPE_GRAY, rows)));
+    const Codes square = png_of(3, 3, 8, PNG_COLOR_TYPE_GRAY, Codes(9));
+    EXPECT_TRUE(contains(complaint_of([&] { io::decode_wide_png(square, 2); }), "PNG: "));
+    EXPECT_TRUE(contains(complaint_of([&] { io::decode_wide_png(square, 3, 8); }), "over the limit of texels"));
+    EXPECT_EQ(io::decode_wide_png(square, 3, 9).rgba.size(), 36u);
+    EXPECT_TRUE(contains(complaint_of([&] { wide({0xff, 0xd8, 0xff, 0xe0}); }), "is no PNG"));
 }
 
 TEST(ImageFile, ReadsEveryKindOfPng) {

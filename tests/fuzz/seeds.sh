@@ -13,6 +13,8 @@ seeds() {
         osi_trace) name='*.osi' ;;
         osi_datagrams) name='*.datagrams' ;;
         image | exif) name='*.[jp][pn]g' ;;
+        wide_png) name='*.png' ;;
+        warp_mesh) name='*.data' ;;
         exr | grid_exr) name='*.exr' ;;
         radiance) name='*.hdr' ;;
         opendrive) name='*.xodr' ;;

@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "gpu_scene/projection.h"
 #include "io/exif.h"
 #include "io/hdr_image.h"
 #include "io/image_file.h"
@@ -22,6 +23,7 @@
 #include "scene/photometry.h"
 #include "traffic/world_file.h"
 #include "vision/display_fit.h"
+#include "vision/warp_mesh.h"
 
 namespace vesper::test {
 namespace {
@@ -59,6 +61,11 @@ void hear_datagrams(Bytes bytes) {
     }
 }
 
+void draw_mesh(Bytes bytes) {
+    const vision::WarpMesh mesh = vision::parse_warp_mesh(bytes, "x.data");
+    gpu_scene::projection_of({64, 36}, {48, 27}, &mesh);
+}
+
 std::map<std::string, FuzzTarget> make_targets() {
     return {
         {"gltf", of_file("x.gltf", [](const fs::path& file) { scene::read_gltf(file, kFew); })},
@@ -87,6 +94,8 @@ std::map<std::string, FuzzTarget> make_targets() {
         {"road", of_file("x.json", [](const fs::path& file) { roads::read_layout(file); })},
         {"osi_trace", [](Bytes bytes) { osi::parse_trace(bytes, "x.osi"); }},
         {"osi_datagrams", [](Bytes bytes) { hear_datagrams(bytes); }},
+        {"warp_mesh", draw_mesh},
+        {"wide_png", [](Bytes bytes) { io::decode_wide_png(bytes, 512, kSmall); }},
         {"image", [](Bytes bytes) { io::decode_image(bytes, 512, kSmall); }},
         {"exif", [](Bytes bytes) { io::read_exif(bytes); }},
     };

@@ -234,22 +234,24 @@ Frame Renderer::render(const RenderSettings& settings, const gpu_scene::View& vi
     const ChainInputs chain = pending_->chain;
     Frame rendered = *finish();
     if (settings.display_average && settings.samples > 1 && outputs.display)
-        average_display(ldr_baseline(settings), view, frame, chain, rendered);
+        average_display(ldr_baseline(settings), view, frame, chain, outputs.projection, rendered);
     return rendered;
 }
 
 // Samples once more, with the curve that their mean led to.
 void Renderer::average_display(const RenderSettings& settings, const gpu_scene::View& view,
-                               const gpu_scene::SceneFrame& poses, const ChainInputs& of_mean, Frame& frame) {
+                               const gpu_scene::SceneFrame& poses, const ChainInputs& of_mean,
+                               const gpu_scene::Projection* projection, Frame& frame) {
     ChainInputs chain = of_mean;
     chain.curve = frame.curve;
-    DisplayAverage average(settings.display, size_t(view.extent.width) * view.extent.height);
+    DisplayAverage average(settings.display, size_t(frame.shown_extent.width) * frame.shown_extent.height);
     uint32_t done = settings.samples;
     for (const glm::dvec2& place : sample_places(settings.samples)) {
         graph::FrameGraph graph;
         const FrameInputs inputs = inputs_of(graph, settings, view, poses);
         const SceneLight light = declare(frames_.context(graph, view.moved(place)), poses, inputs);
-        const ToneChain shown = add_tone_chain(frames_.context(graph, view), light.luminance, settings, chain, {});
+        const ToneChain shown =
+            add_tone_chain(frames_.context(graph, view), light.luminance, settings, chain, {.projection = projection});
         graph::add_times(frame.timings, frames_.run(graph));
         average.add(frames_.executor().read_as<uint8_t>(shown.display));
         if (watch_samples_) watch_samples_(++done);

@@ -181,7 +181,8 @@ private:
     FrameInputs inputs_of(graph::FrameGraph& graph, const RenderSettings& settings, const gpu_scene::View& view,
                           const gpu_scene::SceneFrame& poses);
     void average_display(const RenderSettings& settings, const gpu_scene::View& view,
-                         const gpu_scene::SceneFrame& poses, const ChainInputs& chain, Frame& frame);
+                         const gpu_scene::SceneFrame& poses, const ChainInputs& chain,
+                         const gpu_scene::Projection* projection, Frame& frame);
     ChainInputs chain_inputs_of(const FrameInputs& in, const RenderSettings& settings, const gpu_scene::View& view,
                                 float seconds);
     SceneLight declare(const FrameContext& frame, const gpu_scene::SceneFrame& poses, const FrameInputs& inputs) const;

@@ -4,6 +4,7 @@
 #include "render/passes/bands.h"
 #include "render/passes/composite.h"
 #include "render/passes/corona.h"
+#include "render/passes/projection.h"
 
 namespace vesper::render {
 namespace {
@@ -63,6 +64,13 @@ std::span<const glm::vec4> pattern_of(const gpu_scene::Corona* corona) {
     return corona ? std::span<const glm::vec4>(corona->texels) : std::span<const glm::vec4>();
 }
 
+// Of the picture, or of a projector that shows it.
+Resource add_codes(const FrameContext& frame, const CompositeInputs& in, const CompositeSettings& codes,
+                   const gpu_scene::Projection* projection) {
+    if (!projection) return add_composite(frame, in, codes);
+    return add_projection(frame, add_shown_light(frame, in, codes), *projection, {codes.display, codes.blue_first});
+}
+
 void show(graph::FrameGraph& graph, Resource codes, const std::optional<graph::ExternalImage>& image) {
     if (image) graph.copy("show", codes, graph.target("shown", *image));
 }
@@ -92,7 +100,7 @@ ToneChain add_tone_chain(const FrameContext& frame, Resource scene, const ToneCh
                          const ChainInputs& inputs, const Outputs& outputs) {
     const OperatorInfo& op = operator_info(settings.tone_operator);
     const uint64_t pixels = uint64_t(frame.view.extent.width) * frame.view.extent.height;
-    ToneChain chain;
+    ToneChain chain{.shown_extent = outputs.projection ? outputs.projection->extent : frame.view.extent};
 
     // The eye adapts to the light that falls on the retina, and the histogram counts it.
     Resource retina = add_eye_scatter(frame, scene, inputs.scatter);
@@ -136,7 +144,7 @@ ToneChain add_tone_chain(const FrameContext& frame, Resource scene, const ToneCh
     const Resource bloom =
         add_bloom(frame, picture, curve, display_tone_of(op, settings.tone), settings.display, bloom_of(settings));
     const CompositeInputs composite{picture, curve, bloom};
-    const Resource codes = add_composite(frame, composite, codes_of(op, settings, outputs.shown));
+    const Resource codes = add_codes(frame, composite, codes_of(op, settings, outputs.shown), outputs.projection);
     show(frame.graph, codes, outputs.shown);
 
     if (!inputs.curve) {
@@ -144,7 +152,8 @@ ToneChain add_tone_chain(const FrameContext& frame, Resource scene, const ToneCh
         chain.histogram = add_readback(frame.graph, "histogram", histogram, sizeof(shared::Histogram));
         chain.eye = add_readback(frame.graph, "eye", eye, sizeof(shared::EyeState));
     }
-    chain.display = add_readback(frame.graph, "display", codes, pixels * 4, outputs.display);
+    const uint64_t shown_pixels = uint64_t{chain.shown_extent.width} * chain.shown_extent.height;
+    chain.display = add_readback(frame.graph, "display", codes, shown_pixels * 4, outputs.display);
     const Resource light = add_display_light(frame, composite, light_of(op, settings), outputs.display_light);
     chain.display_light = add_readback(frame.graph, "display light", light, pixels * 16, outputs.display_light);
     chain.scene = add_readback(frame.graph, "scene", scene, pixels * 16, outputs.scene);
@@ -152,7 +161,7 @@ ToneChain add_tone_chain(const FrameContext& frame, Resource scene, const ToneCh
 }
 
 void read_tone_chain(const graph::Executor& executor, const ToneChain& chain, VkExtent2D extent, ToneMapped& to) {
-    to.extent = extent;
+    to.extent = extent, to.shown_extent = chain.shown_extent;
     read_all(executor, chain.display, to.display);
     read_all(executor, chain.scene, to.scene);
     read_all(executor, chain.retina, to.retina);

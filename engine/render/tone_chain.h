@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gpu_scene/eye_corona.h"
+#include "gpu_scene/projection.h"
 #include "graph/executor.h"
 #include "render/eye_state.h"
 #include "render/passes/adapt.h"
@@ -41,6 +42,9 @@ struct Outputs {
     bool statistics = false;
     /// An external image that gets the codes, too, in the order and with the bits of its format (shown_format).
     std::optional<graph::ExternalImage> shown = {};
+    /// If not null: all codes, those of `shown` too, are of the picture of a projector, with its extent. It is read
+    /// while the frame is declared. Its rendered picture must be of the frame's extent.
+    const gpu_scene::Projection* projection = nullptr;
 };
 
 /// How codes lie in an image of a format.
@@ -59,6 +63,7 @@ struct ToneChain {
     FovealView foveal_view{};               // likewise
     glm::vec2 gaze{0};                      // likewise, texels
     uint32_t foveal_level = 0;
+    VkExtent2D shown_extent{};  ///< px, of the codes
 };
 
 /// The eye that looks at a frame.
@@ -77,7 +82,8 @@ ToneChain add_tone_chain(const FrameContext& frame, graph::Resource scene, const
 
 /// One tone-mapped frame on the host.
 struct ToneMapped {
-    VkExtent2D extent{};
+    VkExtent2D extent{};        ///< px, of all but the codes
+    VkExtent2D shown_extent{};  ///< px, of the codes: `extent`, or that of Outputs::projection
     /// Codes, row by row, 4 bytes a pixel: RGBA, or words of A2B10G10R10 where the display has 10 bits; empty unless
     /// asked for.
     std::vector<uint8_t> display;

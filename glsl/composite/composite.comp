@@ -18,9 +18,7 @@ void main() {
     const Gamut gamut = gamut_of_the_display();
     [[unroll]] for (uint row = 0u; row < kRows; ++row) {
         const uvec2 at = gl_GlobalInvocationID.xy * uvec2(1u, kRows) + uvec2(0u, row);
-        const vec3 rgb = perceived(tone, scene_light(at));
-        vec3 light = displayed(curve, tone, rgb, of_the_display(rgb), gamut, push.display_low, push.display_high);
-        if (kBloom != 0u) light = clamp(light + of_the_display(bloom_light(at)), 0.0, 1.0);
+        const vec3 light = shown_light(tone, gamut, at);
         const uint codes = codes_of(cells, push.encode, kBlueFirst == 0u ? light : light.bgr);
         if (all(lessThan(at, push.size))) imageStore(display_image, ivec2(at), uvec4(codes));
     }

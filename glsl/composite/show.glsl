@@ -1,4 +1,4 @@
-// A pixel of the scene as displayed light, for composite.comp and display_light.comp.
+// A pixel of the scene as displayed light, for composite.comp, shown_light.comp and display_light.comp.
 
 #include "shared/bloom.h"
 #include "tone.glsl"
@@ -29,4 +29,11 @@ vec3 bloom_light(uvec2 at) {
     // The bloom texture covers whole blocks: its last row and column may reach beyond the image.
     const vec2 blocks = vec2(textureSize(bloom, 0));
     return push.bloom * textureLod(bloom, (vec2(at) + 0.5) / (float(kBloomShrink) * blocks), 0.0).rgb;
+}
+
+// What the display shows of a pixel, in its primaries: 0 at its darkest, 1 at its brightest.
+vec3 shown_light(Tone tone, Gamut gamut, uvec2 at) {
+    const vec3 rgb = perceived(tone, scene_light(at));
+    const vec3 light = displayed(curve, tone, rgb, of_the_display(rgb), gamut, push.display_low, push.display_high);
+    return kBloom == 0u ? light : clamp(light + of_the_display(bloom_light(at)), 0.0, 1.0);
 }

@@ -225,6 +225,41 @@ TEST(Composite, CodesAreTheNearest) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+// What a projection shows: the light that codes are of.
+TEST(Composite, LightThatIsShownMatchesTheReference) {
+    PassRig rig;
+    for (size_t i = 0; i < std::size(kEveryTone); ++i)
+        for (const VkExtent2D extent : {VkExtent2D{1, 1}, {37, 21}}) {
+            const uint32_t tone = kEveryTone[i];
+            const Display display = i % 2 ? Display{.primaries = io::kRec2020} : Display{};
+            Inputs in{extent, night_pixels(extent, tone), {}, crooked_curve_of(tone, display), display, 0.7f};
+            if (extent.width > 1) in.scene[5] = {kNan, 1, 1, 1}, in.scene[6] = {1, kInf, 1, 1};
+            if (i % 4 < 2) in.glare = night_pixels(quarter(extent), 21, -3, 0);
+            for (auto& g : in.glare) g = glm::round(g * 1024.0f) / 1024.0f;
+            graph::FrameGraph graph;
+            const render::CompositeInputs inputs = inputs_of(rig, graph, in);
+            const graph::Resource kept = keep<glm::vec4>(
+                graph, render::add_shown_light(rig.frame(graph, extent), inputs,
+                                               {.tone = tone, .display = display, .bloom_gain = in.gain}));
+            rig.run(graph);
+            const auto got = rig.got<glm::vec4>(kept);
+            const reference::CompositeFrame<glm::vec4> frame{
+                in.scene, in.glare, {extent.width, extent.height}, double(in.gain)};
+            Picture got_light(extent.width, extent.height, 3), want = got_light;
+            for (uint32_t k = 0; k < got.size(); ++k) {
+                const glm::dvec3 light =
+                    reference::composite_light(frame, {k % extent.width, k / extent.width}, tone, in.curve, display);
+                for (uint32_t c = 0; c < 3; ++c) {
+                    got_light.values[3 * k + c] = std::clamp(double(got[k][int(c)]), 0.0, 1.0);
+                    want.values[3 * k + c] = std::clamp(light[int(c)], 0.0, 1.0);
+                }
+            }
+            // As for codes: log, exp and pow in float, and the curve's slope, of white.
+            EXPECT_TRUE(same_light("shown " + std::to_string(tone), got_light, want, {kBeyond, 1}));
+        }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
 TEST(Composite, LightOfTheDisplayWithoutItsLimits) {
     PassRig rig;
     const VkExtent2D extent{37, 21};

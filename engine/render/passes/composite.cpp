@@ -3,6 +3,7 @@
 #include "gpu_scene/encoding.h"
 #include "shaders/composite/composite.comp.inc"
 #include "shaders/composite/display_light.comp.inc"
+#include "shaders/composite/shown_light.comp.inc"
 #include "shared/gamut.h"
 #include "shared/photometry.h"
 
@@ -11,7 +12,7 @@ namespace {
 
 using graph::load, graph::sample, graph::store;
 
-constexpr gpu::Shader kComposite{"composite.comp", composite_comp},
+constexpr gpu::Shader kComposite{"composite.comp", composite_comp}, kShownLight{"shown_light.comp", shown_light_comp},
     kDisplayLight{"display_light.comp", display_light_comp};
 
 struct Cones {
@@ -73,6 +74,17 @@ graph::Resource add_composite(const FrameContext& frame, const CompositeInputs& 
     frame.graph.dispatch("composite", shown.kernel,
                          {load(in.scene), sample(in.curve), sample(shown.bloom), sample(cells), store(image)},
                          shown.push, shown.groups);
+    return image;
+}
+
+graph::Resource add_shown_light(const FrameContext& frame, const CompositeInputs& in,
+                                const CompositeSettings& settings) {
+    const Shown shown = show(frame, in, settings, kShownLight, settings.display.primaries != io::kRec709, false);
+    const graph::Resource image =
+        frame.graph.transient("shown light", graph::image_shape(kShownLightFormat, frame.view.extent));
+    frame.graph.dispatch("shown light", shown.kernel,
+                         {load(in.scene), sample(in.curve), sample(shown.bloom), store(image)}, shown.push,
+                         shown.groups);
     return image;
 }
 

@@ -28,8 +28,13 @@ struct CompositeSettings {
 graph::Resource add_composite(const FrameContext& frame, const CompositeInputs& inputs,
                               const CompositeSettings& settings);
 
-/// The same without the limits of the display, rgba32f, cd/m^2 in Rec. 709: the light that it would emit and reflect if
-/// it had every colour and no peak. Where it is not wanted there is none.
+/// The light that add_composite gives codes to, rgba32f: RGB in the display's primaries, each 0 at the display's
+/// darkest luminance and 1 at its brightest.
+graph::Resource add_shown_light(const FrameContext& frame, const CompositeInputs& inputs,
+                                const CompositeSettings& settings);
+
+/// What add_composite shows without the limits of the display, rgba32f, cd/m^2 in Rec. 709: the light that it would
+/// emit and reflect if it had every colour and no peak. Where it is not wanted there is none.
 graph::Resource add_display_light(const FrameContext& frame, const CompositeInputs& inputs,
                                   const CompositeSettings& settings, bool wanted = true);
 

@@ -56,6 +56,18 @@ if ((${#missing[@]})); then
     step_end
 fi
 
+# Packages without which some tests are passed over: installed where that is possible.
+wanted=()
+for package in ${optional_packages[@]+"${optional_packages[@]}"}; do
+    [[ $(dpkg-query -W -f='${Status}' "$package" 2>/dev/null) == *'ok installed'* ]] || wanted+=("$package")
+done
+if ((${#wanted[@]})) && [[ $(id -u) == 0 ]] && command -v apt-get >/dev/null; then
+    step "Installing ${wanted[*]}"
+    { apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${wanted[@]}"; } \
+        >/dev/null 2>&1 || echo "Not installed; tests that need them are passed over"
+    step_end
+fi
+
 # configure PRESET [SETTING...]
 configure() { cmake --preset "$@" >/dev/null; }
 # build PRESET [--target TARGET...]: quick when nothing has changed. Ninja shows a share and seconds.

@@ -18,21 +18,45 @@ render::Frame FrameRelay::render(render::Renderer& renderer, const render::Rende
     render::RenderSettings drawn = settings;
     drawn.glare = render::Glare::None;
     render::Frame frame = renderer.render(drawn, view, moment, 0, {.display = false, .retina = true});
-    if (eye) mapper_.set_eye(*eye);
-    if (!eye && index > 0) {
-        const Bytes bytes = ranks_.receive(rank_of(index - 1), Ranks::Stream::Eyes);
-        mapper_.set_eye(PacketReader(bytes).value<shared::EyeState>());
-    }
-    if (fresh) mapper_.reset_adaptation();
     const vision::ImageAngles angles = gpu_scene::angles_of(view);
-    render::ToneMapped shown = mapper_.map(
-        settings,
-        {.extent = view.extent, .values = frame.retina, .channels = 4, .outside = frame.outside, .angles = &angles},
-        seconds, outputs);
-    if (!eye && index + 1 < frames_) {
+    render::HostPicture picture{
+        .extent = view.extent, .values = frame.retina, .channels = 4, .outside = frame.outside, .angles = &angles};
+    const auto found = [&]() -> shared::EyeState {
+        if (eye) return *eye;
+        shared::EyeState before{};
+        if (index > 0) PacketReader(ranks_.receive(rank_of(index - 1), Ranks::Stream::Eyes)).value(before);
+        return fresh ? shared::EyeState{} : before;
+    };
+    const auto hand_on = [&](const shared::EyeState& left) {
+        if (eye || index + 1 == frames_) return;
         PacketWriter packet;
-        packet.value(shown.eye);
+        packet.value(left);
         ranks_.send(rank_of(index + 1), Ranks::Stream::Eyes, packet.take());
+    };
+    render::ToneMapped shown;
+    if (render::FrameQueue::needs_finished_frame(settings)) {  // the eye has a say in what is scattered in it
+        mapper_.set_eye(found());
+        shown = mapper_.map(settings, picture, seconds, outputs);
+        hand_on(shown.eye);
+    } else {
+        // Ranks wait for one another while an eye adapts, and for nothing else.
+        render::ToneChainSettings rest = settings;
+        std::vector<float> retina;
+        if (settings.glare == render::Glare::Scatter) {
+            render::ToneMapped scattered = mapper_.map(settings, picture, 0, {.display = false, .retina = true});
+            graph::add_times(frame.timings, scattered.timings);
+            retina = std::move(scattered.retina), picture.values = retina;
+            rest.glare = render::Glare::None;
+        }
+        const render::ViewStatistics seen = mapper_.measure(rest, picture);
+        shared_eye_.set_eye(found());
+        const render::ToneMapped adapted = shared_eye_.adapt(rest, std::span(&seen, 1), 0, seconds);
+        hand_on(adapted.eye);
+        shown = mapper_.show(rest, picture, adapted.curve,
+                             {.display = outputs.display, .display_light = outputs.display_light});
+        shown.curve = adapted.curve, shown.histogram = adapted.histogram, shown.eye = adapted.eye;
+        graph::add_times(frame.timings, adapted.timings);
+        if (outputs.scene) shown.scene = std::move(frame.retina);
     }
     graph::add_times(frame.timings, shown.timings);
     shown.timings = std::move(frame.timings), shown.milliseconds += frame.milliseconds;

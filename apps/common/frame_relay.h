@@ -5,6 +5,7 @@
 
 #include "ranks.h"
 #include "render/renderer.h"
+#include "render/shared_eye.h"
 #include "render/tone_mapper.h"
 
 namespace vesper::apps {
@@ -15,7 +16,8 @@ namespace vesper::apps {
 /// display shows. A single rank renders as the renderer does.
 class FrameRelay {
 public:
-    FrameRelay(gpu::Device& device, Ranks& ranks, unsigned frames) : ranks_(ranks), mapper_(device), frames_(frames) {}
+    FrameRelay(gpu::Device& device, Ranks& ranks, unsigned frames)
+        : ranks_(ranks), mapper_(device), shared_eye_(device), frames_(frames) {}
 
     bool has(unsigned frame) const { return int(frame % unsigned(ranks_.size())) == ranks_.rank(); }
     /// The eye that frames find.
@@ -40,6 +42,7 @@ private:
 
     Ranks& ranks_;
     render::ToneMapper mapper_;
+    render::SharedEye shared_eye_;
     unsigned frames_, taken_ = 0;
 };
 

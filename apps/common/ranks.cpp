@@ -90,9 +90,11 @@ struct Ranks::Shared {
         check(passing->take(from, int(stream), taken.data(), taken.size()));
         return taken;
     }
-    void move_on() {
+    // Returns whether anything is still being sent.
+    bool move_on() {
         size_t left = 0;
         check(passing->move_on(&left));
+        return left > 0;
     }
     [[noreturn]] void end(const std::string& text) {
         print_error("vesper", text);
@@ -102,11 +104,12 @@ struct Ranks::Shared {
     // Of the first rank to all others, and of these to the first.
     void beat() {
         Clock::time_point last = Clock::now();
+        bool sends = false;  // large messages go on in the calls of both ends
         while (!over) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            std::this_thread::sleep_for(std::chrono::microseconds(sends ? 200 : 5000));
             const std::scoped_lock lock(mutex);
             try {
-                move_on();
+                sends = move_on();
                 if (Clock::now() - last < kBeat) continue;
                 // Whoever was stopped itself has heard nobody.
                 if (since(last) > kSilence / 2) heard.assign(heard.size(), Clock::now());
@@ -206,10 +209,11 @@ std::optional<Bytes> Ranks::poll(int from, Stream stream) {
     return shared_->take(from, stream);
 }
 
-Bytes Ranks::receive(int from, Stream stream) {
+Bytes Ranks::receive(int from, Stream stream, const std::function<void()>& meanwhile) {
     const Clock::time_point begin = Clock::now();
     for (;;) {
         if (auto bytes = poll(from, stream)) return std::move(*bytes);
+        if (meanwhile) meanwhile();
         rest(since(begin));
     }
 }

@@ -49,7 +49,8 @@ public:
     void set_role(int rank, const std::string& role);
 
     void send(int to, Stream stream, Bytes bytes);
-    Bytes receive(int from, Stream stream);
+    /// Waits for it, and calls `meanwhile` now and then.
+    Bytes receive(int from, Stream stream, const std::function<void()>& meanwhile = {});
     std::optional<Bytes> poll(int from, Stream stream);
     /// Of the first rank, on all.
     Bytes broadcast(Stream stream, Bytes bytes);

@@ -98,14 +98,19 @@ void ChannelGlare::prepare(const gpu_scene::ScatterSettings& settings, std::vect
     pictures_ = std::move(pictures), settings_ = settings;
 }
 
-apps::Bytes ChannelGlare::shed_by_own(const std::vector<render::Frame>& frames) const {
-    apps::PacketWriter packet;
-    for (const Own& own : own_) {
-        packet.value(uint64_t{own.view});
-        packet.list(frames[own.view].glare_sources);
-        for (const std::vector<uint32_t>& nodes : own.wanted) packet.list(own.sums.at(nodes));
+// What each process takes for its views.
+std::vector<apps::Bytes> ChannelGlare::shed_by_own(const std::vector<render::Frame>& frames) const {
+    std::vector<apps::Bytes> packets;
+    for (const std::vector<size_t>& takers : link_.shares(pictures_.size())) {
+        apps::PacketWriter packet;
+        for (const Own& own : own_) {
+            packet.value(uint64_t{own.view});
+            packet.list(frames[own.view].glare_sources);
+            for (const size_t taker : takers) packet.list(own.sums.at(own.wanted[taker]));
+        }
+        packets.push_back(packet.take());
     }
-    return packet.take();
+    return packets;
 }
 
 ChannelGlare::Shed ChannelGlare::shed_of(const std::vector<apps::Bytes>& turn) const {
@@ -116,11 +121,7 @@ ChannelGlare::Shed ChannelGlare::shed_of(const std::vector<apps::Bytes>& turn) c
         for (apps::PacketReader packet(bytes); !packet.at_end();) {
             const auto giver = packet.value<uint64_t>();
             shed.lamps.at(giver) = packet.list<gpu_scene::GlareSource>();
-            for (size_t taker = 0; taker < views; ++taker) {
-                std::vector<glm::vec3> light = packet.list<glm::vec3>();
-                for (size_t i = 0; i < own_.size(); ++i)
-                    if (own_[i].view == taker) shed.by_taker[i].at(giver) = std::move(light);
-            }
+            for (std::vector<std::vector<glm::vec3>>& taken : shed.by_taker) taken.at(giver) = packet.list<glm::vec3>();
         }
     return shed;
 }
@@ -133,7 +134,7 @@ void ChannelGlare::scatter(const Moment& moment, std::span<const gpu_scene::View
         pictures.push_back({gpu_scene::angles_of(guarded[i]), turns[i], kGuard});
     if (pictures != pictures_ || settings.scatter != settings_) prepare(settings.scatter, std::move(pictures));
     for (Own& own : own_) own.sums.take(frames[own.view].retina);
-    Shed shed = shed_of(light_turns_.tell(shed_by_own(frames), moment.late));
+    Shed shed = shed_of(light_turns_.tell_each(shed_by_own(frames), moment.late));
     for (const Own& own : own_) shed.lamps[own.view] = frames[own.view].glare_sources;
     const std::vector<vision::UnseenLamp> lamps = unseen(shed.lamps, pictures_, settings.offscreen_lamps);
     for (size_t i = 0; i < own_.size(); ++i) {

@@ -53,7 +53,7 @@ private:
         std::vector<std::vector<std::vector<glm::vec3>>> by_taker;  // own view, view: of its nodes, lx
     };
     void prepare(const gpu_scene::ScatterSettings&, std::vector<vision::EyePicture>);
-    apps::Bytes shed_by_own(const std::vector<render::Frame>&) const;
+    std::vector<apps::Bytes> shed_by_own(const std::vector<render::Frame>&) const;
     Shed shed_of(const std::vector<apps::Bytes>&) const;
 
     gpu::Device& device_;

@@ -5,10 +5,10 @@
 
 namespace vesper::drive {
 
-std::vector<size_t> ChannelLink::own(size_t channels) const {
+std::vector<std::vector<size_t>> ChannelLink::shares(size_t channels) const {
     std::vector<size_t> all(channels);
     std::iota(all.begin(), all.end(), size_t{0});
-    return all;
+    return {all};
 }
 
 std::vector<apps::Bytes> ChannelLink::hear(Kind kind) {
@@ -20,16 +20,26 @@ std::vector<apps::Bytes> ChannelLink::hear(Kind kind) {
 }
 
 std::vector<apps::Bytes> ChannelTurns::tell(apps::Bytes bytes, bool late) {
-    link_.say(kind_, std::move(bytes)), ++unheard_;
-    const auto hear = [&] { return --unheard_, link_.hear(kind_); };
+    link_.say(kind_, std::move(bytes));
+    return hear(late);
+}
+
+std::vector<apps::Bytes> ChannelTurns::tell_each(std::vector<apps::Bytes> bytes, bool late) {
+    link_.say_to_each(kind_, std::move(bytes));
+    return hear(late);
+}
+
+std::vector<apps::Bytes> ChannelTurns::hear(bool late) {
+    ++unheard_;
+    const auto next = [&] { return --unheard_, link_.hear(kind_); };
     if (!late || first_) {
-        while (unheard_ > 1) hear();  // of moments that were to be heard late
-        heard_ = hear();
+        while (unheard_ > 1) next();  // of moments that were to be heard late
+        heard_ = next();
         first_ = false;
         return late ? *heard_ : *std::exchange(heard_, std::nullopt);
     }
     // The turn before: it was the first, or it is the earliest that is unheard.
-    return heard_ ? *std::exchange(heard_, std::nullopt) : hear();
+    return heard_ ? *std::exchange(heard_, std::nullopt) : next();
 }
 
 void ChannelTurns::forget() {

@@ -10,8 +10,8 @@
 
 namespace vesper::drive {
 
-/// All processes say one thing of a kind in each turn, and hear what every one has said, in the order of their ranks.
-/// This one is alone and hears itself. Throws Error.
+/// All processes say one thing of a kind in each turn to each, and hear what every one has said to them, in the order
+/// of their ranks. This one is alone and hears itself. Throws Error.
 class ChannelLink {
 public:
     enum class Kind : uint8_t { Nodes, Light, Statistics };
@@ -19,10 +19,13 @@ public:
 
     virtual ~ChannelLink() = default;
 
-    /// The channels that this process renders, ascending.
-    virtual std::vector<size_t> own(size_t channels) const;
-    /// Does not wait for others.
+    /// The channels that each process renders, ascending.
+    virtual std::vector<std::vector<size_t>> shares(size_t channels) const;
+    /// Those of this process.
+    virtual std::vector<size_t> own(size_t channels) const { return shares(channels).front(); }
+    /// The same to all, or what each is told. Does not wait for others.
     virtual void say(Kind kind, apps::Bytes bytes) { said_[size_t(kind)].push_back(std::move(bytes)); }
+    virtual void say_to_each(Kind kind, std::vector<apps::Bytes> bytes) { say(kind, std::move(bytes.front())); }
     /// What was said in the earliest turn that was not heard yet; waits for it.
     virtual std::vector<apps::Bytes> hear(Kind kind);
 
@@ -35,12 +38,16 @@ class ChannelTurns {
 public:
     ChannelTurns(ChannelLink& link, ChannelLink::Kind kind) : link_(link), kind_(kind) {}
 
-    /// Says `bytes`. Returns what all have said: now, or, with `late`, a moment ago; there is no such moment at first.
+    /// Says `bytes` to all, or to each its own. Returns what all have said: now, or, with `late`, a moment ago; there
+    /// is no such moment at first.
     std::vector<apps::Bytes> tell(apps::Bytes bytes, bool late);
+    std::vector<apps::Bytes> tell_each(std::vector<apps::Bytes> bytes, bool late);
     /// The next moment is the first one again. Every process must call it between the same turns.
     void forget();
 
 private:
+    std::vector<apps::Bytes> hear(bool late);
+
     ChannelLink& link_;
     ChannelLink::Kind kind_;
     std::optional<std::vector<apps::Bytes>> heard_;  // the turn before, where it was heard already

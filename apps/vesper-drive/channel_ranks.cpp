@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 #include "playback.h"
+#include "print.h"
 
 namespace vesper::drive {
 namespace {
@@ -79,6 +80,10 @@ std::vector<int> ranks_of(const Channels& channels, int ranks) {
     return found;
 }
 
+std::string columns_of(const ChannelRanks::Meeting& meeting) {
+    return apps::format(",%.0f,%d", meeting.skew * 1e6, meeting.last);
+}
+
 ChannelRanks::ChannelRanks(Ranks& ranks, const Channels& channels)
     : ranks_(ranks), rank_of_(ranks_of(channels, ranks.size())), gaze_(channels.gaze) {
     std::vector<std::string> roles(size_t(ranks.size()));
@@ -89,13 +94,16 @@ ChannelRanks::ChannelRanks(Ranks& ranks, const Channels& channels)
     for (int rank = 0; rank < ranks.size(); ++rank) ranks.set_role(rank, roles[size_t(rank)]);
 }
 
-std::vector<size_t> ChannelRanks::own(size_t channels) const {
-    std::vector<size_t> mine;
-    for (size_t i = 0; i < channels; ++i)
-        if (has(i)) mine.push_back(i);
-    return mine;
+std::vector<std::vector<size_t>> ChannelRanks::shares(size_t channels) const {
+    std::vector<std::vector<size_t>> by_rank(size_t(ranks_.size()));
+    for (size_t i = 0; i < channels; ++i) by_rank[size_t(rank_of_[i])].push_back(i);
+    return by_rank;
 }
 
+std::vector<size_t> ChannelRanks::own(size_t channels) const { return shares(channels)[size_t(ranks_.rank())]; }
+
+// What goes to all does so by the first rank, which has it in the end: of each rank a message, and one to each. What
+// each is told, which is more, goes straight there.
 void ChannelRanks::say(Kind kind, Bytes bytes) {
     if (is_first())
         said_[size_t(kind)].push_back(std::move(bytes));
@@ -103,16 +111,33 @@ void ChannelRanks::say(Kind kind, Bytes bytes) {
         ranks_.send(0, stream_of(kind), std::move(bytes));
 }
 
+void ChannelRanks::say_to_each(Kind kind, std::vector<Bytes> bytes) {
+    for (int rank = 0; rank < ranks_.size(); ++rank) {
+        Bytes& to = bytes[size_t(rank)];
+        if (rank == ranks_.rank())
+            said_[size_t(kind)].push_back(std::move(to));
+        else
+            ranks_.send(rank, stream_of(kind), std::move(to));
+    }
+}
+
 std::vector<Bytes> ChannelRanks::hear(Kind kind) {
     std::vector<Bytes> all;
-    if (!is_first()) {
+    const bool each = kind == Kind::Light;
+    if (!each && !is_first()) {
         const Bytes joined = ranks_.receive(0, stream_of(kind));
         for (PacketReader reader(joined); !reader.at_end();) all.push_back(reader.list<std::byte>());
         return all;
     }
-    all.push_back(std::move(said_[size_t(kind)].front()));
-    said_[size_t(kind)].pop_front();
-    for (int other = 1; other < ranks_.size(); ++other) all.push_back(ranks_.receive(other, stream_of(kind)));
+    for (int rank = 0; rank < ranks_.size(); ++rank) {
+        if (rank != ranks_.rank()) {
+            all.push_back(ranks_.receive(rank, stream_of(kind)));
+            continue;
+        }
+        all.push_back(std::move(said_[size_t(kind)].front()));
+        said_[size_t(kind)].pop_front();
+    }
+    if (each) return all;
     PacketWriter joined;
     for (const Bytes& one : all) joined.list(one);
     ranks_.broadcast(stream_of(kind), joined.take());
@@ -143,8 +168,8 @@ void ChannelRanks::end_drive() {
     ranks_.broadcast(Ranks::Stream::Events, std::exchange(news_, {}).take());
 }
 
-std::optional<ChannelRanks::Wanted> ChannelRanks::follow(Session& session) {
-    const Bytes bytes = ranks_.receive(0, Ranks::Stream::Events);
+std::optional<ChannelRanks::Wanted> ChannelRanks::follow(Session& session, const std::function<void()>& meanwhile) {
+    const Bytes bytes = ranks_.receive(0, Ranks::Stream::Events, meanwhile);
     for (PacketReader news(bytes);;) {
         switch (news.value<News>()) {
             case News::Event:

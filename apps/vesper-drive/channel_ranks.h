@@ -46,15 +46,18 @@ public:
     void end_drive();
 
     // Of the others.
-    /// Does what the first rank's session did, up to a frame. Nothing: the drive is over.
-    std::optional<Wanted> follow(Session&);
+    /// Does what the first rank's session did, up to a frame; `meanwhile` while there is nothing to do. Nothing: the
+    /// drive is over.
+    std::optional<Wanted> follow(Session&, const std::function<void()>& meanwhile = {});
     void report(const Wanted&, const ChannelMosaic&, const std::string& row);
 
     /// Before a frame is shown: waits until all ranks can show theirs.
     Meeting meet(const shared::EyeState&);
 
+    std::vector<std::vector<size_t>> shares(size_t channels) const override;
     std::vector<size_t> own(size_t channels) const override;
     void say(Kind, apps::Bytes) override;
+    void say_to_each(Kind, std::vector<apps::Bytes>) override;
     std::vector<apps::Bytes> hear(Kind) override;
 
 private:
@@ -64,8 +67,12 @@ private:
     apps::PacketWriter news_;  // since the last frame
     Wanted wanted_;
     uint64_t frames_ = 0;
-    std::array<std::deque<apps::Bytes>, kKinds> said_;  // by the first rank
+    std::array<std::deque<apps::Bytes>, kKinds> said_;  // by this rank, to itself
 };
+
+/// Of a log: names, and values.
+constexpr const char* kMeetingColumns = ",skew_us,last_rank";
+std::string columns_of(const ChannelRanks::Meeting&);
 
 /// Which rank shows each channel: those of the file; else the ranks but the first, a run of channels each. Throws
 /// Error.

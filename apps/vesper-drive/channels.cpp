@@ -11,7 +11,9 @@
 #include "base/angle.h"
 #include "base/one_line.h"
 #include "graph/times.h"
+#include "io/named_file.h"
 #include "io/read_file.h"
+#include "scene/display_file.h"
 #include "scene/json_value.h"
 
 namespace vesper::drive {
@@ -20,9 +22,32 @@ namespace {
 constexpr size_t kMost = 32;
 constexpr uint64_t kMostPixels = 1ull << 27;  // of all: sixteen times 3840 x 2160
 
-ScreenChannel channel_of(const scene::JsonValue& value) {
+// What projectors of a channel are given. `folder`: of the file of channels.
+void read_projector(const scene::JsonValue& value, const std::filesystem::path& folder, ScreenChannel& c) {
+    const auto file_of = [&](const char* key) {
+        const auto name = value.find(key);
+        if (!name) return std::filesystem::path();
+        try {
+            return io::named_file(folder, name->text());
+        } catch (const Error& error) {
+            name->fail(error.what());
+        }
+    };
+    if (const std::filesystem::path profile = file_of("display"); !profile.empty())
+        c.display = scene::read_display(profile);
+    const std::filesystem::path warp = file_of("warp"), mask = file_of("mask");
+    if (warp.empty() && mask.empty()) return;
+    std::optional<vision::WarpMesh> mesh;
+    std::optional<vision::BlendMask> factors;
+    if (!warp.empty()) mesh = vision::read_warp_mesh(warp);
+    if (!mask.empty()) factors = vision::read_blend_mask(mask);
+    c.projection = std::make_shared<const gpu_scene::Projection>(
+        gpu_scene::projection_of(c.extent, c.extent, mesh ? &*mesh : nullptr, factors ? &*factors : nullptr));
+}
+
+ScreenChannel channel_of(const scene::JsonValue& value, const std::filesystem::path& folder) {
     value.allow_only({"name", "size_px", "yaw_deg", "pitch_deg", "roll_deg", "left_deg", "right_deg", "bottom_deg",
-                      "top_deg", "rank", "monitor"});
+                      "top_deg", "display", "warp", "mask", "rank", "monitor"});
     ScreenChannel c;
     c.name = value.at("name").text();
     const auto size = value.at("size_px").elements(2);
@@ -40,6 +65,7 @@ ScreenChannel channel_of(const scene::JsonValue& value) {
         return given ? std::optional(int(given->integer(4096))) : std::nullopt;
     };
     c.rank = number("rank"), c.monitor = number("monitor");
+    read_projector(value, folder, c);
     return c;
 }
 
@@ -47,6 +73,55 @@ ScreenChannel channel_of(const scene::JsonValue& value) {
 glm::dmat4 turned(const ScreenChannel& c) {
     const glm::dmat4 turned = glm::rotate(glm::dmat4(1), c.yaw, glm::dvec3(0, 1, 0));
     return glm::rotate(glm::rotate(turned, c.pitch, glm::dvec3(1, 0, 0)), -c.roll, glm::dvec3(0, 0, 1));
+}
+
+// Directions of one channel that lie well within another one, at most so many of kProbes x kProbes.
+constexpr int kProbes = 48;
+int overlap(const ScreenChannel& one, const ScreenChannel& other) {
+    const glm::dmat3 to_other = glm::transpose(glm::dmat3(turned(other))) * glm::dmat3(turned(one));
+    const auto at = [](double low, double high, double part) { return std::lerp(std::tan(low), std::tan(high), part); };
+    const auto within = [](double tangent, double low, double high) {
+        const double part = (tangent - std::tan(low)) / (std::tan(high) - std::tan(low));
+        return part > 0.01 && part < 0.99;  // screens that touch, as numbers of a file have it
+    };
+    int shared = 0;
+    for (int y = 0; y < kProbes; ++y)
+        for (int x = 0; x < kProbes; ++x) {
+            const glm::dvec3 d = to_other * glm::dvec3(at(one.left, one.right, (x + 0.5) / kProbes),
+                                                       at(one.bottom, one.top, (y + 0.5) / kProbes), -1);
+            shared +=
+                d.z < 0 && within(d.x / -d.z, other.left, other.right) && within(d.y / -d.z, other.bottom, other.top);
+        }
+    return shared;
+}
+
+// Where two projectors shine, their masks part the light.
+void check_overlaps(const Channels& channels, const scene::JsonValue& root) {
+    const std::vector<ScreenChannel>& all = channels.screens;
+    for (size_t i = 0; i < all.size(); ++i)
+        for (size_t k = 0; k < i; ++k)
+            if (!(all[i].projection && all[k].projection) && overlap(all[i], all[k]) + overlap(all[k], all[i]) > 0)
+                root.at("channels")
+                    .fail("channels " + one_line(all[k].name) + " and " + one_line(all[i].name) +
+                          " overlap: of two that do, both need a warp mesh or a mask");
+}
+
+// The luminances that all displays have, as one display: the curve of the eye is made for it.
+vision::Display common_display(const Channels& channels, const vision::Display& usual) {
+    if (std::ranges::none_of(channels.screens, [](const ScreenChannel& c) { return c.display.has_value(); }))
+        return usual;
+    float low = 0, high = std::numeric_limits<float>::infinity();
+    for (const ScreenChannel& c : channels.screens) {
+        const vision::Display& display = c.display ? *c.display : usual;
+        if (display.bits != usual.bits)
+            throw Error("channel " + one_line(c.name) + ": its display has codes of " + std::to_string(display.bits) +
+                        " bits, and --display of " + std::to_string(usual.bits));
+        low = std::max(low, display.low()), high = std::min(high, display.high());
+    }
+    if (!(high > low)) throw Error("channels: their displays have no luminance in common");
+    vision::Display common = usual;
+    common.ambient = 0, common.black = low, common.peak = high;
+    return common;
 }
 
 // What `picture` tells of each channel, side by side; `beside` where there is none.
@@ -93,8 +168,9 @@ Channels read_channels(const std::filesystem::path& file) {
     if (root.at("version").integer() != 1)
         root.at("version").fail("this version of Vesper reads channels of version 1");
     Channels channels;
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     for (const scene::JsonValue& value : root.at("channels").elements()) {
-        ScreenChannel c = channel_of(value);
+        ScreenChannel c = channel_of(value, folder);
         if (std::any_of(channels.screens.begin(), channels.screens.end(),
                         [&](const ScreenChannel& other) { return other.name == c.name; }))
             value.at("name").fail("two channels have the name " + one_line(c.name));
@@ -111,6 +187,7 @@ Channels read_channels(const std::filesystem::path& file) {
         if (named == channels.screens.end()) gaze->fail("there is no channel " + one_line(gaze->text()));
         channels.gaze = size_t(named - channels.screens.begin());
     }
+    check_overlaps(channels, root);
     return channels;
 }
 
@@ -204,6 +281,7 @@ ChannelMosaic ChannelRenderer::render(render::Renderer& renderer, const Channels
 
     render::ToneChainSettings shown = settings;
     if (shown.glare == render::Glare::Scatter) shown.glare = render::Glare::None;  // it is in them
+    shown.display = common_display(channels, settings.display);
     shown.histogram.electorate = 0;
     for (const ScreenChannel& c : channels.screens)
         shown.histogram.electorate += uint64_t(c.extent.width) * c.extent.height;
@@ -228,7 +306,11 @@ ChannelMosaic ChannelRenderer::render(render::Renderer& renderer, const Channels
     for (const size_t i : own) {
         render::Frame& channel = wall.channels[i];
         if (outputs.display) {
-            render::ToneMapped mapped = mapper_.show(shown, picture(i), wall.shown.curve, {.display = true});
+            const ScreenChannel& screen = channels.screens[i];
+            render::ToneChainSettings on_screen = shown;
+            on_screen.display = screen.display ? *screen.display : settings.display;
+            render::ToneMapped mapped = mapper_.show(on_screen, picture(i), wall.shown.curve,
+                                                     {.display = true, .projection = screen.projection.get()});
             channel.display = std::move(mapped.display), channel.foveal_level = mapped.foveal_level;
             graph::add_times(wall.shown.timings, mapped.timings);
         }

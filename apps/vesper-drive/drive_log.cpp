@@ -116,4 +116,11 @@ std::string DriveRows::next(const Session& session, const gpu_scene::View& view,
                          frame.histogram.non_finite, device, frame.milliseconds);
 }
 
+std::string row_of(DriveRows& rows, const Session& session, const Channels& channels, ChannelMosaic& wall) {
+    render::Frame logged = logged_frame(wall, channels.gaze);
+    std::string row = rows.next(session, channel_view(channels.screens[channels.gaze], session.view({1, 1})), logged);
+    wall.channels[channels.gaze] = std::move(logged);
+    return row;
+}
+
 }  // namespace vesper::drive

@@ -38,6 +38,9 @@ private:
     std::string contacts_;  // since the last row, as the next has them
 };
 
+/// The next row, of the channel that is looked at; that must be one of this process.
+std::string row_of(DriveRows&, const Session&, const Channels&, ChannelMosaic&);
+
 /// The log, on disk row by row (GrowingFile). Throws Error.
 class DriveLog {
 public:

@@ -110,7 +110,7 @@ public:
     /// Once everything is read, and before anything is written: no name of so many frames may be another file's.
     void open(size_t frames) {
         if (names_) announce_numbered(frames);
-        if (logs()) log_.emplace(arguments_.log, probes_, meets_ ? ",skew_us,last_rank" : "");
+        if (logs()) log_.emplace(arguments_.log, probes_, meets_ ? kMeetingColumns : "");
     }
     /// On other ranks than the first, in its place.
     bool logs() const { return !arguments_.log.empty(); }
@@ -188,17 +188,6 @@ private:
     DriveRows rows_{probes_};
 };
 
-// The row of the channel that is looked at, where this process has it.
-std::string row_of(Outlet& outlet, const Session& session, const Channels& channels, ChannelMosaic& wall) {
-    render::Frame& seen = wall.channels[channels.gaze];
-    if (!outlet.logs() || seen.extent.width == 0) return "";
-    render::Frame logged = logged_frame(wall, channels.gaze);
-    std::string row =
-        outlet.rows().next(session, channel_view(channels.screens[channels.gaze], session.view({1, 1})), logged);
-    seen = std::move(logged);
-    return row;
-}
-
 // One picture of all channels; the log is of the one that is looked at.
 void take_wall(Outlet& outlet, unsigned index, Session& session, const Channels& channels, ChannelRanks* ranks,
                double fps) {
@@ -208,9 +197,10 @@ void take_wall(Outlet& outlet, unsigned index, Session& session, const Channels&
     std::string more;
     if (ranks) {
         const ChannelRanks::Meeting meeting = ranks->meet(wall.shown.eye);
-        more = apps::format(",%.0f,%d", meeting.skew * 1e6, meeting.last);
+        more = columns_of(meeting);
     }
-    std::string row = row_of(outlet, session, channels, wall);
+    std::string row;
+    if (outlet.logs() && (!ranks || ranks->has(channels.gaze))) row = row_of(outlet.rows(), session, channels, wall);
     if (ranks) row += ranks->collect(wall);
     outlet.append(outlet.take(index, session, wall.shown, wall.channels[channels.gaze].lamps, row + more), fps);
 }
@@ -222,7 +212,8 @@ void follow(Outlet& outlet, Session& session, const Channels& channels, ChannelR
         ChannelMosaic wall =
             session.render(channels, {.display = wanted->display, .scene = wanted->scene || (wanted->row && !ldr)});
         ranks.meet(wall.shown.eye);
-        const std::string row = wanted->row ? row_of(outlet, session, channels, wall) : "";
+        const bool logs = wanted->row && ranks.has(channels.gaze);
+        const std::string row = logs ? row_of(outlet.rows(), session, channels, wall) : "";
         ranks.report(*wanted, wall, row);
     }
     session.leave_channels();

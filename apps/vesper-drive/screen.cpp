@@ -95,6 +95,10 @@ Screen::Screen(Window& window, gpu::Device& device)
 
 Screen::~Screen() = default;
 
+window::Vsync vsync_of(const std::string& name) {
+    return name == "latest" ? window::Vsync::Latest : name == "off" ? window::Vsync::Off : window::Vsync::Wait;
+}
+
 bool Screen::shows(const vision::Display& display) const { return swapchain_.offers(codes_of(display)); }
 
 void Screen::begin_instruments(bool keyboard) {

@@ -16,6 +16,9 @@ struct ScreenSettings {
     window::Scaling scaling = window::Scaling::Fit;
 };
 
+/// Of --vsync.
+window::Vsync vsync_of(const std::string& name);
+
 /// Shows pictures in a window, with Dear ImGui over them. One at a time.
 class Screen {
 public:

@@ -13,6 +13,7 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/one_line.h"
+#include "channel_window.h"
 #include "picture_arguments.h"
 #include "print.h"
 #include "render/passes/operators.h"
@@ -46,10 +47,6 @@ WindowSettings window_settings(const DriveArguments& a) {
             .monitor = a.full_screen < 0 ? std::nullopt : std::optional(unsigned(a.full_screen))};
 }
 
-window::Vsync vsync_of(const std::string& name) {
-    return name == "latest" ? window::Vsync::Latest : name == "off" ? window::Vsync::Off : window::Vsync::Wait;
-}
-
 }  // namespace
 
 WindowedDrive::WindowedDrive(const DriveArguments& a)
@@ -62,6 +59,7 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
       hands_(a.controllers.empty() ? std::vector<ControllerMapping>() : read_controllers(a.controllers)) {
     if (a.size_given) size_ = apps::parse_size(a.size);
     if (!a.channels.empty()) channels_ = read_channels(a.channels);
+    if (apps::Ranks::several()) ranks_ = std::make_unique<ChannelRanks>(apps::Ranks::all(), *channels_);
     Drive drive;
     if (!a.replay.empty()) {
         drive = read_drive(a.replay);
@@ -71,12 +69,17 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
         if (!drive.complete) say(a.replay + " breaks off; what there is of it is shown");
     }
     open_session(drive);
+    if (ranks_) {
+        apps::Ranks::all().agree_on_files();
+        apps::Ranks::all().in_turns([] {});  // in which others gather light
+        ranks_->lead(*session_);
+    }
     if (!a.replay.empty()) replay_.emplace(std::move(drive.events), a.settings);
     if (a.messages.live) open_feed();
     if (!a.osi_out.empty()) session_->write_trace(a.osi_out);
     if (!a.record.empty()) session_->record(a.record, recorded_size()), recording_ = a.record;
     if (a.autopilot) hands_.press(Action::Autopilot);
-    if (!a.log.empty()) log_.emplace(a.log, probes_of(a.probes));
+    if (!a.log.empty()) log_.emplace(a.log, probes_of(a.probes), ranks_ ? kMeetingColumns : "");
     window_.on_key = [this](int key, int modifiers) {
         const auto action = action_of(key, modifiers);
         if (!action || screen_->is_typing()) return;
@@ -94,7 +97,7 @@ gpu::DeviceOptions WindowedDrive::device_options() const {
 }
 
 void WindowedDrive::recover(const gpu::DeviceLost& error) {
-    if (!std::exchange(shown_, false)) throw error;
+    if (ranks_ || !std::exchange(shown_, false)) throw error;
     screen_.reset();
     auto device = std::make_unique<gpu::Device>(device_options());
     session_->use(*device);
@@ -118,6 +121,7 @@ void WindowedDrive::open_session(const Drive& drive) {
         [](const DriveSettings&) {});
     session_ = std::make_unique<Session>(*device_, start, std::move(scenery));
     if (arguments_.replay.empty()) session_->set_shadow_budget(kWindowShadowBudget);
+    if (channels_) session_->share_channels(ranks_.get(), arguments_.latency);
     watch_contacts();
     keep_maps();
     apps::print_notes(session_->scenery().notes());
@@ -125,6 +129,7 @@ void WindowedDrive::open_session(const Drive& drive) {
 
 // A scene that cannot be used leaves everything as it is.
 void WindowedDrive::reload(const std::string& scene) {
+    if (ranks_) return say("several ranks show this drive: another scene needs a new start", true);
     const bool same = scene == arguments_.scene;  // then what moves on it, too
     DriveSettings::Values settings = session_->settings().values();
     if (!same)
@@ -141,6 +146,7 @@ void WindowedDrive::reload(const std::string& scene) {
         light_.reset(), session_ = std::move(made), feed_.reset();
         if (same && arguments_.messages.live) open_feed();
         session_->set_shadow_budget(kWindowShadowBudget);
+        if (channels_) session_->share_channels(nullptr, arguments_.latency);
         watch_contacts();
         keep_maps();
     } catch (const Error& error) {
@@ -285,7 +291,7 @@ void WindowedDrive::keep_maps() {
 
 // What is known of the light between surfaces; the first time that it is wanted its work begins.
 void WindowedDrive::take_light() {
-    if (!session_->settings().render().indirect) return;
+    if (ranks_ || !session_->settings().render().indirect) return;
     if (!light_) {
         gpu_scene::SceneFrame rest = session_->moment();
         light_ = std::make_unique<LightGatherer>(session_->scenery().scene(), std::move(rest.world),
@@ -303,6 +309,7 @@ void WindowedDrive::take_light() {
 
 // What the window says while no message is shown.
 std::string WindowedDrive::standing_message() const {
+    if (ranks_ && !meeting_.empty()) return meeting_note_;
     if (feed_ && feed_->counts().messages == 0) return "listening at " + feed_->place() + ": no message yet";
     if (session_->outside().without_body > 0)
         return format("%zu objects are not shown: there are too many at once", session_->outside().without_body);
@@ -310,8 +317,24 @@ std::string WindowedDrive::standing_message() const {
     return format("light between surfaces: %.0f %%, rough until then", 100 * light_->share());
 }
 
+// Behind the instruments of a rank without a channel.
+void show_nothing(render::ToneMapped& shown) {
+    shown.extent = {960, 540};
+    shown.display.assign(size_t{4} * shown.extent.width * shown.extent.height, 0);
+}
+
 void WindowedDrive::draw(const render::Outputs& outputs, ChannelMosaic& wall) {
-    if (channels_) {
+    if (ranks_) {
+        ranks_->begin_frame({.row = log_.has_value()});
+        wall = session_->render(*channels_, outputs);
+        const ChannelRanks::Meeting meeting = ranks_->meet(wall.shown.eye);
+        meeting_ = columns_of(meeting);
+        meeting_note_ = apps::Ranks::all().name(meeting.last) + format(" was the last, by %.1f ms", meeting.skew * 1e3);
+        row_ = log_ && ranks_->has(channels_->gaze) ? row_of(log_->rows(), *session_, *channels_, wall) : "";
+        row_ += ranks_->collect(wall);
+        if (wall.shown.display.empty()) show_nothing(wall.shown);
+        frame_ = logged_frame(wall, channels_->gaze);
+    } else if (channels_) {
         wall = session_->render(*channels_, outputs);
         frame_ = logged_frame(wall, channels_->gaze);
     } else {
@@ -323,9 +346,10 @@ void WindowedDrive::render(bool moved) {
     take_light();
     const VkExtent2D extent = picture_extent();
     const bool ldr = session_->settings().render().tone_operator == render::Operator::Ldr;
-    const render::Outputs outputs{.display = true, .scene = (instruments_.needs_scene() || log_) && !ldr};
-    const bool lacks =
-        (outputs.scene && frame_.scene.empty()) || extent.width != rendered_.width || extent.height != rendered_.height;
+    const bool measures = instruments_.needs_scene() || log_;
+    const render::Outputs outputs{.display = true, .scene = measures && !ldr};
+    const bool lacks = (outputs.scene && !ranks_ && frame_.scene.empty()) || extent.width != rendered_.width ||
+                       extent.height != rendered_.height;
     if (!moved && !stale_ && !lacks) return;
     view_ = session_->view(extent);
     ChannelMosaic wall;
@@ -345,8 +369,10 @@ void WindowedDrive::render(bool moved) {
     instruments_.remember(*session_, frame_);
     if (log_) {
         try {
-            log_->append(log_->rows().next(
-                *session_, channels_ ? channel_view(channels_->screens[channels_->gaze], view_) : view_, frame_));
+            if (!ranks_)
+                row_ = log_->rows().next(
+                    *session_, channels_ ? channel_view(channels_->screens[channels_->gaze], view_) : view_, frame_);
+            log_->append(row_, meeting_);
         } catch (const Error& error) {
             log_.reset();
             say("--log " + std::string(error.what()), true);
@@ -425,12 +451,17 @@ void WindowedDrive::run() {
         std::this_thread::sleep_until(
             now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(least)));
     }
+    if (ranks_) ranks_->end_drive(), session_->leave_channels();
     if (!recording_.empty()) session_->stop_recording();
     session_->finish_trace();
     if (log_) log_->complete();
 }
 
 void run_windowed(const DriveArguments& arguments) {
+    if (apps::Ranks::several()) {
+        if (arguments.channels.empty()) throw Error("several ranks open windows for --channels, or none (--headless)");
+        if (apps::Ranks::own_number() != 0) return show_channels(arguments);
+    }
     WindowedDrive drive(arguments);
     try {
         drive.run();

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "channel_ranks.h"
 #include "drive.h"
 #include "drive_file.h"
 #include "drive_log.h"
@@ -96,7 +97,8 @@ private:
     render::Frame frame_;
     gpu_scene::View view_;
     std::optional<Channels> channels_;
-    std::vector<uint32_t> columns_;  // where each begins in the frame
+    std::unique_ptr<ChannelRanks> ranks_;  // that show them; none: this process does
+    std::vector<uint32_t> columns_;        // where each begins in the frame
     uint64_t frame_number_ = 0;
     glm::dvec2 mouse_{0};
     std::string recording_, message_;
@@ -105,6 +107,7 @@ private:
     uint64_t troubles_ = 0;  // of the feed, as they were said last
     Clock::time_point troubles_said_{};
     std::optional<DriveLog> log_;
+    std::string row_, meeting_, meeting_note_;  // of the last frame of several ranks
 };
 
 /// Opens a window and drives, or replays, in it.

@@ -2,6 +2,7 @@
 #include <mpi.h>
 
 #include <climits>
+#include <cstdlib>
 #include <iterator>
 #include <list>
 #include <vector>
@@ -66,6 +67,8 @@ vesper::apps::MessagePassing passing;
 }  // namespace
 
 extern "C" const vesper::apps::MessagePassing* vesper_message_passing_1() {
+    // Copies between processes by the kernel are forbidden in many containers, where messages would be lost.
+    setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
     int threads = 0, length = 0;
     if (MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &threads) != MPI_SUCCESS) return nullptr;
     if (threads < MPI_THREAD_SERIALIZED) return nullptr;

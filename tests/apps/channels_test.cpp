@@ -11,6 +11,7 @@
 #include "passes/eye_scatter_reference.h"
 #include "places.h"
 #include "scene/scene_files.h"
+#include "support/complaints.h"
 
 namespace vesper::test {
 namespace {
@@ -380,6 +381,82 @@ TEST(Channels, FilesAreReadOrRefused) {
         Error);
     EXPECT_THROW(drive::read_channels(folder.write("huge.json", R"({"version": 1, "channels": [)" + huge + "]}")),
                  Error);
+}
+
+// Two projectors side by side, so many degrees apart, each 40 wide.
+std::string projectors(double apart, const std::string& left = "", const std::string& right = "") {
+    const std::string edges = R"(, "left_deg": -20, "right_deg": 20, "bottom_deg": -10, "top_deg": 10)";
+    return R"({"version": 1, "channels": [{"name": "l", "size_px": [24, 12], "yaw_deg": )" + std::to_string(apart) +
+           edges + left + R"(}, {"name": "r", "size_px": [24, 12])" + edges + right + "}]}";
+}
+
+// What both show is an error, unless each is mapped onto its projector.
+TEST(Channels, ThatOverlapNeedMaps) {
+    const TempFolder folder;
+    const auto read = [&](const std::string& text) { return drive::read_channels(folder.write("rig.json", text)); };
+    folder.write("mesh.data", "2\n2 2\n-2 -1 0 0 1\n2 -1 1 0 1\n-2 1 0 1 1\n2 1 1 1 1\n");
+    const std::string warp = R"(, "warp": "mesh.data")";
+    EXPECT_EQ(read(projectors(40)).screens.size(), 2u);
+    EXPECT_EQ(read(projectors(180)).screens.size(), 2u);
+    EXPECT_NE(complaint_of([&] { read(projectors(37)); }).find("/channels: channels l and r overlap: "),
+              std::string::npos);
+    EXPECT_NE(complaint_of([&] { read(projectors(37, warp)); }).find(" overlap: "), std::string::npos);
+    EXPECT_NE(read(projectors(37, warp, warp)).screens[1].projection, nullptr);
+    EXPECT_NE(complaint_of([&] { read(projectors(40, R"(, "mask": "none.png")")); }).find("none.png"),
+              std::string::npos);
+    EXPECT_NE(complaint_of([&] { read(projectors(40, R"(, "warp": "../mesh.data")")); }).find("/channels/0/warp"),
+              std::string::npos);
+}
+
+// Each is shown by its display, mapped onto its projector; the eye's curve is for what all displays can show. A mesh
+// that turns the picture over shows the last row first.
+TEST(Channels, AreShownByTheirDisplaysAndProjectors) {
+    Rig rig(wall_scene(3, 300, scene::Lamp::Kind::Point));
+    Channels plain = three(), own = three();
+    const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
+    const std::string text = "2\n2 2\n-1 1 0 0 1\n1 1 1 0 1\n-1 -1 0 1 1\n1 -1 1 1 1\n";
+    const vision::WarpMesh over =
+        vision::parse_warp_mesh({reinterpret_cast<const uint8_t*>(text.data()), text.size()}, "m");
+    const VkExtent2D extent = own.screens[0].extent;
+    own.screens[0].projection =
+        std::make_shared<const gpu_scene::Projection>(gpu_scene::projection_of(extent, extent, &over));
+    const auto shown = [&](const Channels& channels, const vision::Display& display) {
+        render::RenderSettings settings;
+        settings.display = display;
+        rig.wall.reset_adaptation();
+        return rig.wall.render(rig.renderer, channels, settings, driver, rig.frame, 0, {.display = true});
+    };
+    const vision::Display usual;
+    const ChannelMosaic as_is = shown(plain, usual), mapped = shown(own, usual);
+    const size_t row = size_t{4} * extent.width;
+    for (uint32_t y = 0; y < extent.height; ++y)
+        for (size_t i = 0; i < row; ++i)
+            ASSERT_NEAR(mapped.channels[0].display[y * row + i],
+                        as_is.channels[0].display[(extent.height - 1 - y) * row + i], 1)
+                << "the factors 1 and 1/255 of a code";
+    EXPECT_EQ(mapped.channels[1].display, as_is.channels[1].display);
+
+    // Half as bright, and twice as bright: codes of both are of the same luminance, where the curve is for the dimmer.
+    vision::Display dim = usual, bright = usual;
+    dim.black = bright.black = 0.1f, dim.ambient = bright.ambient = 0;
+    dim.peak = 100, bright.peak = 200;
+    own.screens[0].projection = nullptr;
+    own.screens[0].display = dim, own.screens[1].display = bright, own.screens[2].display = dim;
+    const ChannelMosaic both = shown(own, dim);
+    plain.screens[1].display = dim;
+    const ChannelMosaic of_dim = shown(plain, dim);
+    EXPECT_EQ(both.channels[0].display, of_dim.channels[0].display);
+    const auto luminance = [](const vision::Display& display, uint8_t code) {
+        return vision::DisplayCurve(display).emitted(code / 255.0);
+    };
+    const size_t middle = 4 * (size_t{extent.height} / 2 * extent.width + extent.width / 2);
+    const uint8_t dim_code = of_dim.channels[1].display[middle], bright_code = both.channels[1].display[middle];
+    EXPECT_LT(bright_code, 0.8 * dim_code);
+    EXPECT_NEAR(luminance(bright, bright_code) / luminance(dim, dim_code), 1, 0.08) << "half a code of each";
+
+    own.screens[1].display->bits = 10;
+    EXPECT_NE(complaint_of([&] { shown(own, dim); }).find("channel 0: its display has codes of 10 bits"),
+              std::string::npos);
 }
 
 }  // namespace

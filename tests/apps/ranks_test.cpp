@@ -21,7 +21,7 @@ const fs::path kPrograms = fs::path(VESPER_PROGRAM).parent_path();
 const std::string kRig = R"({"version": 1, "gaze": "front", "channels": [
     {"name": "left", "size_px": [48, 30], "yaw_deg": 48, "left_deg": -24, "right_deg": 24, "bottom_deg": -15, "top_deg": 15},
     {"name": "front", "size_px": [61, 37], "left_deg": -24, "right_deg": 24, "bottom_deg": -15, "top_deg": 15},
-    {"name": "right", "size_px": [48, 30], "yaw_deg": -48, "left_deg": -24, "right_deg": 24, "bottom_deg": -15, "top_deg": 15}]})";
+    {"name": "right", "size_px": [48, 30], "yaw_deg": -48, "left_deg": -24, "right_deg": 24, "bottom_deg": -15, "top_deg": 15, "warp": "keystone.data"}]})";
 
 class RanksProgram : public ProgramTest {
 protected:
@@ -32,6 +32,7 @@ protected:
     void SetUp() override {
         if (missing_) GTEST_SKIP() << "no mpirun, or built without MPI";
         folder.write("rig.json", kRig);
+        folder.write("keystone.data", "2\n2 2\n-1.5 -1 0 0 1\n1.5 -1 1 0 0.5\n-1 1 0 1 1\n1 0.9 1 1 0.5\n");
         const std::string yard = VESPER_SOURCE_DIR "/data/photometry/yard";
         ASSERT_EQ(
             run(VESPER_PROGRAM " convert " + yard + ".gltf --photometry " + yard + ".photometry.json -o yard.gltf"), 0)
@@ -181,6 +182,7 @@ TEST_F(RanksProgram, RefusesWhatDoesNotGoTogether) {
     for (const std::string& there : std::vector<std::string>{"0", "1"}) {
         fs::create_directory(folder / there);
         fs::copy(folder / "rig.json", folder / there / "rig.json");
+        fs::copy(folder / "keystone.data", folder / there / "keystone.data");
         fs::copy(folder / "yard.gltf", folder / there / "yard.gltf");
         if (fs::exists(folder / "yard.bin")) fs::copy(folder / "yard.bin", folder / there / "yard.bin");
     }

@@ -170,9 +170,11 @@ int Ranks::own_number() {
 Ranks::Ranks() : shared_(std::make_unique<Shared>()) {
     Shared& s = *shared_;
     if (several()) {
+        // MPI would end the process.
+        if (number_in({"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"}, -1) < 0)
+            throw Error("srun started several processes that do not know each other: give --mpi=pmix");
         s.passing = load();
-        if (s.passing->size == 1)
-            throw Error("several processes were started together, but MPI knows of one: with srun, give --mpi=pmix");
+        if (s.passing->size == 1) throw Error("several processes were started together, but MPI knows of one");
     }
     const auto size = size_t(s.passing->size);
     s.roles.resize(size), s.hosts.resize(size);
@@ -214,8 +216,14 @@ Bytes Ranks::receive(int from, Stream stream, const std::function<void()>& meanw
     for (;;) {
         if (auto bytes = poll(from, stream)) return std::move(*bytes);
         if (meanwhile) meanwhile();
-        rest(since(begin));
+        wait_for(from, since(begin));
     }
+}
+
+void Ranks::wait_for(int other, double waited) const {
+    if (patience_ > 0 && waited > patience_)
+        throw Error(name(other) + " lives but has not gone on for " + format("%.0f s", waited));
+    rest(waited);
 }
 
 Bytes Ranks::broadcast(Stream stream, Bytes bytes) {
@@ -251,14 +259,16 @@ std::vector<Ranks::Arrival> Ranks::arrivals(Stream stream) {
     std::vector<bool> here(all.size(), false);
     here[size_t(rank())] = true;
     while (!std::ranges::all_of(here, [](bool one) { return one; })) {
+        int missing = 0;
         for (int other = 0; other < size(); ++other) {
             if (here[size_t(other)]) continue;
+            missing = other;
             if (auto bytes = poll(other, stream)) {
                 all[size_t(other)] = {std::move(*bytes), since(begin)};
                 here[size_t(other)] = true;
             }
         }
-        rest(since(begin));
+        wait_for(missing, since(begin));
     }
     return all;
 }

@@ -52,6 +52,9 @@ public:
     /// Waits for it, and calls `meanwhile` now and then.
     Bytes receive(int from, Stream stream, const std::function<void()>& meanwhile = {});
     std::optional<Bytes> poll(int from, Stream stream);
+    /// From now on no wait for another rank is longer, s, or throws Error with its name; 0, as at first: any is
+    /// possible.
+    void set_patience(double seconds) { patience_ = seconds; }
     /// Of the first rank, on all.
     Bytes broadcast(Stream stream, Bytes bytes);
     /// Of all ranks, in their order, on the first; elsewhere nothing.
@@ -87,7 +90,10 @@ private:
 
     struct Shared;  // with the thread
     std::unique_ptr<Shared> shared_;
+    void wait_for(int other, double waited) const;
+
     std::vector<Bytes> said_;  // at the start
+    double patience_ = 0;
 };
 
 }  // namespace vesper::apps

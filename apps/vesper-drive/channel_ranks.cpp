@@ -13,6 +13,9 @@ namespace {
 
 using apps::Bytes, apps::PacketReader, apps::PacketWriter, apps::Ranks;
 
+constexpr uint64_t kFramesToKnow = 3;
+constexpr double kTimesLonger = 5;  // than any before
+
 enum class News : uint8_t { Event, Message, Rewind, Frame, End };
 
 Ranks::Stream stream_of(ChannelLink::Kind kind) {
@@ -146,6 +149,7 @@ std::vector<Bytes> ChannelRanks::hear(Kind kind) {
 
 void ChannelRanks::lead(Session& session) {
     session.on_event = [this](const DriveEvent* event) {
+        unusual_ |= !event || event->kind == DriveEvent::Kind::Set || event->kind == DriveEvent::Kind::Restart;
         if (!event)
             news_.value(News::Rewind);
         else if (event->kind != DriveEvent::Kind::Frame)
@@ -159,11 +163,15 @@ void ChannelRanks::lead(Session& session) {
 
 void ChannelRanks::begin_frame(const Wanted& wanted) {
     wanted_ = wanted;
+    frame_watch_ = {};
+    // A rank whose main thread hangs has to be told from one that is slow.
+    ranks_.set_patience(unusual_ || usual_frames_ < kFramesToKnow ? 0 : Ranks::kSilence + kTimesLonger * longest_);
     news_.value(News::Frame), news_.value(wanted);
     ranks_.broadcast(Ranks::Stream::Events, std::exchange(news_, {}).take());
 }
 
 void ChannelRanks::end_drive() {
+    ranks_.set_patience(0);
     news_.value(News::End);
     ranks_.broadcast(Ranks::Stream::Events, std::exchange(news_, {}).take());
 }
@@ -246,6 +254,8 @@ ChannelRanks::Meeting ChannelRanks::meet(const shared::EyeState& eye) {
         if (other == 1 || one.seconds < first) first = one.seconds;
         if (one.seconds > ready[size_t(meeting.last)].seconds) meeting.last = other;
     }
+    if (!std::exchange(unusual_, false))
+        ++usual_frames_, longest_ = std::max(longest_, frame_watch_.milliseconds() / 1e3);
     meeting.skew = ready[size_t(meeting.last)].seconds - first;
     ranks_.broadcast(Ranks::Stream::Ready, {});
     return meeting;

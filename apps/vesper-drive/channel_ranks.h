@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/stopwatch.h"
 #include "channel_link.h"
 #include "channels.h"
 #include "osi/message.h"
@@ -66,7 +67,10 @@ private:
     size_t gaze_;
     apps::PacketWriter news_;  // since the last frame
     Wanted wanted_;
-    uint64_t frames_ = 0;
+    uint64_t frames_ = 0, usual_frames_ = 0;  // of the latter nothing was set before
+    bool unusual_ = true;
+    Stopwatch frame_watch_;
+    double longest_ = 0;                                // of usual frames, s
     std::array<std::deque<apps::Bytes>, kKinds> said_;  // by this rank, to itself
 };
 

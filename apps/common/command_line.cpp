@@ -224,6 +224,21 @@ Program::~Program() = default;
 
 void Program::version(const std::string& text) { app_->set_version_flag("--version", text); }
 
+namespace {
+
+// What all ranks must be given alike: all but their devices.
+std::string common_arguments(int argc, char** argv) {
+    std::string words;
+    for (int i = 1; i < argc; ++i)
+        if (std::string_view(argv[i]) == "--device")
+            ++i;
+        else
+            words += std::string(argv[i]) + '\n';
+    return words;
+}
+
+}  // namespace
+
 int Program::run(int argc, char** argv) {
     keep_freed_memory();
     handle_signals();
@@ -235,6 +250,7 @@ int Program::run(int argc, char** argv) {
         // There are none.
     }
     const std::string name = app_->get_name();
+    Ranks::set_program(name, common_arguments(argc, argv));
     std::string failure;
     try {
         app_->parse(argc, argv);
@@ -260,9 +276,13 @@ int Program::run(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         failure = "out of memory";
     }
-    failure = Ranks::fail(failure);
-    if (!failure.empty()) print_error(name, failure);
-    Ranks::finish();
+    try {
+        failure = Ranks::fail(failure);
+        if (!failure.empty()) print_error(name, failure);
+        Ranks::finish();
+    } catch (const std::exception& error) {
+        print_error(name, error.what());
+    }
     return kBadInput;
 }
 

@@ -7,10 +7,10 @@ namespace vesper::apps {
 render::Frame FrameRelay::render(render::Renderer& renderer, const render::RenderSettings& given,
                                  const gpu_scene::View& view, const gpu_scene::SceneFrame& moment, float seconds,
                                  const render::Outputs& outputs, unsigned index, const Finds& finds) {
-    const auto& [fresh, eye] = finds;
+    const std::optional<shared::EyeState>& eye = finds.eye;
     if (ranks_.size() == 1) {
         if (eye) renderer.set_eye(*eye);
-        if (fresh) renderer.reset_adaptation();
+        if (finds.fresh) renderer.reset_adaptation();
         return renderer.render(given, view, moment, seconds, outputs);
     }
     // All up to what the eye sees needs no eye.
@@ -25,10 +25,10 @@ render::Frame FrameRelay::render(render::Renderer& renderer, const render::Rende
         if (eye) return *eye;
         shared::EyeState before{};
         if (index > 0) PacketReader(ranks_.receive(rank_of(index - 1), Ranks::Stream::Eyes)).value(before);
-        return fresh ? shared::EyeState{} : before;
+        return finds.fresh ? shared::EyeState{} : before;
     };
     const auto hand_on = [&](const shared::EyeState& left) {
-        if (eye || index + 1 == frames_) return;
+        if (finds.all_known || index + 1 == frames_) return;
         PacketWriter packet;
         packet.value(left);
         ranks_.send(rank_of(index + 1), Ranks::Stream::Eyes, packet.take());

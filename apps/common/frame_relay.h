@@ -23,7 +23,8 @@ public:
     /// The eye that frames find.
     struct Finds {
         bool fresh = false;  ///< one that has seen nothing, in place of what the frame before has left
-        std::optional<shared::EyeState> eye = {};  ///< this one; then of all frames
+        std::optional<shared::EyeState> eye = {};  ///< this one
+        bool all_known = false;                    ///< every frame has one, so that none is handed on
     };
     /// A frame that this rank has, as Renderer::render().
     render::Frame render(render::Renderer&, const render::RenderSettings&, const gpu_scene::View&,

@@ -12,10 +12,9 @@ struct MessagePassing {
     const char* host = "";  ///< name of this machine
     /// Takes a copy of the bytes and does not wait.
     int (*send)(int to, int stream, const std::byte* bytes, size_t count) = nullptr;
-    /// Bytes of the earliest message of a rank and stream; -1: none is there.
-    int (*look)(int from, int stream, long* bytes) = nullptr;
-    /// That message.
-    int (*take)(int from, int stream, std::byte* to, size_t count) = nullptr;
+    /// The earliest message of a rank and stream, where all of it has come; else null. It does not wait, and the bytes
+    /// are there until the next call.
+    int (*receive)(int from, int stream, const std::byte** bytes, size_t* count) = nullptr;
     /// Moves on what is being sent, and says how many messages are.
     int (*move_on)(size_t* sending) = nullptr;
     const char* (*text_of)(int error) = nullptr;

@@ -19,11 +19,11 @@ Progress::~Progress() {
 void Progress::step() {
     ++done_;
     if (!visible_) return;
-    constexpr unsigned kWidth = 30;
-    const unsigned filled = kWidth * done_ / total_;
+    constexpr unsigned kBar = 30;
+    const unsigned filled = kBar * done_ / total_;
     const double elapsed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     std::fprintf(stderr, "\r%s [%s%s] %u/%u, %.0f s left ", one_line(what_).c_str(), std::string(filled, '#').c_str(),
-                 std::string(kWidth - filled, '.').c_str(), done_, total_, elapsed / done_ * (total_ - done_));
+                 std::string(kBar - filled, '.').c_str(), done_, total_, elapsed / done_ * (total_ - done_));
     std::fflush(stderr);
 }
 

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "base/digest.h"
+#include "base/one_line.h"
 #include "io/file_gate.h"
 #include "io/read_file.h"
 #include "message_passing.h"
@@ -26,6 +27,8 @@ constexpr auto kBeat = std::chrono::milliseconds(250);
 constexpr int kEndCode = 2;
 const MessagePassing kAlone;
 Ranks* started = nullptr;
+std::string program = "vesper", start_arguments;
+std::string start_problem;  // for which there are no ranks
 
 double since(Clock::time_point time) { return std::chrono::duration<double>(Clock::now() - time).count(); }
 
@@ -83,12 +86,10 @@ struct Ranks::Shared {
         return "rank " + std::to_string(rank) + (about.empty() ? "" : " (" + about + ")");
     }
     std::optional<Bytes> take(int from, Stream stream) {
-        long bytes = -1;
-        check(passing->look(from, int(stream), &bytes));
-        if (bytes < 0) return std::nullopt;
-        Bytes taken(static_cast<size_t>(bytes));
-        check(passing->take(from, int(stream), taken.data(), taken.size()));
-        return taken;
+        const std::byte* bytes = nullptr;
+        size_t count = 0;
+        check(passing->receive(from, int(stream), &bytes, &count));
+        return bytes ? std::optional(Bytes(bytes, bytes + count)) : std::nullopt;
     }
     // Returns whether anything is still being sent.
     bool move_on() {
@@ -97,7 +98,7 @@ struct Ranks::Shared {
         return left > 0;
     }
     [[noreturn]] void end(const std::string& text) {
-        print_error("vesper", text);
+        print_error(program, text);
         passing->end_all(kEndCode);
         std::_Exit(kEndCode);
     }
@@ -123,7 +124,7 @@ struct Ranks::Shared {
                     if (since(heard[size_t(other)]) > longest && !over)
                         end(name(other) + " has been silent for " + format("%.0f s", kSilence) + ": the run ends");
                 }
-            } catch (const Error& error) {
+            } catch (const std::exception& error) {
                 end(error.what());
             }
         }
@@ -131,9 +132,15 @@ struct Ranks::Shared {
 };
 
 Ranks& Ranks::all() {
-    static Ranks ranks;
-    started = &ranks;
-    return ranks;
+    if (!start_problem.empty()) throw Error(start_problem);
+    try {
+        static Ranks ranks;
+        started = &ranks;
+        return ranks;
+    } catch (const Error& error) {
+        start_problem = error.what();  // MPI starts once
+        throw;
+    }
 }
 
 void Ranks::finish() {
@@ -142,7 +149,7 @@ void Ranks::finish() {
     started->exchange(Stream::Start, {});
     shared.over = true;
     shared.beats.join();
-    for (size_t left = 1; left > 0;) shared.check(shared.passing->move_on(&left));
+    while (shared.move_on()) std::this_thread::sleep_for(std::chrono::microseconds(200));
     shared.passing->finish();
 }
 
@@ -151,14 +158,16 @@ std::string Ranks::fail(const std::string& text) {
     if (!started) try {
             all();
         } catch (const Error& error) {
-            return own_number() == 0 ? error.what() : "";
+            const int number = own_number();
+            return number == 0 ? error.what() : "rank " + std::to_string(number) + ": " + error.what();
         }
     Shared& shared = *started->shared_;
-    if (shared.agreed) shared.end(started->name(started->rank()) + ": " + text);
+    if (shared.agreed) shared.end((started->is_first() ? "" : started->name(started->rank()) + ": ") + text);
     const std::vector<std::string> failures = started->start(text, {});
     const auto same = [&](const std::string& other) { return other == text; };
     if (std::ranges::find_if(failures, same) - failures.begin() != started->rank()) return "";  // another one prints it
-    return std::ranges::all_of(failures, same) ? text : started->name(started->rank()) + ": " + text;
+    return started->is_first() || std::ranges::all_of(failures, same) ? text
+                                                                      : started->name(started->rank()) + ": " + text;
 }
 
 bool Ranks::several() { return number_in({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}, 1) > 1; }
@@ -253,31 +262,11 @@ std::vector<Bytes> Ranks::exchange(Stream stream, Bytes bytes) {
     return all;
 }
 
-std::vector<Ranks::Arrival> Ranks::arrivals(Stream stream) {
-    const Clock::time_point begin = Clock::now();
-    std::vector<Arrival> all(static_cast<size_t>(size()));
-    std::vector<bool> here(all.size(), false);
-    here[size_t(rank())] = true;
-    while (!std::ranges::all_of(here, [](bool one) { return one; })) {
-        int missing = 0;
-        for (int other = 0; other < size(); ++other) {
-            if (here[size_t(other)]) continue;
-            missing = other;
-            if (auto bytes = poll(other, stream)) {
-                all[size_t(other)] = {std::move(*bytes), since(begin)};
-                here[size_t(other)] = true;
-            }
-        }
-        wait_for(missing, since(begin));
-    }
-    return all;
-}
-
 // Says what this rank has come to, and hears it of all: why they failed, if they did.
-std::vector<std::string> Ranks::start(const std::string& failure, const std::vector<Sameness>& says) {
+std::vector<std::string> Ranks::start(const std::string& failure, const std::map<std::string, std::string>& says) {
     PacketWriter own;
     own.list(std::string(shared_->passing->host)), own.list(failure);
-    for (const Sameness& one : says) own.list(one.value);
+    for (const auto& [thing, value] : says) own.list(thing), own.list(value);
     said_ = exchange(Stream::Start, own.take());
     shared_->agreed = true;
     std::vector<std::string> failures;
@@ -291,25 +280,38 @@ std::vector<std::string> Ranks::start(const std::string& failure, const std::vec
     return failures;
 }
 
-void Ranks::agree(const std::vector<Sameness>& says) {
+void Ranks::agree(const std::map<std::string, std::string>& says) {
     const std::vector<std::string> failures = start("", says);
     if (std::ranges::any_of(failures, [](const std::string& text) { return !text.empty(); })) throw AgreedError("");
-    for (size_t other = 1; other < said_.size(); ++other) {
-        PacketReader first(said_.front()), packet(said_[other]);
-        for (int i = 0; i < 2; ++i) first.text(), packet.text();
-        for (const Sameness& one : says)
-            if (first.text() != packet.text())
-                throw AgreedError(is_first() ? name(int(other)) + " has " + one.what + " than " + name(0) : "");
+    std::map<std::string, std::string> first;
+    for (size_t other = 0; other < said_.size(); ++other) {
+        PacketReader packet(said_[other]);
+        packet.text(), packet.text();
+        while (!packet.at_end()) {
+            const std::string thing = packet.text(), value = packet.text();
+            if (first.try_emplace(thing, value).first->second == value) continue;
+            throw AgreedError(is_first() ? name(int(other)) + " has another " + one_line(thing) + " than " + name(0)
+                                         : "");
+        }
     }
 }
 
-void Ranks::agree_on_files() {
+void Ranks::agree_on_start() {
     if (size() == 1) return;
-    const Digest::Value files = io::contents_read();
-    const std::vector<uint8_t> program = io::read_file("/proc/self/exe", uint64_t{1} << 30);
+    std::map<std::string, std::string> says;
+    for (const auto& [file, digests] : io::contents_read()) {
+        Digest all;
+        for (const Digest::Value& one : digests) all.add_value(one);
+        says[file] = hexadecimal(all.value());
+    }
     Digest build;
-    build.add_list(program);
-    agree({{"another build of Vesper", hexadecimal(build.value())}, {"other files", hexadecimal(files)}});
+    build.add_list(io::read_file("/proc/self/exe", uint64_t{1} << 30));
+    says["build of Vesper"] = hexadecimal(build.value()), says["command line"] = start_arguments;
+    agree(says);
+}
+
+void Ranks::set_program(const std::string& name, const std::string& arguments) {
+    program = name, start_arguments = arguments;
 }
 
 void Ranks::in_turns(const std::function<void()>& task) {

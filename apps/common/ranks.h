@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -61,23 +62,14 @@ public:
     std::vector<Bytes> gather(Stream stream, Bytes bytes);
     /// The same on all.
     std::vector<Bytes> exchange(Stream stream, Bytes bytes);
-    /// Waits, and does `meanwhile`, until messages of a stream from all other ranks are there; for the first rank.
-    /// Returns them with the seconds since the call at which they came.
-    struct Arrival {
-        Bytes bytes;
-        double seconds = 0;
-    };
-    std::vector<Arrival> arrivals(Stream stream);
-
-    /// The end of the start: every rank has read its files. What `says` must be the same on all, such as digests, each
-    /// with its words; otherwise, or where one has failed, every rank throws AgreedError.
-    struct Sameness {
-        std::string what;  ///< "another build of Vesper"
-        std::string value;
-    };
-    void agree(const std::vector<Sameness>& says);
-    /// agree() on the program and on all files that this thread has read (io::contents_read).
-    void agree_on_files();
+    /// The end of the start: every rank has read its files. What ranks say of one thing, such as digests, must be the
+    /// same; otherwise, or where one has failed, every rank throws AgreedError.
+    void agree(const std::map<std::string, std::string>& says);
+    /// agree() on the program, on its arguments and on the files that this thread has read (io::contents_read), as far
+    /// as others read those of the same names.
+    void agree_on_start();
+    /// Of this process, before agree_on_start(): name of the program, for messages, and arguments that all must have.
+    static void set_program(const std::string& name, const std::string& arguments);
     /// After agree(): ranks of one machine do it one after the other, so that each finds what those before it have left
     /// in a cache; machines at once.
     void in_turns(const std::function<void()>& task);
@@ -86,7 +78,7 @@ public:
 
 private:
     Ranks();
-    std::vector<std::string> start(const std::string& failure, const std::vector<Sameness>& says);
+    std::vector<std::string> start(const std::string& failure, const std::map<std::string, std::string>& says);
 
     struct Shared;  // with the thread
     std::unique_ptr<Shared> shared_;

@@ -90,9 +90,9 @@ void ChannelGlare::prepare(const gpu_scene::ScatterSettings& settings, std::vect
         for (apps::PacketReader wanted(bytes); !wanted.at_end();) {
             const auto taker = wanted.value<uint64_t>();
             for (size_t of = 0; of < pictures.size(); ++of) {
-                std::vector<uint32_t> nodes = wanted.list<uint32_t>();
+                const std::vector<uint32_t> nodes = wanted.list<uint32_t>();
                 for (Own& own : own_)
-                    if (own.view == of) own.wanted.at(taker) = std::move(nodes);
+                    if (own.view == of) own.wanted.at(taker) = nodes;
             }
         }
     pictures_ = std::move(pictures), settings_ = settings;

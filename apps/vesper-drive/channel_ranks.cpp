@@ -235,30 +235,33 @@ std::string ChannelRanks::collect(ChannelMosaic& wall) {
 
 ChannelRanks::Meeting ChannelRanks::meet(const shared::EyeState& eye) {
     const Digest::Value mine = digest_of(eye);
+    const Stopwatch watch;
     ++frames_;
     if (!is_first()) {
         PacketWriter packet;
-        packet.value(mine);
+        packet.value(mine), packet.value(waited_);
         ranks_.send(0, Ranks::Stream::Ready, packet.take());
         ranks_.receive(0, Ranks::Stream::Ready);
+        waited_ = watch.milliseconds() / 1e3;
         return {};
     }
-    const std::vector<Ranks::Arrival> ready = ranks_.arrivals(Ranks::Stream::Ready);
-    double first = 0;
-    Meeting meeting{0, 1};
+    // Clocks of machines differ: each tells how long it waited.
+    std::vector<double> waited(size_t(ranks_.size()), waited_);
     for (int other = 1; other < ranks_.size(); ++other) {
-        const Ranks::Arrival& one = ready[size_t(other)];
-        if (PacketReader(one.bytes).value<Digest::Value>() != mine)
+        const Bytes ready = ranks_.receive(other, Ranks::Stream::Ready);
+        PacketReader packet(ready);
+        if (packet.value<Digest::Value>() != mine)
             throw Error(ranks_.name(other) + ": its eye is not that of " + ranks_.name(0) + " in frame " +
                         std::to_string(frames_));
-        if (other == 1 || one.seconds < first) first = one.seconds;
-        if (one.seconds > ready[size_t(meeting.last)].seconds) meeting.last = other;
+        packet.value(waited[size_t(other)]);
     }
     if (!std::exchange(unusual_, false))
         ++usual_frames_, longest_ = std::max(longest_, frame_watch_.milliseconds() / 1e3);
-    meeting.skew = ready[size_t(meeting.last)].seconds - first;
+    waited_ = watch.milliseconds() / 1e3;
     ranks_.broadcast(Ranks::Stream::Ready, {});
-    return meeting;
+    const auto sooner = [&](int a, int b) { return waited[size_t(a)] < waited[size_t(b)]; };
+    const auto [last, first] = std::minmax_element(rank_of_.begin(), rank_of_.end(), sooner);
+    return {waited[size_t(*first)] - waited[size_t(*last)], *last};
 }
 
 }  // namespace vesper::drive

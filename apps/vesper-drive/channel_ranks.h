@@ -29,9 +29,9 @@ public:
         bool display = false, scene = false;  ///< of each channel, for a film
         bool row = false;                     ///< of the log
     };
-    /// When all ranks were ready to show a frame.
+    /// How ranks with channels were ready to show the frame before.
     struct Meeting {
-        double skew = 0;  ///< s: from the first other rank that was ready to the last
+        double skew = 0;  ///< s: by how much longer the first one waited than the last
         int last = 0;     ///< that rank
     };
 
@@ -71,6 +71,7 @@ private:
     bool unusual_ = true;
     Stopwatch frame_watch_;
     double longest_ = 0;                                // of usual frames, s
+    double waited_ = 0;                                 // for the others, in the last frame, s
     std::array<std::deque<apps::Bytes>, kKinds> said_;  // by this rank, to itself
 };
 

@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/angle.h"
+#include "base/budget.h"
 #include "base/one_line.h"
 #include "graph/times.h"
 #include "io/named_file.h"
@@ -37,6 +38,7 @@ void read_projector(const scene::JsonValue& value, const std::filesystem::path& 
         c.display = scene::read_display(profile);
     const std::filesystem::path warp = file_of("warp"), mask = file_of("mask");
     if (warp.empty() && mask.empty()) return;
+    spend(uint64_t{c.extent.width} * c.extent.height * sizeof(shared::ProjectedPixel));
     std::optional<vision::WarpMesh> mesh;
     std::optional<vision::BlendMask> factors;
     if (!warp.empty()) mesh = vision::read_warp_mesh(warp);
@@ -45,7 +47,7 @@ void read_projector(const scene::JsonValue& value, const std::filesystem::path& 
         gpu_scene::projection_of(c.extent, c.extent, mesh ? &*mesh : nullptr, factors ? &*factors : nullptr));
 }
 
-ScreenChannel channel_of(const scene::JsonValue& value, const std::filesystem::path& folder) {
+ScreenChannel channel_of(const scene::JsonValue& value) {
     value.allow_only({"name", "size_px", "yaw_deg", "pitch_deg", "roll_deg", "left_deg", "right_deg", "bottom_deg",
                       "top_deg", "display", "warp", "mask", "rank", "monitor"});
     ScreenChannel c;
@@ -65,7 +67,6 @@ ScreenChannel channel_of(const scene::JsonValue& value, const std::filesystem::p
         return given ? std::optional(int(given->integer(4096))) : std::nullopt;
     };
     c.rank = number("rank"), c.monitor = number("monitor");
-    read_projector(value, folder, c);
     return c;
 }
 
@@ -170,7 +171,7 @@ Channels read_channels(const std::filesystem::path& file) {
     Channels channels;
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
     for (const scene::JsonValue& value : root.at("channels").elements()) {
-        ScreenChannel c = channel_of(value, folder);
+        ScreenChannel c = channel_of(value);
         if (std::any_of(channels.screens.begin(), channels.screens.end(),
                         [&](const ScreenChannel& other) { return other.name == c.name; }))
             value.at("name").fail("two channels have the name " + one_line(c.name));
@@ -187,9 +188,13 @@ Channels read_channels(const std::filesystem::path& file) {
         if (named == channels.screens.end()) gaze->fail("there is no channel " + one_line(gaze->text()));
         channels.gaze = size_t(named - channels.screens.begin());
     }
+    const std::vector<scene::JsonValue> values = root.at("channels").elements();
+    for (size_t i = 0; i < values.size(); ++i) read_projector(values[i], folder, channels.screens[i]);
     check_overlaps(channels, root);
     return channels;
 }
+
+void check_displays(const Channels& channels, const vision::Display& usual) { common_display(channels, usual); }
 
 gpu_scene::View channel_view(const ScreenChannel& c, const gpu_scene::View& driver) {
     gpu_scene::View view = driver;
@@ -277,6 +282,7 @@ ChannelMosaic ChannelRenderer::render(render::Renderer& renderer, const Channels
                                            {.display = false, .scene = scatters && !together, .retina = true});
         if (!scatters) wall.channels[i].scene = std::exchange(wall.channels[i].retina, {});
     }
+    if (!together) glare_.forget();
     if (together) glare_.scatter({settings, eye_, seconds, late_}, views, turns, wall.channels);
 
     render::ToneChainSettings shown = settings;

@@ -34,6 +34,9 @@ struct Channels {
 /// Reads a file of channels (docs/channels.md). Throws Error, naming file, place and reason.
 Channels read_channels(const std::filesystem::path&);
 
+/// Throws Error where displays of channels do not go together, or with the one that all others have.
+void check_displays(const Channels&, const vision::Display& usual);
+
 /// What a channel of the driver's view sees.
 gpu_scene::View channel_view(const ScreenChannel&, const gpu_scene::View& driver);
 

@@ -302,8 +302,9 @@ void run_headless(const DriveArguments& a) {
         throw Error("nothing to do: give --video, --log, --record or --osi-out");
     gpu::Device device({.select = a.device});
     Session session(device, options, std::move(scenery));
+    if (channels) check_displays(*channels, session.settings().render().display);
     if (channels) session.share_channels(ranks ? &*ranks : nullptr, a.latency);
-    apps::Ranks::all().agree_on_files();
+    apps::Ranks::all().agree_on_start();
     const std::shared_ptr<Cache> cache = apps::shadow_cache(a.shadow_cache);
     session.keep_maps(cache);
     const render::RenderSettings& shown = session.settings().render();
@@ -334,8 +335,8 @@ void run_headless(const DriveArguments& a) {
                               bool fresh) {
         return relay.render(renderer, settings, view, moment, seconds, outputs, index, {.fresh = fresh});
     };
-    const auto take = [&](unsigned, const apps::Bytes& taken) {
-        outlet.append(taken, fps);
+    const auto take = [&, rate = fps](unsigned, const apps::Bytes& taken) {
+        outlet.append(taken, rate);
         progress.step();
     };
     while (const auto kind = playback.next(session)) {

@@ -51,15 +51,15 @@ osi::Timeline::Added Session::hear(osi::Message message) {
 }
 
 void Session::note(const DriveEvent& event) {
+    if (on_event) on_event(&event);  // others do it whether it can be recorded or not
     recorder_->add(event);
-    if (on_event) on_event(&event);
 }
 
 // What cannot be kept ends a recording, and nothing else.
 void Session::keep(const osi::Message& message) {
     if (heard_->add(message) || !recording()) return;
     recorder_->close();
-    throw Error("the recording ends: " + heard_->problem());
+    problem_ = "the recording ends: " + heard_->problem();
 }
 
 // The moment of the messages, and everything where it is then.
@@ -85,6 +85,7 @@ void Session::step(const traffic::DriverInput& input, std::optional<double> show
           .shown = options_.messages.live ? shown : std::nullopt,
           .name = {},
           .value = {}});
+    if (!problem_.empty()) throw Error(std::exchange(problem_, {}));
     if (trace_) ++traced_, trace_->append(osi::trace_bytes_of(message_now()));
 }
 
@@ -151,7 +152,12 @@ void Session::begin_frame(const gpu_scene::SceneFrame& moment) {
 void Session::end_frame(const shared::EyeState& eye) {
     rendered_ = world_->steps();
     eye_ = eye;
-    note({.kind = DriveEvent::Kind::Frame, .name = {}, .value = {}});
+    try {
+        note({.kind = DriveEvent::Kind::Frame, .name = {}, .value = {}});
+    } catch (const Error& error) {
+        if (!link_) throw;
+        problem_ = error.what();  // after what the others wait for
+    }
 }
 
 void Session::skip_frame() { end_frame(eye_); }
@@ -205,6 +211,7 @@ void Session::record(const std::filesystem::path& file, std::optional<glm::uvec2
 }
 
 void Session::stop_recording() {
+    if (!problem_.empty()) throw Error(std::exchange(problem_, {}));
     if (heard_) heard_->close();
     recorder_->close();
 }

@@ -151,6 +151,7 @@ private:
     GuestPlaces places_;
     Outside outside_;
     std::optional<double> shown_;             // the moment of the messages
+    std::string problem_;                     // of a recording, to be thrown when nobody waits
     std::unique_ptr<MessageStore> heard_;     // what is needed of a live source to show it again
     std::unique_ptr<io::GrowingFile> trace_;  // of write_trace()
     uint64_t traced_ = 0;                     // steps in it

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 #include "channel_window.h"
+#include "indirect_arguments.h"
 #include "picture_arguments.h"
 #include "print.h"
 #include "render/passes/operators.h"
@@ -70,8 +71,16 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
     }
     open_session(drive);
     if (ranks_) {
-        apps::Ranks::all().agree_on_files();
-        apps::Ranks::all().in_turns([] {});  // in which others gather light
+        const std::vector<size_t> own = ranks_->own(channels_->screens.size());
+        check_displays(*channels_, session_->settings().render().display);
+        if (const auto monitor = monitor_of(*channels_, own); monitor && a.full_screen < 0) window_.fill(monitor);
+        apps::Ranks::all().agree_on_start();
+        apps::Ranks::all().in_turns([&] {
+            if (own.empty() || !session_->settings().render().indirect) return;
+            const gpu_scene::SceneFrame rest = session_->moment();
+            session_->set_radiosity(
+                apps::gathered(session_->scenery().scene(), rest.world, rest.moving, map_cache_.get()));
+        });
         ranks_->lead(*session_);
     }
     if (!a.replay.empty()) replay_.emplace(std::move(drive.events), a.settings);
@@ -359,6 +368,7 @@ void WindowedDrive::render(bool moved) {
         throw;
     } catch (const Error& error) {
         // Too many lamps for shadows end these, not the drive. A recording that has ended is no matter of shadows.
+        if (ranks_) throw;  // others wait for this frame
         const bool recorded = recording_.empty() || session_->recording();
         if (!session_->settings().render().shadows || !recorded) throw;
         change("shadows", "off");

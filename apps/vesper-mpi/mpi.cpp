@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <iterator>
 #include <list>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "message_passing.h"
@@ -36,20 +38,40 @@ int move_on(size_t* left) {
     return MPI_SUCCESS;
 }
 
-int look(int from, int stream, long* bytes) {
-    int there = 0;
-    MPI_Status status;
-    *bytes = -1;
-    if (const int error = MPI_Iprobe(from, stream, MPI_COMM_WORLD, &there, &status); error != MPI_SUCCESS || !there)
-        return error;
-    int count = 0;
-    const int error = MPI_Get_count(&status, MPI_BYTE, &count);
-    *bytes = count;
-    return error;
-}
+// A message that comes in: nothing waits for the rest of it, so that a machine that stops meanwhile is noticed.
+struct Receiving {
+    std::vector<std::byte> bytes;
+    MPI_Request request = MPI_REQUEST_NULL;
+};
+std::map<std::pair<int, int>, Receiving> receiving;  // by rank and stream
+std::vector<std::byte> received(1);
 
-int take(int from, int stream, std::byte* to, size_t count) {
-    return MPI_Recv(to, int(count), MPI_BYTE, from, stream, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+int receive(int from, int stream, const std::byte** bytes, size_t* count) {
+    *bytes = nullptr;
+    auto here = receiving.find({from, stream});
+    if (here == receiving.end()) {
+        int there = 0, size = 0;
+        MPI_Message message = MPI_MESSAGE_NULL;
+        MPI_Status status;
+        if (const int error = MPI_Improbe(from, stream, MPI_COMM_WORLD, &there, &message, &status);
+            error != MPI_SUCCESS || !there)
+            return error;
+        if (const int error = MPI_Get_count(&status, MPI_BYTE, &size); error != MPI_SUCCESS) return error;
+        here = receiving.try_emplace({from, stream}).first;
+        here->second.bytes.resize(size_t(size));
+        if (const int error = MPI_Imrecv(here->second.bytes.data(), size, MPI_BYTE, &message, &here->second.request);
+            error != MPI_SUCCESS)
+            return error;
+    }
+    int done = 0;
+    const int error = MPI_Test(&here->second.request, &done, MPI_STATUS_IGNORE);
+    if (error != MPI_SUCCESS || !done) return error;
+    received = std::move(here->second.bytes);
+    receiving.erase(here);
+    *count = received.size();
+    if (received.empty()) received.resize(1);  // a message without bytes is one
+    *bytes = received.data();
+    return MPI_SUCCESS;
 }
 
 const char* text_of(int error) {
@@ -77,7 +99,7 @@ extern "C" const vesper::apps::MessagePassing* vesper_message_passing_1() {
     MPI_Comm_size(MPI_COMM_WORLD, &passing.size);
     MPI_Get_processor_name(host, &length);
     passing.host = host;
-    passing.send = send, passing.look = look, passing.take = take, passing.move_on = move_on;
+    passing.send = send, passing.receive = receive, passing.move_on = move_on;
     passing.text_of = text_of, passing.end_all = end_all, passing.finish = finish;
     return &passing;
 }

@@ -360,7 +360,7 @@ void run(RenderArguments& arguments) {
     render::Renderer renderer(device, scene);
     const std::shared_ptr<Cache> cache = apps::shadow_cache(arguments.shadows.cache);
     renderer.keep_maps(cache);
-    ranks.agree_on_files();
+    ranks.agree_on_start();
     if (arguments.settings.indirect && !arguments.traces && !ldr)  // which shows lamps alone
         ranks.in_turns([&] {
             renderer.set_radiosity(apps::gathered(scene, moment.world, scene::animated_nodes(scene), cache.get()));
@@ -389,9 +389,10 @@ void run(RenderArguments& arguments) {
             renderer.set_illuminance(
                 other_light(traced_light(device, scene, renderer.scene(), moment, view, arguments.tracing,
                                          [&](double share) { progress.at(index, share); })));
-        const render::Frame frame = relay.render(
-            renderer, arguments.settings, view, moment, step,
-            {.display = outputs.display, .scene = outputs.scene || (last && wants_statistics)}, index, {.eye = eye});
+        const render::Frame frame =
+            relay.render(renderer, arguments.settings, view, moment, step,
+                         {.display = outputs.display, .scene = outputs.scene || (last && wants_statistics)}, index,
+                         {.eye = eye, .all_known = !arguments.replay_file.empty()});
         milliseconds.push_back(frame.milliseconds);
         apps::print_cache_note(frame.maps.note);
         if (const std::string note = apps::photometry_note(loaded, arguments.scene); index == 0 && !note.empty())

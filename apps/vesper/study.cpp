@@ -54,7 +54,7 @@ void run(const StudyArguments& arguments, const std::string& what, const std::st
     fs::create_directory(arguments.folder, error);  // another rank may have made it
     if (!fs::is_directory(arguments.folder))
         throw Error("-o " + one_line(arguments.folder) + ": cannot be made a folder");
-    apps::Ranks::all().agree_on_files();
+    apps::Ranks::all().agree_on_start();
     render::ToneMapper mapper(device);
     Study all{arguments, settings, mapper, pictures, StudyPage(title)};
     all.page.paragraph(apps::format("Display from %.4g to %.4g cd/m\u00b2, %u bits. ", double(settings.display.low()),

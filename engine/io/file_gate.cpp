@@ -51,14 +51,16 @@ FileGate::~FileGate() {
     if (gate == this) gate = nullptr;
 }
 
-void gate_contents(std::span<const uint8_t> bytes) {
+void gate_contents(const fs::path& file, std::span<const uint8_t> bytes) {
     if (!gate) return;
     Digest digest;
     digest.add(std::as_bytes(bytes));
-    for (size_t i = 0; i < gate->contents.size(); ++i) gate->contents[i] += digest.value()[i];
+    gate->contents[file.filename().string()].insert(digest.value());
 }
 
-Digest::Value contents_read() { return gate ? gate->contents : Digest::Value{}; }
+std::map<std::string, std::set<Digest::Value>> contents_read() {
+    return gate ? gate->contents : std::map<std::string, std::set<Digest::Value>>{};
+}
 
 void announce_read(const fs::path& file) {
     const auto identity = existing(file);

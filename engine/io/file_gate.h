@@ -34,7 +34,8 @@ public:
     FileGate& operator=(const FileGate&) = delete;
 
     std::set<FileIdentity> read;  ///< files that exist
-    Digest::Value contents{};     ///< the sum of the digests of all that was read, whatever the order
+    std::map<std::string, std::set<Digest::Value>>
+        contents;  ///< digests of all that was read, by names without folders
     std::map<FileIdentity, std::string>
         written;  ///< who writes: by what they are, and by the names that they will have
 };
@@ -48,9 +49,9 @@ void announce_write(const std::string& option, const std::filesystem::path& file
 /// For readers: this open file is read. Throws if it is to be written.
 void gate_read(int descriptor, const std::filesystem::path& file);
 /// For readers: what is in it.
-void gate_contents(std::span<const uint8_t> bytes);
-/// FileGate::contents of the gate of this thread; zero where there is none.
-Digest::Value contents_read();
+void gate_contents(const std::filesystem::path& file, std::span<const uint8_t> bytes);
+/// FileGate::contents of the gate of this thread; nothing where there is none.
+std::map<std::string, std::set<Digest::Value>> contents_read();
 /// For writers: this file is about to be replaced. Throws if it was read.
 void gate_write(const std::filesystem::path& file);
 /// For writers: this file grows until gate_written(), and cannot be read as long.

@@ -45,7 +45,7 @@ std::vector<uint8_t> read_bytes(const Descriptor& in, const fs::path& file, uint
         done += static_cast<size_t>(got);
     }
     bytes.resize(done);
-    gate_contents(bytes);
+    gate_contents(file, bytes);
     return bytes;
 }
 

@@ -144,6 +144,9 @@ TEST_F(RanksProgram, EyesGoOnFromFiles) {
         return row.substr(row.find(',') + 1);  // without its number
     };
     EXPECT_EQ(last_row("a.csv"), last_row("c.csv"));
+    ASSERT_EQ(run_ranks(2, render + "--frames 3 --dt 0.5 --start 1 --eye-in b.csv -o c%d.png --eye-out d.csv"), 0)
+        << said;
+    EXPECT_EQ(read_text(folder / "c.csv"), read_text(folder / "d.csv"));
     EXPECT_EQ(run(render + "--eye-in a.csv --operator ward -o d.png"), 2);
     EXPECT_NE(said.find("--eye-in a.csv: is of the operator irawan"), std::string::npos) << said;
 }
@@ -177,6 +180,13 @@ TEST_F(RanksProgram, RefusesWhatDoesNotGoTogether) {
     rig(0, 0, 1);
     EXPECT_EQ(run_ranks(2, headless + "--channels rig.json"), 0) << said;
 
+    // Each rank with arguments of its own.
+    const std::string one = headless + "--channels rig.json --glare ";
+    expect(1,
+           "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 timeout 120 mpirun -q --oversubscribe -n 1 " +
+               one + "cie : -n 1 " + one + "none",
+           "has another command line than rank 0");
+
     // Each rank in a folder of its own.
     folder.write("rig.json", kRig);
     for (const std::string& there : std::vector<std::string>{"0", "1"}) {
@@ -189,7 +199,7 @@ TEST_F(RanksProgram, RefusesWhatDoesNotGoTogether) {
     const std::string apart = "sh -c 'cd $OMPI_COMM_WORLD_RANK && exec " + headless + "--channels rig.json'";
     EXPECT_EQ(run_ranks(2, apart), 0) << said;
     std::ofstream(folder / "1/yard.gltf", std::ios::app) << ' ';
-    expect(2, apart, "has other files than rank 0");
+    expect(2, apart, "has another yard.gltf than rank 0");
     fs::remove(folder / "1/yard.gltf");
     expect(2, apart, "rank 1 (left and front and right, on ");
 }

@@ -258,7 +258,7 @@ TEST(LightElsewhere, WhatIsFarIsTakenTogether) {
     const EyeScatter psf = gpu_scene::eye_scatter({});
     const std::vector<EyePicture> pictures = three({1280, 800});
     EXPECT_LT(vision::LightElsewhere(psf, pictures, 1).bytes(), 20u << 20);
-    EXPECT_LT(vision::LightElsewhere(psf, pictures, 0).bytes(), 14u << 20);
+    EXPECT_LT(vision::LightElsewhere(psf, pictures, 0).bytes(), 15u << 20);
 }
 
 // Three screens in one plane, seen off their axes.

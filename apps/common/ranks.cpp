@@ -73,7 +73,7 @@ struct Ranks::Shared {
     std::vector<std::string> roles, hosts;
     std::vector<Clock::time_point> heard;
     std::atomic<bool> over{false};
-    bool agreed = false, failed = false;
+    bool agreed = false;
     std::thread beats;
 
     void check(int error) const {

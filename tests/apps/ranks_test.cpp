@@ -151,6 +151,21 @@ TEST_F(RanksProgram, EyesGoOnFromFiles) {
     EXPECT_NE(said.find("--eye-in a.csv: is of the operator irawan"), std::string::npos) << said;
 }
 
+// Conditions are shared out; the page, its pictures and its figures are the same.
+TEST_F(RanksProgram, StudiesAreThoseOfOneProcess) {
+    for (const int ranks : {1, 2})
+        ASSERT_EQ(run_ranks(ranks, std::string(VESPER_PROGRAM) + " study operators yard.gltf --size 61x37 -o " +
+                                       std::to_string(ranks)),
+                  0)
+            << said;
+    size_t files = 0;
+    for (const auto& entry : fs::directory_iterator(folder / "1")) {
+        EXPECT_EQ(read_text(entry.path()), read_text(folder / "2" / entry.path().filename())) << entry.path();
+        ++files;
+    }
+    EXPECT_GT(files, 10u);
+}
+
 // One line, whatever the number of ranks, and exit code 2 from each.
 TEST_F(RanksProgram, RefusesWhatDoesNotGoTogether) {
     const auto expect = [&](int ranks, const std::string& command, const std::string& words) {

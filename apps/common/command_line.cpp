@@ -242,7 +242,8 @@ std::string common_arguments(int argc, char** argv) {
 int Program::run(int argc, char** argv) {
     keep_freed_memory();
     handle_signals();
-    const io::FileGate gate;
+    io::FileGate gate;
+    gate.keeps_contents = Ranks::several();
     std::optional<io::AllowedFolder> own;  // scenes of our own share lamps
     try {
         own.emplace(own_data());

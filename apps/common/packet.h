@@ -79,4 +79,16 @@ private:
     std::span<const std::byte> bytes_;
 };
 
+/// Several packets as one, and one taken apart again.
+inline Bytes joined(const std::vector<Bytes>& packets) {
+    PacketWriter all;
+    for (const Bytes& one : packets) all.list(one);
+    return all.take();
+}
+inline std::vector<Bytes> parted(const Bytes& all) {
+    std::vector<Bytes> packets;
+    for (PacketReader reader(all); !reader.at_end();) packets.push_back(reader.list<std::byte>());
+    return packets;
+}
+
 }  // namespace vesper::apps

@@ -253,13 +253,8 @@ std::vector<Bytes> Ranks::gather(Stream stream, Bytes bytes) {
 }
 
 std::vector<Bytes> Ranks::exchange(Stream stream, Bytes bytes) {
-    std::vector<Bytes> all = gather(stream, std::move(bytes));
-    PacketWriter packet;
-    for (const Bytes& one : all) packet.list(one);
-    const Bytes joined = broadcast(stream, packet.take());
-    if (is_first()) return all;
-    for (PacketReader reader(joined); !reader.at_end();) all.push_back(reader.list<std::byte>());
-    return all;
+    const std::vector<Bytes> all = gather(stream, std::move(bytes));
+    return parted(broadcast(stream, joined(all)));
 }
 
 // Says what this rank has come to, and hears it of all: why they failed, if they did.

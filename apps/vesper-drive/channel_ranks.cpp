@@ -109,41 +109,27 @@ std::vector<size_t> ChannelRanks::own(size_t channels) const { return shares(cha
 // each is told, which is more, goes straight there.
 void ChannelRanks::say(Kind kind, Bytes bytes) {
     if (is_first())
-        said_[size_t(kind)].push_back(std::move(bytes));
+        ChannelLink::say(kind, std::move(bytes));
     else
         ranks_.send(0, stream_of(kind), std::move(bytes));
 }
 
 void ChannelRanks::say_to_each(Kind kind, std::vector<Bytes> bytes) {
-    for (int rank = 0; rank < ranks_.size(); ++rank) {
-        Bytes& to = bytes[size_t(rank)];
+    for (int rank = 0; rank < ranks_.size(); ++rank)
         if (rank == ranks_.rank())
-            said_[size_t(kind)].push_back(std::move(to));
+            ChannelLink::say(kind, std::move(bytes[size_t(rank)]));
         else
-            ranks_.send(rank, stream_of(kind), std::move(to));
-    }
+            ranks_.send(rank, stream_of(kind), std::move(bytes[size_t(rank)]));
 }
 
 std::vector<Bytes> ChannelRanks::hear(Kind kind) {
-    std::vector<Bytes> all;
     const bool each = kind == Kind::Light;
-    if (!each && !is_first()) {
-        const Bytes joined = ranks_.receive(0, stream_of(kind));
-        for (PacketReader reader(joined); !reader.at_end();) all.push_back(reader.list<std::byte>());
-        return all;
-    }
-    for (int rank = 0; rank < ranks_.size(); ++rank) {
-        if (rank != ranks_.rank()) {
-            all.push_back(ranks_.receive(rank, stream_of(kind)));
-            continue;
-        }
-        all.push_back(std::move(said_[size_t(kind)].front()));
-        said_[size_t(kind)].pop_front();
-    }
-    if (each) return all;
-    PacketWriter joined;
-    for (const Bytes& one : all) joined.list(one);
-    ranks_.broadcast(stream_of(kind), joined.take());
+    if (!each && !is_first()) return apps::parted(ranks_.receive(0, stream_of(kind)));
+    std::vector<Bytes> all;
+    for (int rank = 0; rank < ranks_.size(); ++rank)
+        all.push_back(rank == ranks_.rank() ? std::move(ChannelLink::hear(kind).front())
+                                            : ranks_.receive(rank, stream_of(kind)));
+    if (!each) ranks_.broadcast(stream_of(kind), apps::joined(all));
     return all;
 }
 
@@ -161,6 +147,7 @@ void ChannelRanks::lead(Session& session) {
     };
 }
 
+// The next frame that the session renders is one of all.
 void ChannelRanks::begin_frame(const Wanted& wanted) {
     wanted_ = wanted;
     frame_watch_ = {};
@@ -176,7 +163,9 @@ void ChannelRanks::end_drive() {
     ranks_.broadcast(Ranks::Stream::Events, std::exchange(news_, {}).take());
 }
 
-std::optional<ChannelRanks::Wanted> ChannelRanks::follow(Session& session, const std::function<void()>& meanwhile) {
+// Does what the first rank's session did, up to a frame. Nothing: the drive is over.
+std::optional<ChannelRanks::Wanted> ChannelRanks::await_frame(Session& session,
+                                                              const std::function<void()>& meanwhile) {
     const Bytes bytes = ranks_.receive(0, Ranks::Stream::Events, meanwhile);
     for (PacketReader news(bytes);;) {
         switch (news.value<News>()) {
@@ -215,6 +204,7 @@ void ChannelRanks::report(const Wanted& wanted, const ChannelMosaic& wall, const
     ranks_.send(0, Ranks::Stream::Records, packet.take());
 }
 
+// What was wanted of other ranks, and the row of the log, empty where this rank has made it.
 std::string ChannelRanks::collect(ChannelMosaic& wall) {
     std::string row;
     const bool pictures = wanted_.display || wanted_.scene;
@@ -229,10 +219,11 @@ std::string ChannelRanks::collect(ChannelMosaic& wall) {
             channel.display = packet.list<uint8_t>(), channel.scene = packet.list<float>();
         }
     }
-    if (pictures) put_together(wall);
+    if (pictures) put_together(wall, wanted_.scene);
     return row;
 }
 
+// Before a frame is shown: waits until all ranks can show theirs.
 ChannelRanks::Meeting ChannelRanks::meet(const shared::EyeState& eye) {
     const Digest::Value mine = digest_of(eye);
     const Stopwatch watch;
@@ -262,6 +253,28 @@ ChannelRanks::Meeting ChannelRanks::meet(const shared::EyeState& eye) {
     const auto sooner = [&](int a, int b) { return waited[size_t(a)] < waited[size_t(b)]; };
     const auto [last, first] = std::minmax_element(rank_of_.begin(), rank_of_.end(), sooner);
     return {waited[size_t(*first)] - waited[size_t(*last)], *last};
+}
+
+ChannelRanks::LedFrame ChannelRanks::render(Session& session, const Channels& channels, const render::Outputs& outputs,
+                                            const render::Outputs& film, DriveRows* rows) {
+    begin_frame({.display = film.display, .scene = film.scene, .row = rows != nullptr});
+    LedFrame frame{.wall = session.render(channels, outputs), .meeting = {}, .row = {}};
+    frame.meeting = meet(frame.wall.shown.eye);
+    if (rows && has(gaze_)) frame.row = row_of(*rows, session, channels, frame.wall);
+    frame.row += collect(frame.wall);
+    return frame;
+}
+
+void ChannelRanks::follow(Session& session, const Channels& channels, DriveRows& rows, const Watching& watching) {
+    session.on_contact = [&](const traffic::Contact& contact) { rows.add(contact); };
+    while (const auto wanted = await_frame(session, watching.meanwhile)) {
+        ChannelMosaic wall =
+            session.render(channels, {.display = wanted->display || watching.show, .scene = wanted->scene});
+        meet(wall.shown.eye);
+        if (watching.show) watching.show(wall);
+        report(*wanted, wall, wanted->row && has(gaze_) ? row_of(rows, session, channels, wall) : "");
+    }
+    session.leave_channels();
 }
 
 }  // namespace vesper::drive

@@ -8,6 +8,7 @@
 #include "base/stopwatch.h"
 #include "channel_link.h"
 #include "channels.h"
+#include "drive_log.h"
 #include "osi/message.h"
 #include "ranks.h"
 #include "session.h"
@@ -24,11 +25,6 @@ public:
     bool is_first() const { return ranks_.is_first(); }
     bool has(size_t channel) const { return rank_of_[channel] == ranks_.rank(); }
 
-    /// What the first rank asks of a frame.
-    struct Wanted {
-        bool display = false, scene = false;  ///< of each channel, for a film
-        bool row = false;                     ///< of the log
-    };
     /// How ranks with channels were ready to show the frame before.
     struct Meeting {
         double skew = 0;  ///< s: by how much longer the first one waited than the last
@@ -38,22 +34,26 @@ public:
     // Of the first rank.
     /// From now on the others do what this session does. It must outlive this.
     void lead(Session&);
-    /// The next frame that the session renders is one of all.
-    void begin_frame(const Wanted&);
-    /// After meet(): what was wanted of other ranks. Returns the row of the log, empty where this rank has that
-    /// channel.
-    std::string collect(ChannelMosaic&);
+    /// A frame that all ranks can show.
+    struct LedFrame {
+        ChannelMosaic wall;  ///< with pictures of other ranks where a film wants them
+        Meeting meeting;
+        std::string row;  ///< of the log
+    };
+    /// Renders a frame with all ranks. `film`: which pictures of theirs are wanted. `rows`: of the log, if there is
+    /// one.
+    LedFrame render(Session&, const Channels&, const render::Outputs&, const render::Outputs& film, DriveRows* rows);
     /// Lets the others end.
     void end_drive();
 
     // Of the others.
-    /// Does what the first rank's session did, up to a frame; `meanwhile` while there is nothing to do. Nothing: the
-    /// drive is over.
-    std::optional<Wanted> follow(Session&, const std::function<void()>& meanwhile = {});
-    void report(const Wanted&, const ChannelMosaic&, const std::string& row);
-
-    /// Before a frame is shown: waits until all ranks can show theirs.
-    Meeting meet(const shared::EyeState&);
+    /// What is done with frames beside the first rank's wishes.
+    struct Watching {
+        std::function<void(const ChannelMosaic&)> show = {};  ///< when all ranks can show theirs
+        std::function<void()> meanwhile = {};                 ///< while there is nothing to do
+    };
+    /// Does what the first rank's session does until the drive is over.
+    void follow(Session&, const Channels&, DriveRows&, const Watching&);
 
     std::vector<std::vector<size_t>> shares(size_t channels) const override;
     std::vector<size_t> own(size_t channels) const override;
@@ -62,6 +62,16 @@ public:
     std::vector<apps::Bytes> hear(Kind) override;
 
 private:
+    struct Wanted {                           // by the first rank, of a frame
+        bool display = false, scene = false;  // of each channel, for a film
+        bool row = false;                     // of the log
+    };
+    void begin_frame(const Wanted&);
+    std::optional<Wanted> await_frame(Session&, const std::function<void()>& meanwhile);
+    Meeting meet(const shared::EyeState&);
+    void report(const Wanted&, const ChannelMosaic&, const std::string& row);
+    std::string collect(ChannelMosaic&);
+
     apps::Ranks& ranks_;
     std::vector<int> rank_of_;  // of each channel
     size_t gaze_;
@@ -70,9 +80,8 @@ private:
     uint64_t frames_ = 0, usual_frames_ = 0;  // of the latter nothing was set before
     bool unusual_ = true;
     Stopwatch frame_watch_;
-    double longest_ = 0;                                // of usual frames, s
-    double waited_ = 0;                                 // for the others, in the last frame, s
-    std::array<std::deque<apps::Bytes>, kKinds> said_;  // by this rank, to itself
+    double longest_ = 0;  // of usual frames, s
+    double waited_ = 0;   // for the others, in the last frame, s
 };
 
 /// Of a log: names, and values.

@@ -5,7 +5,6 @@
 #include "base/one_line.h"
 #include "channel_ranks.h"
 #include "drive_log.h"
-#include "indirect_arguments.h"
 #include "picture_arguments.h"
 #include "print.h"
 #include "screen.h"
@@ -60,31 +59,20 @@ void show_channels(const DriveArguments& a) {
     apps::Ranks::all().agree_on_start();
     const std::shared_ptr<Cache> cache = apps::shadow_cache(a.shadow_cache);
     session.keep_maps(cache);
-    apps::Ranks::all().in_turns([&] {
-        if (!session.settings().render().indirect) return;
-        const gpu_scene::SceneFrame rest = session.moment();
-        session.set_radiosity(apps::gathered(session.scenery().scene(), rest.world, rest.moving, cache.get()));
-    });
+    apps::Ranks::all().in_turns([&] { session.gather_light(cache.get()); });
     if (a.replay.empty()) session.set_shadow_budget(kWindowShadowBudget);
     DriveRows rows(probes_of(a.probes));
-    session.on_contact = [&](const traffic::Contact& contact) { rows.add(contact); };
     const ScreenSettings shown{.vsync = vsync_of(a.vsync), .scaling = window::Scaling::Fit};
+    const auto show = [&](const ChannelMosaic& wall) {
+        const vision::Display& display = session.settings().render().display;
+        screen.begin_instruments(false);
+        screen.show({.codes = wall.shown.display, .extent = wall.shown.extent, .bits = display.bits}, display, shown);
+    };
     const auto look_after = [&] {
         window.poll();
         if (window.is_closing()) throw Error("its window was closed");
     };
-    while (const auto wanted = ranks.follow(session, look_after)) {
-        const bool logs = wanted->row && ranks.has(channels.gaze);
-        ChannelMosaic wall = session.render(channels, {.display = true, .scene = logs});
-        ranks.meet(wall.shown.eye);
-        screen.begin_instruments(false);
-        screen.show({.codes = wall.shown.display,
-                     .extent = wall.shown.extent,
-                     .bits = session.settings().render().display.bits},
-                    session.settings().render().display, shown);
-        ranks.report(*wanted, wall, logs ? row_of(rows, session, channels, wall) : "");
-    }
-    session.leave_channels();
+    ranks.follow(session, channels, rows, {.show = show, .meanwhile = look_after});
 }
 
 }  // namespace vesper::drive

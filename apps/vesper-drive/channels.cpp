@@ -205,7 +205,7 @@ gpu_scene::View channel_view(const ScreenChannel& c, const gpu_scene::View& driv
     return view;
 }
 
-void put_together(ChannelMosaic& wall) {
+void put_together(ChannelMosaic& wall, bool scene) {
     VkExtent2D extent{0, 0};
     wall.columns.clear();
     for (const render::Frame& channel : wall.channels) {
@@ -216,7 +216,7 @@ void put_together(ChannelMosaic& wall) {
     constexpr float kNone = std::numeric_limits<float>::quiet_NaN();  // has no vote in what is measured
     constexpr uint8_t kOpaque = 255;  // the darkest code of 8 bits; of 10 bits, as well, but for the bits of alpha
     wall.shown.display = side_by_side<uint8_t>(wall, &render::ToneMapped::display, {0, 0, 0, kOpaque});
-    wall.shown.scene = side_by_side<float>(wall, &render::ToneMapped::scene, {kNone, kNone, kNone, kNone});
+    if (scene) wall.shown.scene = side_by_side<float>(wall, &render::ToneMapped::scene, {kNone, kNone, kNone, kNone});
 }
 
 render::Frame logged_frame(ChannelMosaic& wall, size_t channel) {
@@ -282,8 +282,10 @@ ChannelMosaic ChannelRenderer::render(render::Renderer& renderer, const Channels
                                            {.display = false, .scene = scatters && !together, .retina = true});
         if (!scatters) wall.channels[i].scene = std::exchange(wall.channels[i].retina, {});
     }
-    if (!together) glare_.forget();
-    if (together) glare_.scatter({settings, eye_, seconds, late_}, views, turns, wall.channels);
+    if (together)
+        glare_.scatter({settings, eye_, seconds, late_}, views, turns, wall.channels);
+    else
+        glare_.forget();
 
     render::ToneChainSettings shown = settings;
     if (shown.glare == render::Glare::Scatter) shown.glare = render::Glare::None;  // it is in them
@@ -321,8 +323,7 @@ ChannelMosaic ChannelRenderer::render(render::Renderer& renderer, const Channels
             graph::add_times(wall.shown.timings, mapped.timings);
         }
     }
-    put_together(wall);
-    if (!outputs.scene) wall.shown.scene.clear();
+    put_together(wall, outputs.scene);
     return wall;
 }
 

@@ -48,8 +48,8 @@ struct ChannelMosaic {
     std::vector<render::Frame> channels;  ///< each with its codes, lamps and times, empty where others render it; of
                                           ///< `retina` and `scene` the first is empty where nothing is scattered
 };
-/// Puts the pictures of those channels together that have any.
-void put_together(ChannelMosaic&);
+/// Puts the pictures of those channels together that have any; with `scene` luminances, too.
+void put_together(ChannelMosaic&, bool scene);
 
 /// A channel of this process, with the eye, curve and times of the whole: what is logged of the one that is looked at.
 render::Frame logged_frame(ChannelMosaic&, size_t channel);

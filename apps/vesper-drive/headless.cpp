@@ -192,31 +192,18 @@ private:
 void take_wall(Outlet& outlet, unsigned index, Session& session, const Channels& channels, ChannelRanks* ranks,
                double fps) {
     const render::Outputs outputs = outlet.outputs(session);
-    if (ranks) ranks->begin_frame({.display = outputs.display, .scene = outlet.wants_scene(), .row = outlet.logs()});
-    ChannelMosaic wall = session.render(channels, outputs);
-    std::string more;
-    if (ranks) {
-        const ChannelRanks::Meeting meeting = ranks->meet(wall.shown.eye);
-        more = columns_of(meeting);
-    }
+    DriveRows* rows = outlet.logs() ? &outlet.rows() : nullptr;
+    ChannelMosaic wall;
     std::string row;
-    if (outlet.logs() && (!ranks || ranks->has(channels.gaze))) row = row_of(outlet.rows(), session, channels, wall);
-    if (ranks) row += ranks->collect(wall);
-    outlet.append(outlet.take(index, session, wall.shown, wall.channels[channels.gaze].lamps, row + more), fps);
-}
-
-// What other ranks than the first do: they follow it.
-void follow(Outlet& outlet, Session& session, const Channels& channels, ChannelRanks& ranks) {
-    while (const auto wanted = ranks.follow(session)) {
-        const bool ldr = session.settings().render().tone_operator == render::Operator::Ldr;
-        ChannelMosaic wall =
-            session.render(channels, {.display = wanted->display, .scene = wanted->scene || (wanted->row && !ldr)});
-        ranks.meet(wall.shown.eye);
-        const bool logs = wanted->row && ranks.has(channels.gaze);
-        const std::string row = logs ? row_of(outlet.rows(), session, channels, wall) : "";
-        ranks.report(*wanted, wall, row);
+    if (ranks) {
+        ChannelRanks::LedFrame led = ranks->render(session, channels, outputs,
+                                                   {.display = outputs.display, .scene = outlet.wants_scene()}, rows);
+        wall = std::move(led.wall), row = led.row + columns_of(led.meeting);
+    } else {
+        wall = session.render(channels, outputs);
+        if (rows) row = row_of(*rows, session, channels, wall);
     }
-    session.leave_channels();
+    outlet.append(outlet.take(index, session, wall.shown, wall.channels[channels.gaze].lamps, row), fps);
 }
 
 VkExtent2D extent_of(const Channels& channels) {
@@ -307,17 +294,13 @@ void run_headless(const DriveArguments& a) {
     apps::Ranks::all().agree_on_start();
     const std::shared_ptr<Cache> cache = apps::shadow_cache(a.shadow_cache);
     session.keep_maps(cache);
-    const render::RenderSettings& shown = session.settings().render();
     const bool renders = outlet.wanted() && (!ranks || !ranks->own(channels->screens.size()).empty());
-    const auto gather = [&] {
-        if (!renders || !shown.indirect || shown.tone_operator == render::Operator::Ldr) return;
-        const gpu_scene::SceneFrame rest = session.moment();
-        session.set_radiosity(apps::gathered(session.scenery().scene(), rest.world, rest.moving, cache.get()));
-    };
-    apps::Ranks::all().in_turns(gather);
+    apps::Ranks::all().in_turns([&] {
+        if (renders) session.gather_light(cache.get());
+    });
     session.on_maps = [](const render::MapReport& report) { apps::print_cache_note(report.note); };
     session.on_contact = [&](const traffic::Contact& contact) { outlet.rows().add(contact); };
-    if (ranks && !first) return follow(outlet, session, *channels, *ranks);
+    if (ranks && !first) return ranks->follow(session, *channels, outlet.rows(), {});
     if (ranks) ranks->lead(session);
     Playback playback(std::move(drive.events), a.settings);
     std::optional<Live> live;

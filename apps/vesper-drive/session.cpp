@@ -5,6 +5,7 @@
 
 #include "base/angle.h"
 #include "base/error.h"
+#include "indirect_arguments.h"
 #include "osi/trace.h"
 #include "world_message.h"
 
@@ -139,6 +140,13 @@ void Session::keep_maps(std::shared_ptr<Cache> cache) {
 void Session::set_radiosity(std::shared_ptr<const transport::Radiosity> radiosity) {
     radiosity_ = std::move(radiosity);
     renderer_->set_radiosity(radiosity_);
+}
+
+void Session::gather_light(Cache* cache) {
+    const render::RenderSettings& shown = settings_.render();
+    if (!shown.indirect || shown.tone_operator == render::Operator::Ldr) return;
+    const gpu_scene::SceneFrame rest = moment();
+    set_radiosity(apps::gathered(scenery_.scene(), rest.world, rest.moving, cache));
 }
 
 void Session::begin_frame(const gpu_scene::SceneFrame& moment) {

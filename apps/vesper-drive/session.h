@@ -82,6 +82,8 @@ public:
     /// What surfaces at rest send each other (Renderer::set_radiosity); at first nothing. It is not recorded: frames
     /// before it is known are replayed with it.
     void set_radiosity(std::shared_ptr<const transport::Radiosity> radiosity);
+    /// The same, from the cache (null: none) or gathered, where the settings show any; shows its progress.
+    void gather_light(Cache* cache);
     /// Called after a frame for each view of it.
     std::function<void(const render::MapReport&)> on_maps;
     /// Tiles of distance maps drawn for a frame where the setting "shadow-budget" is not set; at first all. It is not

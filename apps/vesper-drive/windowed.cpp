@@ -14,7 +14,6 @@
 #include "base/error.h"
 #include "base/one_line.h"
 #include "channel_window.h"
-#include "indirect_arguments.h"
 #include "picture_arguments.h"
 #include "print.h"
 #include "render/passes/operators.h"
@@ -76,10 +75,7 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
         if (const auto monitor = monitor_of(*channels_, own); monitor && a.full_screen < 0) window_.fill(monitor);
         apps::Ranks::all().agree_on_start();
         apps::Ranks::all().in_turns([&] {
-            if (own.empty() || !session_->settings().render().indirect) return;
-            const gpu_scene::SceneFrame rest = session_->moment();
-            session_->set_radiosity(
-                apps::gathered(session_->scenery().scene(), rest.world, rest.moving, map_cache_.get()));
+            if (!own.empty()) session_->gather_light(map_cache_.get());
         });
         ranks_->lead(*session_);
     }
@@ -334,13 +330,11 @@ void show_nothing(render::ToneMapped& shown) {
 
 void WindowedDrive::draw(const render::Outputs& outputs, ChannelMosaic& wall) {
     if (ranks_) {
-        ranks_->begin_frame({.row = log_.has_value()});
-        wall = session_->render(*channels_, outputs);
-        const ChannelRanks::Meeting meeting = ranks_->meet(wall.shown.eye);
-        meeting_ = columns_of(meeting);
-        meeting_note_ = apps::Ranks::all().name(meeting.last) + format(" was the last, by %.1f ms", meeting.skew * 1e3);
-        row_ = log_ && ranks_->has(channels_->gaze) ? row_of(log_->rows(), *session_, *channels_, wall) : "";
-        row_ += ranks_->collect(wall);
+        DriveRows* rows = log_ ? &log_->rows() : nullptr;
+        ChannelRanks::LedFrame led = ranks_->render(*session_, *channels_, outputs, {.display = false}, rows);
+        wall = std::move(led.wall), row_ = std::move(led.row), meeting_ = columns_of(led.meeting);
+        meeting_note_ =
+            apps::Ranks::all().name(led.meeting.last) + format(" was the last, by %.1f ms", led.meeting.skew * 1e3);
         if (wall.shown.display.empty()) show_nothing(wall.shown);
         frame_ = logged_frame(wall, channels_->gaze);
     } else if (channels_) {

@@ -10,6 +10,7 @@
 #include "base/one_line.h"
 #include "commands.h"
 #include "edge_arguments.h"
+#include "frame_files.h"
 #include "frame_relay.h"
 #include "glare_arguments.h"
 #include "indirect_arguments.h"
@@ -287,44 +288,6 @@ private:
     apps::Progress bar_;
 };
 
-// What a frame adds to files of all frames.
-struct FrameRows {
-    std::string log, sources, eye;
-
-    apps::Bytes packed() const {
-        apps::PacketWriter packet;
-        for (const std::string* rows : {&log, &sources, &eye}) packet.list(*rows);
-        return packet.take();
-    }
-};
-
-// Files of all frames: of the first rank.
-class FrameFiles {
-public:
-    explicit FrameFiles(const RenderArguments& a) : eye_file_(a.eye_out) {
-        const auto begin = [](std::optional<io::GrowingFile>& grows, const std::string& file,
-                              const std::string& heading) {
-            if (!file.empty()) grows.emplace(file).append(heading);
-        };
-        begin(log_, a.log_file, apps::log_heading()), begin(sources_, a.sources_file, apps::glare_sources_heading());
-    }
-    void add(const apps::Bytes& rows) {
-        apps::PacketReader packet(rows);
-        for (auto* file : {&log_, &sources_})
-            if (const std::string text = packet.text(); *file) (*file)->append(text);
-        const std::string eye = packet.text();
-        if (!eye_file_.empty() && !eye.empty()) apps::write_text(eye_file_, apps::log_heading() + eye);
-    }
-    void complete() {
-        for (auto* file : {&log_, &sources_})
-            if (*file) (*file)->complete();
-    }
-
-private:
-    std::string eye_file_;
-    std::optional<io::GrowingFile> log_, sources_;
-};
-
 void run(RenderArguments& arguments) {
     const VkExtent2D extent = apps::parse_size(arguments.size);
     check_arguments(arguments);
@@ -372,7 +335,8 @@ void run(RenderArguments& arguments) {
     unsigned number = 0;  // of the frame
     if (!arguments.traces) renderer.watch_samples([&](uint32_t done) { progress.sampled(number, done); });
     std::vector<double> milliseconds;
-    FrameFiles files(ranks.is_first() ? arguments : RenderArguments());
+    FrameFiles files;
+    if (ranks.is_first()) files.open(arguments.log_file, arguments.sources_file, arguments.eye_out);
     const auto take = [&](unsigned index, const apps::Bytes& rows) {
         files.add(rows);
         progress.at(index, 1);
@@ -403,13 +367,13 @@ void run(RenderArguments& arguments) {
                 apps::glare_of(arguments.glare, arguments.settings, frame, gpu_scene::angles_of(view), frame.outside);
         write_outputs(arguments, device, view, frame, glare, index, seconds);
         FrameRows rows;
-        const std::string row =
-            apps::log_line(index, {seconds, step, apps::name_of(arguments.settings.tone_operator), frame.eye},
-                           frame.curve, arguments.settings.tone_operator, arguments.settings.display, glare);
-        if (!arguments.log_file.empty()) rows.log = row;
+        if (!arguments.log_file.empty() || (last && !arguments.eye_out.empty()))
+            rows.log =
+                apps::log_line(index, {seconds, step, apps::name_of(arguments.settings.tone_operator), frame.eye},
+                               frame.curve, arguments.settings.tone_operator, arguments.settings.display, glare);
         if (!arguments.sources_file.empty())
             rows.sources = apps::glare_sources_lines(index, scene, frame.glare_sources, arguments.settings.scatter.eye);
-        if (last) rows.eye = row;
+        if (last) rows.eye = rows.log;
         if (index == 0 && arguments.plan) apps::print_text(renderer.plan());
         if (last) {
             if (wants_target) apps::print_text(apps::target_line(glare));

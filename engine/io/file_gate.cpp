@@ -52,7 +52,7 @@ FileGate::~FileGate() {
 }
 
 void gate_contents(const fs::path& file, std::span<const uint8_t> bytes) {
-    if (!gate) return;
+    if (!gate || !gate->keeps_contents) return;
     Digest digest;
     digest.add(std::as_bytes(bytes));
     gate->contents[file.filename().string()].insert(digest.value());

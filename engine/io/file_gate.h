@@ -35,7 +35,8 @@ public:
 
     std::set<FileIdentity> read;  ///< files that exist
     std::map<std::string, std::set<Digest::Value>>
-        contents;  ///< digests of all that was read, by names without folders
+        contents;                 ///< digests of all that was read, by names without folders
+    bool keeps_contents = false;  ///< where somebody is to compare them
     std::map<FileIdentity, std::string>
         written;  ///< who writes: by what they are, and by the names that they will have
 };

@@ -62,6 +62,15 @@ Shown show(const FrameContext& frame, const CompositeInputs& in, const Composite
             graph::cover(width, height, kernel.group[0], kernel.group[1] * rows_of_one)};
 }
 
+// Light, and not codes.
+graph::Resource add_light(const FrameContext& frame, const CompositeInputs& in, const Shown& shown, const char* name,
+                          VkFormat format) {
+    const graph::Resource image = frame.graph.transient(name, graph::image_shape(format, frame.view.extent));
+    frame.graph.dispatch(name, shown.kernel, {load(in.scene), sample(in.curve), sample(shown.bloom), store(image)},
+                         shown.push, shown.groups);
+    return image;
+}
+
 }  // namespace
 
 graph::Resource add_composite(const FrameContext& frame, const CompositeInputs& in, const CompositeSettings& settings) {
@@ -79,25 +88,16 @@ graph::Resource add_composite(const FrameContext& frame, const CompositeInputs& 
 
 graph::Resource add_shown_light(const FrameContext& frame, const CompositeInputs& in,
                                 const CompositeSettings& settings) {
-    const Shown shown = show(frame, in, settings, kShownLight, settings.display.primaries != io::kRec709, false);
-    const graph::Resource image =
-        frame.graph.transient("shown light", graph::image_shape(kShownLightFormat, frame.view.extent));
-    frame.graph.dispatch("shown light", shown.kernel,
-                         {load(in.scene), sample(in.curve), sample(shown.bloom), store(image)}, shown.push,
-                         shown.groups);
-    return image;
+    const bool primaries = settings.display.primaries != io::kRec709;
+    return add_light(frame, in, show(frame, in, settings, kShownLight, primaries, false), "shown light",
+                     kShownLightFormat);
 }
 
 graph::Resource add_display_light(const FrameContext& frame, const CompositeInputs& in,
                                   const CompositeSettings& settings, bool wanted) {
     if (!wanted) return {};
-    const Shown shown = show(frame, in, settings, kDisplayLight, false, false);
-    const graph::Resource image =
-        frame.graph.transient("display light", graph::image_shape(kDisplayLightFormat, frame.view.extent));
-    frame.graph.dispatch("display light", shown.kernel,
-                         {load(in.scene), sample(in.curve), sample(shown.bloom), store(image)}, shown.push,
-                         shown.groups);
-    return image;
+    return add_light(frame, in, show(frame, in, settings, kDisplayLight, false, false), "display light",
+                     kDisplayLightFormat);
 }
 
 }  // namespace vesper::render

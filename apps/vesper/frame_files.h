@@ -1,0 +1,34 @@
+// Files that grow with each frame of vesper render. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "io/growing_file.h"
+#include "packet.h"
+
+namespace vesper::commands {
+
+/// What a frame adds to them.
+struct FrameRows {
+    std::string log, sources;  ///< rows of --log and of --glare-sources
+    std::string eye;           ///< of the last frame: the row of --eye-out
+
+    apps::Bytes packed() const;
+};
+
+/// The files: of the first rank. Throws Error.
+class FrameFiles {
+public:
+    /// Names; empty: no such file.
+    void open(const std::string& log, const std::string& sources, const std::string& eye);
+    /// The rows of the next frame, packed.
+    void add(const apps::Bytes& rows);
+    void complete();
+
+private:
+    std::string eye_file_;
+    std::optional<io::GrowingFile> log_, sources_;
+};
+
+}  // namespace vesper::commands

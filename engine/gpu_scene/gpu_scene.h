@@ -62,6 +62,7 @@ public:
     /// shared::Facet for each vertex, of the triangle that it is the first of (LeadingVertices).
     VkBuffer facets() const { return facets_.get(); }
     uint64_t vertex_count() const { return vertex_count_; }
+    uint64_t index_count() const { return index_count_; }
     /// Depth of the farthest point of any instance along the view axis, m; at least 0.
     float farthest_depth(const SceneFrame& frame, const View& view) const;
     uint64_t triangles() const { return triangles_; }              ///< of all placements
@@ -75,7 +76,7 @@ private:
 
     gpu::Arena arena_;
     gpu::OwnedBuffer vertices_, indices_, facets_;
-    uint64_t vertex_count_ = 0;
+    uint64_t vertex_count_ = 0, index_count_ = 0;
     TextureStore textures_;
     std::vector<Part> parts_;
     std::vector<std::pair<uint32_t, uint32_t>> mesh_parts_;  // first part and number of parts of each mesh

@@ -72,7 +72,7 @@ bool allowed(PassKind kind, Access access) {
         case Access::Update:
             return kind != PassKind::Transfer;
         case Access::Arguments:
-            return kind == PassKind::Dispatch;
+            return kind != PassKind::Transfer;
         case Access::ColorTarget:
         case Access::DepthTarget:
         case Access::Vertices:

@@ -59,6 +59,8 @@ VkPipelineStageFlags2 graphics_stages(Access access) {
             return VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
         case Access::Vertices:
             return VK_PIPELINE_STAGE_2_VERTEX_INPUT_BIT;
+        case Access::Arguments:
+            return VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT;
         default:
             return VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
     }

@@ -22,7 +22,7 @@ enum class Access : uint8_t {
     CopyTarget,  ///< also cleared
     HostRead,    ///< read by the host after the frame
     Vertices,    ///< read as vertex, instance or index data
-    Arguments,   ///< read as how many workgroups a dispatch has
+    Arguments,   ///< read as how many workgroups a dispatch has, or vertices a draw
 };
 constexpr uint32_t kAccessCount = 11;
 

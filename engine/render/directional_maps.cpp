@@ -61,7 +61,7 @@ uint32_t DirectionalMaps::plan(const gpu_scene::LampList& list, const gpu_scene:
 void DirectionalMaps::draw(const gpu_scene::SceneFrame& poses) {
     graph::FrameGraph graph;
     const graph::Resource distances =
-        graph.lasting("directional distances", distances_.get(), plan_.texels() * sizeof(uint16_t), VK_FORMAT_R32_UINT);
+        graph.lasting("directional distances", distances_.get(), plan_.texels() * sizeof(uint16_t));
     add_directional_maps({graph, kernels_, pipelines_, {}}, resident_, poses, to_draw_, plan_.side, distances);
     executor_.run(graph);
     to_draw_.clear();

@@ -250,7 +250,7 @@ void DistanceMaps::draw(const std::vector<MapToDraw>& maps, const gpu_scene::Sce
     if (std::ranges::all_of(maps, &MapToDraw::there)) return;
     graph::FrameGraph graph;
     const graph::Resource distances =
-        graph.lasting("map distances", distances_.get(), places_.texels() / 2 * sizeof(uint32_t), VK_FORMAT_R32_UINT);
+        graph.lasting("map distances", distances_.get(), places_.texels() / 2 * sizeof(uint32_t));
     add_distance_maps({graph, kernels_, pipelines_, {}}, resident_, poses, maps, distances);
     executor_.run(graph);
 }
@@ -291,7 +291,11 @@ void DistanceMaps::draw_tiles(const gpu_scene::SceneFrame& poses) {
         std::vector<uint32_t>& of_tile = placements.emplace_back();
         for (const auto& [placement, version] : tile.cover.placements) of_tile.push_back(placement);
         const uint32_t lamp = tile.key.lamp;
-        tiles.push_back({places_[lamp], gpu_scene::map_frame(poses.world[lamps_[lamp].node]), fixtures_[lamp], of_tile,
+        tiles.push_back({places_[lamp],
+                         gpu_scene::map_frame(poses.world[lamps_[lamp].node]),
+                         fixtures_[lamp],
+                         of_tile,
+                         {},
                          MapTile{tile.key.second, {tile.key.x, tile.key.y}, tile.cover.saved, tile.save}});
     }
     draw(tiles, poses);

@@ -8,7 +8,7 @@ namespace vesper::render {
 namespace {
 
 // To be raised whenever code on the host draws other texels: layouts, frames, levels of masks, what is left out.
-constexpr uint64_t kMapVersion = 1;
+constexpr uint64_t kMapVersion = 2;
 
 constexpr uint64_t kTexelBytes = sizeof(uint16_t);
 // Between host and device; a largest map fits.

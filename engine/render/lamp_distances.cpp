@@ -23,10 +23,10 @@ std::vector<float> drawn_norms(gpu::Device& device, const gpu_scene::GpuScene& r
     const gpu::GraphicsPipelineCache pipelines(device);
     gpu::Arena arena(device);
     const gpu::OwnedBuffer buffer =
-        gpu::make_buffer(device, bytes, VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+        gpu::make_buffer(device, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     arena.bind(buffer.get());
     graph::FrameGraph graph;
-    const graph::Resource distances = graph.lasting("map distances", buffer.get(), bytes, VK_FORMAT_R32_UINT);
+    const graph::Resource distances = graph.lasting("map distances", buffer.get(), bytes);
     add_distance_maps({graph, kernels, pipelines, {}}, resident, poses, {&map, 1}, distances);
     const graph::Resource wanted = graph.readback("read distances", bytes);
     graph.copy("fetch distances", distances, wanted);

@@ -10,7 +10,7 @@
 layout(local_size_x = 16, local_size_y = 16) in;
 
 layout(binding = 0) uniform texture2D drawn;  // depth; 0 without a surface
-layout(binding = 1, r32ui) writeonly uniform uimageBuffer distances;  // two halves, side by side
+layout(binding = 1, scalar) writeonly buffer Distances { uint distances[]; };  // two halves, side by side
 layout(push_constant, scalar) uniform Push { StoreDirectionalPush push; };
 
 float distance_at(ivec2 texel) {
@@ -22,5 +22,5 @@ void main() {
     const ivec2 texel = ivec2(gl_GlobalInvocationID.xy) * ivec2(2, 1);
     if (any(greaterThanEqual(uvec2(texel), uvec2(push.side)))) return;
     const vec2 two = vec2(distance_at(texel), distance_at(texel + ivec2(1, 0)));
-    imageStore(distances, int(push.first / 2u) + (texel.y * int(push.side) + texel.x) / 2, uvec4(packHalf2x16(two)));
+    distances[int(push.first / 2u) + (texel.y * int(push.side) + texel.x) / 2] = packHalf2x16(two);
 }

@@ -12,7 +12,7 @@ layout(local_size_x = 16, local_size_y = 16) in;  // kRegion / kGroup
 
 layout(binding = 0) uniform texture2D drawn;  // kMapNear / distance; 0 without a surface
 layout(binding = 1) uniform usamplerBuffer regions;  // rgba32ui, two texels each
-layout(binding = 2, r32ui) uniform uimageBuffer distances;  // two halves, side by side
+layout(binding = 2, scalar) buffer Distances { uint distances[]; };  // two halves, side by side
 
 void main() {
     const int at = int(gl_WorkGroupID.x * 2u);
@@ -29,10 +29,10 @@ void main() {
         const int word = (int(b.y * kMapUnit) + (corner.y + texel.y) * side + corner.x + texel.x) / 2;
         const int kept = saved + (texel.y * int(kRegion) + texel.x) / 2;
         for (int once = 0; once < (over ? 1 : 0); ++once) {  // a CPU device skips loops, not branches
-            const uint still = imageLoad(distances, save ? word : kept).r;
+            const uint still = distances[save ? word : kept];
             norm = min(norm, unpackHalf2x16(still));
-            if (save) imageStore(distances, kept, uvec4(still));
+            if (save) distances[kept] = still;
         }
-        imageStore(distances, word, uvec4(packHalf2x16(norm)));
+        distances[word] = packHalf2x16(norm);
     }
 }

@@ -56,5 +56,39 @@ struct MapInstance {
 };
 SHARED_SIZE(MapInstance, 84)
 
+// Opaque parts are drawn by their triangles, without those that cover no middle of a texel. A quadrant of a hemisphere, or of a
+// tile of it, in the image:
+struct MapQuadrant {
+    vec4 place;        // as in MapInstance
+    vec4 window;
+    float y_sign;
+    uint first;        // its first triangle among those that are kept
+    float mirror;      // -1 in the second hemisphere: z is mirrored there; 1
+    float side;        // of the image, texels
+};
+SHARED_SIZE(MapQuadrant, 48)
+
+// Triangles of one part, for one quadrant; at most kTrianglesOfRun.
+struct TriangleRun {
+    uint rows;         // of its placement around the lamp, see MapRows
+    uint quadrant;
+    uint first_index;
+    uint first_vertex;
+    uint triangles;
+};
+SHARED_SIZE(TriangleRun, 20)
+const uint kTrianglesOfRun = 32u;
+
+// Of the matrix from a mesh to the frame of a map, m.
+struct MapRows {
+    vec4 x, y, z;
+};
+SHARED_SIZE(MapRows, 48)
+
+struct CullTrianglesPush {
+    uint vertex_words;  // of a vertex, which begins with its position
+};
+SHARED_SIZE(CullTrianglesPush, 4)
+
 SHARED_END
 #endif

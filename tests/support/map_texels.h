@@ -18,10 +18,10 @@ std::vector<float> drawn_texels(PassRig& rig, uint32_t texels, const Declare& de
     const std::vector<uint32_t> nothing(texels / 2, 0x12341234);
     const auto buffer =
         gpu_scene::upload_buffer(rig.device(), arena, std::as_bytes(std::span(nothing)),
-                                 VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
+                                 VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     graph::FrameGraph graph;
-    const graph::Resource words = graph.lasting("distances", buffer.get(), texels * 2, VK_FORMAT_R32_UINT);
+    const graph::Resource words = graph.lasting("distances", buffer.get(), texels * 2);
     declare(rig.frame(graph, VkExtent2D{1, 1}), words);
     const graph::Resource distances = PassRig::want<uint32_t>(graph, words, texels / 2);
     rig.run(graph);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "render/map_parts.h"
+#include "render/map_triangles.h"
 #include "shaders/distance_map/distance_map.frag.inc"
 #include "shaders/distance_map/distance_map.vert.inc"
 #include "shaders/distance_map/store_distances.comp.inc"
@@ -91,8 +92,9 @@ std::vector<DrawnImage> fill_images(std::span<const MapToDraw> maps) {
     return images;
 }
 
-// What is drawn into an image: parts, and an instance each, side by side.
+// What is drawn into an image: opaque triangles; and masked parts, and an instance each, side by side.
 struct Drawn {
+    MapTriangles opaque;
     std::vector<uint32_t> parts;
     std::vector<shared::MapInstance> instances;
 };
@@ -108,24 +110,27 @@ public:
         const gpu_scene::MapFrame& frame = square.map->frame;
         const glm::dvec3 mirror(1, 1, square.second ? -1 : 1);
         const double texel = 2.0 / (double(layout.side) * double(layout.zoom));  // rad, about
+        const std::vector<Quadrant> quadrants = add_quadrants(square, image_side, drawn);
         for (const uint32_t p : square.map->placements) {
             const Bounds& bounds = bounds_of(p);
-            if (!reaches(layout, frame, bounds.whole)) continue;
+            if (!matters(*square.map, bounds.whole)) continue;
             const glm::dvec3 middle = mirror * (frame.rotation * (bounds.whole.centre - frame.position));
             if (middle.z + bounds.whole.radius < 0 || std::ranges::binary_search(square.map->fixture, p)) continue;
             const GpuScene::Placement& placement = scene_.placements()[p];
-            std::optional<glm::mat4> rows;
+            std::optional<Rows> rows;
             for (uint32_t i = 0; i < placement.part_count; ++i) {
                 const auto& [centre, radius] = bounds.parts[i];
                 const GpuScene::Part& part = scene_.parts()[placement.first_part + i];
                 if (part.index_count == 0 || scene_.surfaces()[part.material].material.clear ||
-                    !reaches(layout, frame, bounds.parts[i]) ||
+                    !matters(*square.map, bounds.parts[i]) ||
                     radius < 0.25 * texel * glm::distance(centre, frame.position))
                     continue;
                 const glm::dvec3 c = mirror * (frame.rotation * (centre - frame.position));
                 if (c.z + radius < 0) continue;
-                if (!rows) rows = rows_to_map(frame, poses_.world[placement.node]);
-                add_quadrants(square, image_side, placement.first_part + i, {c, radius}, *rows, drawn);
+                if (!rows) rows = Rows{rows_to_map(frame, poses_.world[placement.node])};
+                for (const Quadrant& quadrant : quadrants)
+                    if (gpu_scene::may_see(quadrant.window, quadrant.signs, c, radius))
+                        add(quadrant, placement.first_part + i, *rows, drawn);
             }
         }
     }
@@ -152,11 +157,10 @@ private:
         return bounds;
     }
 
-    static bool reaches(const gpu_scene::MapLayout& layout, const gpu_scene::MapFrame& frame,
-                        const gpu_scene::WorldSphere& sphere) {
-        const glm::dvec3 to = sphere.centre - frame.position;
-        const double far = double(layout.range) + sphere.radius;
-        return glm::dot(to, to) <= far * far;
+    static bool matters(const MapToDraw& map, const gpu_scene::WorldSphere& sphere) {
+        const glm::dvec3 to = sphere.centre - map.frame.position;
+        const double far = double(map.layout.range) + sphere.radius;
+        return glm::dot(to, to) <= far * far && (!map.matters || map.matters(sphere));
     }
 
     static glm::mat4 rows_to_map(const gpu_scene::MapFrame& frame, const glm::dmat4& world) {
@@ -164,8 +168,20 @@ private:
         return glm::transpose(glm::mat4(glm::dmat4(frame.rotation) * from_lamp));
     }
 
-    static void add_quadrants(const Square& square, uint32_t image_side, uint32_t part,
-                              const gpu_scene::WorldSphere& sphere, const glm::mat4& rows, Drawn& drawn) {
+    // Of a square, in the image.
+    struct Quadrant {
+        gpu_scene::MapWindow window;
+        glm::dvec2 signs;
+        uint32_t number;  // among those of opaque triangles
+        shared::MapQuadrant drawn;
+    };
+    // Of the matrix of a placement to a map.
+    struct Rows {
+        glm::mat4 rows;
+        std::optional<uint32_t> number{};  // among those of opaque triangles
+    };
+
+    static std::vector<Quadrant> add_quadrants(const Square& square, uint32_t image_side, Drawn& drawn) {
         const gpu_scene::MapLayout& layout = square.map->layout;
         const double zoom = double(layout.zoom), per_texel = 2.0 / double(layout.side);
         const glm::dvec2 low = per_texel * glm::dvec2(square.corner) - 1.0;
@@ -173,16 +189,35 @@ private:
         const float image = float(image_side), scale = float(layout.side) / image;
         const glm::vec2 corner = glm::vec2(square.place) - glm::vec2(square.corner);
         const glm::vec2 middle = (corner + 0.5f * float(layout.side)) * (2.0f / image) - 1.0f;
+        std::vector<Quadrant> quadrants;
         for (const glm::dvec2 signs : gpu_scene::quadrants_of(layout)) {
-            if (!gpu_scene::may_see(window, signs, sphere.centre, sphere.radius)) continue;
-            drawn.parts.push_back(part);
-            drawn.instances.push_back({.row_x = rows[0],
-                                       .row_y = rows[1],
-                                       .row_z = square.second ? -rows[2] : rows[2],
-                                       .place = glm::vec4(scale, middle, float(signs.x < 0 ? -zoom : zoom)),
-                                       .window = glm::vec4(window.low, window.high),
-                                       .y_sign = float(signs.y)});
+            const shared::MapQuadrant quadrant{.place = glm::vec4(scale, middle, float(signs.x < 0 ? -zoom : zoom)),
+                                               .window = glm::vec4(window.low, window.high),
+                                               .y_sign = float(signs.y),
+                                               .first = 0,
+                                               .mirror = square.second ? -1.0f : 1.0f,
+                                               .side = image};
+            quadrants.push_back({window, signs, drawn.opaque.quadrants(), quadrant});
+            drawn.opaque.add_quadrant(quadrant);
         }
+        return quadrants;
+    }
+
+    void add(const Quadrant& quadrant, uint32_t part, Rows& rows, Drawn& drawn) const {
+        const shared::MapQuadrant& to = quadrant.drawn;
+        const GpuScene::Part& of = scene_.parts()[part];
+        if (scene_.surfaces()[of.material].material.alpha == scene::Material::Alpha::Mask) {
+            drawn.parts.push_back(part);
+            drawn.instances.push_back({.row_x = rows.rows[0],
+                                       .row_y = rows.rows[1],
+                                       .row_z = to.mirror * rows.rows[2],
+                                       .place = to.place,
+                                       .window = to.window,
+                                       .y_sign = to.y_sign});
+            return;
+        }
+        if (!rows.number) rows.number = drawn.opaque.add_rows(rows.rows);
+        drawn.opaque.add(of, *rows.number, quadrant.number);
     }
 
     const GpuScene& scene_;
@@ -208,20 +243,19 @@ std::vector<shared::MapRegion> regions_of(const std::vector<Square>& squares) {
     return regions;
 }
 
-// What is drawn into an image, in an order in which few states change.
-struct DrawnParts {
+// Masked parts, in an order in which few states change.
+struct MaskedParts {
     std::vector<shared::MapInstance> instances;
     std::vector<MapBatch> batches;
 };
 
-DrawnParts parts_of(Collector& collector, const GpuScene& scene, const DrawnImage& image) {
-    Drawn drawn;
-    for (const Square& square : image.squares) collector.collect(square, image.side, drawn);
-    DrawnParts parts;
+MaskedParts masked_parts(const Drawn& drawn, const GpuScene& scene) {
+    MaskedParts parts;
     for (const uint32_t i : order_by_part(drawn.parts, scene)) {
         add_to_batches(parts.batches, drawn.parts[i], uint32_t(parts.instances.size()));
         parts.instances.push_back(drawn.instances[i]);
     }
+    if (parts.instances.empty()) parts.instances.emplace_back();  // an upload is never empty
     return parts;
 }
 
@@ -236,8 +270,9 @@ void add_distance_maps(const FrameContext& frame, const GpuScene& scene, const g
         std::erase_if(image.squares, [](const Square& square) { return square.map->there; });
         if (image.squares.empty()) continue;
         const std::string which = " " + std::to_string(number++);
-        DrawnParts parts = parts_of(collector, scene, image);
-        if (parts.instances.empty()) parts.instances.emplace_back();  // an upload is never empty
+        Drawn drawn;
+        for (const Square& square : image.squares) collector.collect(square, image.side, drawn);
+        MaskedParts parts = masked_parts(drawn, scene);
 
         const graph::Resource placed = graph.upload("map instances" + which, parts.instances);
         const graph::Resource depth =
@@ -247,6 +282,7 @@ void add_distance_maps(const FrameContext& frame, const GpuScene& scene, const g
                       batches = std::move(parts.batches)](const graph::Recording& recording) {
                          record_map_parts(recording, device, pipelines, kMapShaders, scene, placed, batches);
                      });
+        drawn.opaque.draw(frame, scene, which, depth);
 
         const std::vector<shared::MapRegion> regions = regions_of(image.squares);
         const graph::Resource list = graph.upload("map regions" + which, regions, VK_FORMAT_R32G32B32A32_UINT);
@@ -266,6 +302,7 @@ std::vector<std::vector<DrawnPlace>> drawn_places(std::span<const MapToDraw> map
 void add_map_shaders(Digest& digest) {
     for (const std::span<const uint32_t> spirv : {kMapShaders.vertex, kMapShaders.fragment, kStore.spirv})
         digest.add_list(spirv);
+    add_map_triangle_shaders(digest);
 }
 
 }  // namespace vesper::render

@@ -1,6 +1,7 @@
 // Distance maps of lamps, drawn. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -25,7 +26,9 @@ struct MapToDraw {
     gpu_scene::MapFrame frame;
     std::span<const uint32_t> fixture;     ///< placements that do not hide the lamp, ascending
     std::span<const uint32_t> placements;  ///< what else is drawn
-    std::optional<MapTile> tile{};         ///< into this tile, over what it saved; without: into an empty map
+    /// Whether what a sphere holds is to be drawn; empty: all is.
+    std::function<bool(const gpu_scene::WorldSphere&)> matters{};
+    std::optional<MapTile> tile{};  ///< into this tile, over what it saved; without: into an empty map
     bool there = false;  ///< its texels are there already: it has a place among those that are drawn, and no more
 };
 

@@ -1,0 +1,124 @@
+#include "render/map_triangles.h"
+
+#include <algorithm>
+
+#include "shaders/distance_map/cull_triangles.comp.inc"
+#include "shaders/distance_map/map_triangles.frag.inc"
+#include "shaders/distance_map/map_triangles.vert.inc"
+
+namespace vesper::render {
+namespace {
+
+using graph::load, graph::store, graph::update;
+
+constexpr gpu::Shader kCull{"cull_triangles.comp", cull_triangles_comp};
+
+constexpr VkVertexInputBindingDescription kBuffers[]{{0, sizeof(glm::vec3), VK_VERTEX_INPUT_RATE_VERTEX}};
+constexpr VkVertexInputAttributeDescription kAttributes[]{{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}};
+constexpr gpu::GraphicsShaders kTriangles{
+    "map_triangles.frag",        map_triangles_vert,         map_triangles_frag, {},
+    sizeof(shared::MapQuadrant), VK_SHADER_STAGE_VERTEX_BIT, kBuffers,           kAttributes};
+
+// Of a dispatch: what any device has workgroups for, and how many bytes its triangles take where all are kept.
+constexpr size_t kMostRuns = 65535;
+constexpr uint32_t kMostTriangles = 1u << 19u;
+
+}  // namespace
+
+// What one dispatch culls.
+struct MapTriangles::Chunk {
+    std::vector<shared::MapQuadrant> quadrants;
+    std::vector<shared::TriangleRun> runs;
+    uint32_t triangles = 0;
+
+    bool has_room(uint32_t more) const { return runs.size() < kMostRuns && triangles + more <= kMostTriangles; }
+};
+
+void MapTriangles::add_quadrant(const shared::MapQuadrant& quadrant) { quadrants_.push_back({quadrant, {}}); }
+
+uint32_t MapTriangles::add_rows(const glm::mat4& rows) {
+    rows_.push_back({rows[0], rows[1], rows[2]});
+    return uint32_t(rows_.size()) - 1;
+}
+
+void MapTriangles::add(const gpu_scene::GpuScene::Part& part, uint32_t rows, uint32_t quadrant) {
+    for (uint32_t first = 0; first < part.index_count; first += 3 * shared::kTrianglesOfRun)
+        quadrants_[quadrant].runs.push_back(
+            {.rows = rows,
+             .quadrant = 0,  // in its chunk
+             .first_index = part.first_index + first,
+             .first_vertex = uint32_t(part.first_vertex),
+             .triangles = std::min((part.index_count - first) / 3, shared::kTrianglesOfRun)});
+}
+
+void MapTriangles::draw(const FrameContext& frame, const gpu_scene::GpuScene& scene, const std::string& name,
+                        graph::Resource depth) const {
+    if (rows_.empty()) return;
+    const graph::Resource rows = frame.graph.upload("map rows" + name, rows_);
+    Chunk chunk;
+    uint32_t number = 0;
+    const auto draw_chunk = [&] {
+        draw(chunk, frame, scene, rows, name + "." + std::to_string(number++), depth);
+        chunk = {};
+    };
+    for (const QuadrantRuns& of : quadrants_) {
+        bool begun = false;
+        for (shared::TriangleRun run : of.runs) {
+            if (!chunk.has_room(run.triangles)) draw_chunk(), begun = false;
+            if (!begun) chunk.quadrants.push_back(of.quadrant), chunk.quadrants.back().first = chunk.triangles;
+            begun = true;
+            run.quadrant = uint32_t(chunk.quadrants.size()) - 1;
+            chunk.triangles += run.triangles;
+            chunk.runs.push_back(run);
+        }
+    }
+    if (!chunk.runs.empty()) draw_chunk();
+}
+
+void MapTriangles::draw(const Chunk& chunk, const FrameContext& frame, const gpu_scene::GpuScene& scene,
+                        graph::Resource rows, const std::string& name, graph::Resource depth) const {
+    graph::FrameGraph& graph = frame.graph;
+    const graph::Resource vertices =
+        graph.external("vertices" + name, scene.vertices(), scene.vertex_count() * sizeof(scene::Vertex));
+    const graph::Resource indices =
+        graph.external("indices" + name, scene.indices(), scene.index_count() * sizeof(uint32_t));
+    std::vector<VkDrawIndirectCommand> none;
+    for (const shared::MapQuadrant& quadrant : chunk.quadrants) none.push_back({0, 1, 3 * quadrant.first, 0});
+    const graph::Resource nothing = graph.upload("no triangles" + name, none);
+    const graph::Resource draws =
+        graph.transient("map draws" + name, graph::buffer_shape(none.size() * sizeof(VkDrawIndirectCommand)));
+    graph.copy("no triangles" + name, nothing, draws);
+    const graph::Resource kept =
+        graph.transient("map triangles" + name, graph::buffer_shape(chunk.triangles * 3 * sizeof(glm::vec3)));
+    graph.dispatch("cull triangles" + name, frame.kernels.get(kCull),
+                   {load(vertices), load(indices), load(rows), load(graph.upload("map runs" + name, chunk.runs)),
+                    load(graph.upload("map quadrants" + name, chunk.quadrants)), update(draws), store(kept)},
+                   shared::CullTrianglesPush{sizeof(scene::Vertex) / sizeof(float)},
+                   graph::Groups{uint32_t(chunk.runs.size()), 1, 1});
+    graph.raster(
+        "map triangles" + name,
+        {{kept, graph::Access::Vertices}, {draws, graph::Access::Arguments}, {depth, graph::Access::DepthTarget}},
+        [&pipelines = frame.pipelines, kept, draws, quadrants = chunk.quadrants](const graph::Recording& recording) {
+            const VkCommandBuffer commands = recording.commands();
+            const gpu::GraphicsPipeline& pipeline = pipelines.get(kTriangles, {.targets = {}, .depth = kDepthFormat});
+            const VkBuffer buffer = recording.buffer(kept);
+            const VkDeviceSize offset = recording.offset(kept);
+            vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.pipeline());
+            vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
+            vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
+            vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+            for (size_t i = 0; i < quadrants.size(); ++i) {
+                vkCmdPushConstants(commands, pipeline.layout(), VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof quadrants[i],
+                                   &quadrants[i]);
+                vkCmdDrawIndirect(commands, recording.buffer(draws),
+                                  recording.offset(draws) + i * sizeof(VkDrawIndirectCommand), 1, 0);
+            }
+        });
+}
+
+void add_map_triangle_shaders(Digest& digest) {
+    for (const std::span<const uint32_t> spirv : {kTriangles.vertex, kTriangles.fragment, kCull.spirv})
+        digest.add_list(spirv);
+}
+
+}  // namespace vesper::render

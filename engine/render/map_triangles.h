@@ -1,0 +1,45 @@
+// Opaque triangles, drawn into maps of distances from lamps. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/digest.h"
+#include "gpu_scene/gpu_scene.h"
+#include "render/frame_context.h"
+#include "shared/distance_map.h"
+
+namespace vesper::render {
+
+/// What is drawn into an image: runs of triangles, quadrant by quadrant.
+class MapTriangles {
+public:
+    /// Begins a quadrant, of which runs follow.
+    void add_quadrant(const shared::MapQuadrant& quadrant);
+    uint32_t quadrants() const { return uint32_t(quadrants_.size()); }
+    /// The number of the rows of a matrix, for add().
+    uint32_t add_rows(const glm::mat4& rows);
+    /// All triangles of a part.
+    void add(const gpu_scene::GpuScene::Part& part, uint32_t rows, uint32_t quadrant);
+
+    /// Draws into the depth image those that may cover the middle of a texel. `name`: of the image, for messages.
+    void draw(const FrameContext& frame, const gpu_scene::GpuScene& scene, const std::string& name,
+              graph::Resource depth) const;
+
+private:
+    struct Chunk;
+    struct QuadrantRuns {
+        shared::MapQuadrant quadrant;
+        std::vector<shared::TriangleRun> runs;
+    };
+    void draw(const Chunk& chunk, const FrameContext& frame, const gpu_scene::GpuScene& scene, graph::Resource rows,
+              const std::string& name, graph::Resource depth) const;
+
+    std::vector<QuadrantRuns> quadrants_;
+    std::vector<shared::MapRows> rows_;
+};
+
+/// The shaders that draw them.
+void add_map_triangle_shaders(Digest& digest);
+
+}  // namespace vesper::render

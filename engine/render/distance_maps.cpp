@@ -7,6 +7,7 @@
 #include <set>
 
 #include "gpu/commands.h"
+#include "gpu_scene/light_paths.h"
 #include "render/kept_maps.h"
 #include "render/map_parts.h"
 
@@ -19,22 +20,10 @@ uint64_t cost_of(const gpu_scene::MapLayout& layout) {
     return std::max<uint64_t>(layout.texels() / MapPlaces::kTileTexels, kLeast);
 }
 
-// Of the range of a lamp that moves: beyond it gives less than 0.1 lx, and is not hidden.
-constexpr float kMovingReach = 0.316f;
+constexpr double kFaintestMoving = 0.1;    // lx: what a lamp lights less while it moves it may light through something
+constexpr double kPenumbra = 3;            // of its radius, at most (visibility.comp)
+constexpr double kTexelsAside = 4;         // of a look at a map, at most, with the next texels
 constexpr double kLeastShare = 1.0 / 100;  // of the light at a placement: a lamp that gives less is not hidden by it
-
-// The largest intensity of a lamp towards a sphere, cd; of a measured one, of all directions. `number`: in its list.
-double intensity_towards(const gpu_scene::LampList& list, uint32_t number, glm::dvec3 to, double radius) {
-    const shared::Lamp& lamp = list.lamps[number];
-    const double away = glm::length(to);
-    if (number >= list.counts.cones + list.counts.powers || away <= radius) return double(lamp.intensity);
-    const double cosine = std::clamp(glm::dot(glm::dvec3(lamp.axis), to) / away, -1.0, 1.0);
-    const double nearest = std::cos(std::max(std::acos(cosine) - std::asin(radius / away), 0.0));
-    if (number >= list.counts.cones)
-        return nearest > 0 ? double(lamp.intensity) * std::pow(nearest, double(lamp.lobe_a)) : 0;
-    const double ramp = std::clamp(double(lamp.lobe_a) * nearest + double(lamp.lobe_b), 0.0, 1.0);
-    return double(lamp.intensity) * ramp * ramp;
-}
 
 }  // namespace
 
@@ -49,6 +38,7 @@ DistanceMaps::DistanceMaps(gpu::Device& device, const gpu_scene::GpuScene& resid
       drawn_(lamps.size()),
       whole_(lamps.size()),
       drawn_version_(lamps.size()),
+      for_view_(lamps.size()),
       kernels_(device),
       pipelines_(device),
       executor_(device) {
@@ -59,9 +49,11 @@ bool DistanceMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneF
                         const gpu_scene::View& view, uint64_t budget) {
     report_ = {};
     maps_to_draw_.clear();
-    forget_still(moving_.update(poses));
+    look_from(view, poses);
     const uint64_t most_texels = budget == kNoShadowBudget ? budget : budget / 2 * MapPlaces::kTileTexels;
-    MapPlaces::Change change = places_.fit(list, most_texels);
+    std::vector<bool> moves;
+    for (const gpu_scene::PlacedLamp& lamp : lamps_) moves.push_back(moving_.moves(lamp.node));
+    MapPlaces::Change change = places_.fit(list, most_texels, moves);
     moves_ = std::move(change.moves);
     for (const uint32_t lamp : change.lamps) {
         drop_tiles(lamp);
@@ -73,10 +65,25 @@ bool DistanceMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneF
     budget -= for_tiles;
     plan_tiles(covers(list, poses, view), list, for_tiles);
     plan_moved_maps(list, budget + for_tiles);
+    find_what_matters(list, most_texels == kNoShadowBudget);
     report_.maps = uint32_t(maps_to_draw_.size());
     report_.tiles = uint32_t(tiles_to_draw_.size());
     report_.bytes = arena_.bytes() + executor_.heap_bytes();
     return !moves_.empty() || !maps_to_draw_.empty() || !tiles_to_draw_.empty();
+}
+
+// Takes poses and a view. Frames at the same poses from different places are known only after the first, so what they
+// show of a moment is drawn for one view alone where there was one of the moment before.
+void DistanceMaps::look_from(const gpu_scene::View& view, const gpu_scene::SceneFrame& poses) {
+    const uint64_t version = moving_.version();
+    forget_still(moving_.update(poses));
+    if (moving_.version() != version) {
+        one_view_ = !more_views_, more_views_ = false;
+    } else if (view.world_to_view != view_.world_to_view || view.tangent_low != view_.tangent_low ||
+               view.tangent_high != view_.tangent_high) {
+        one_view_ = false, more_views_ = true;
+    }
+    view_ = view;
 }
 
 // Maps that may hold placements which have begun to move hold them no more.
@@ -106,12 +113,37 @@ void DistanceMaps::plan_new_maps(const gpu_scene::LampList& list, uint64_t& budg
     }
 }
 
+// Of lamps whose maps are drawn as a whole, frame by frame. `current`: no map is ever out of date, and so none is
+// looked at from elsewhere.
+void DistanceMaps::find_what_matters(const gpu_scene::LampList& list, bool current) {
+    matters_.assign(lamps_.size(), {});
+    const glm::dmat3 to_view(view_.world_to_view);
+    for (uint32_t i = 0; i < list.placed(); ++i) {
+        const uint32_t lamp = list.indices[i];
+        if (!is_whole(lamp) || std::ranges::find(maps_to_draw_, lamp) == maps_to_draw_.end()) continue;
+        const gpu_scene::MapLayout& layout = places_[lamp];
+        const glm::dvec3 position = glm::transpose(to_view) * glm::dvec3(list.lamps[i].position) + eye_of(view_);
+        for_view_[lamp] = current && one_view_;
+        std::vector<gpu_scene::HalfSpace> paths;
+        if (for_view_[lamp]) paths = gpu_scene::light_paths(view_, position);
+        const double beside = kPenumbra * double(layout.radius);
+        const double aside = kTexelsAside * 2 / (double(layout.side) * double(layout.zoom));
+        const double least = moving_.moves(lamps_[lamp].node) ? kFaintestMoving : 0;
+        matters_[lamp] = [=, &list](const gpu_scene::WorldSphere& sphere) {
+            const glm::dvec3 to = sphere.centre - position;
+            const double away = glm::length(to), nearest = std::max(away - sphere.radius, 0.0);
+            return may_lie_in(paths, {sphere.centre, sphere.radius + beside + aside * away}) &&
+                   intensity_towards(list, i, to_view * to, sphere.radius) >= least * nearest * nearest;
+        };
+    }
+}
+
 // Of maps of lamps that move, those first whose light is nearest to the eye.
 void DistanceMaps::plan_moved_maps(const gpu_scene::LampList& list, uint64_t budget) {
     std::vector<std::pair<double, uint32_t>> moved;
     for (uint32_t i = 0; i < list.placed(); ++i) {
         const uint32_t lamp = list.indices[i];
-        if (places_[lamp].side > 0 && drawn_[lamp] && is_whole(lamp) && drawn_version_[lamp] != moving_.version() &&
+        if (places_[lamp].side > 0 && drawn_[lamp] && is_whole(lamp) && is_out_of_date(lamp) &&
             std::ranges::find(maps_to_draw_, lamp) == maps_to_draw_.end()) {
             const double away = double(glm::length(list.lamps[i].position));
             const double worth = double(list.lamps[i].intensity) / std::max(away * away, 1.0);
@@ -154,7 +186,7 @@ std::map<DistanceMaps::TileKey, DistanceMaps::Cover> DistanceMaps::covers(const 
             const bool own = std::ranges::binary_search(fixtures_[list.indices[i]], body.placement);
             const bool reached = !own && !is_whole(list.indices[i]) && places_[list.indices[i]].side > 0 &&
                                  away - body.radius < double(places_[list.indices[i]].range);
-            const double candela = reached ? intensity_towards(list, i, to, body.radius) : 0;
+            const double candela = reached ? gpu_scene::intensity_towards(list, i, to, body.radius) : 0;
             light[i] = candela / std::max(nearest * nearest, 1e-6);
             sum += candela / std::max(away * away, body.radius * body.radius);
         }
@@ -249,8 +281,8 @@ void DistanceMaps::make_moves() {
 void DistanceMaps::draw(const std::vector<MapToDraw>& maps, const gpu_scene::SceneFrame& poses) {
     if (std::ranges::all_of(maps, &MapToDraw::there)) return;
     graph::FrameGraph graph;
-    const graph::Resource distances =
-        graph.lasting("map distances", distances_.get(), places_.texels() / 2 * sizeof(uint32_t));
+    const graph::Resource distances = graph.lasting(
+        "map distances", distances_.get(), places_.texels() / 2 * sizeof(uint32_t), VK_FORMAT_R32G32B32A32_UINT);
     add_distance_maps({graph, kernels_, pipelines_, {}}, resident_, poses, maps, distances);
     executor_.run(graph);
 }
@@ -267,8 +299,7 @@ void DistanceMaps::draw_maps(const gpu_scene::SceneFrame& poses) {
     std::vector<MapToDraw> maps;
     for (const uint32_t lamp : maps_to_draw_) {
         maps.push_back({places_[lamp], gpu_scene::map_frame(poses.world[lamps_[lamp].node]), fixtures_[lamp],
-                        is_whole(lamp) ? everything : moving_.still()});
-        if (moving_.moves(lamps_[lamp].node)) maps.back().layout.range *= kMovingReach;
+                        is_whole(lamp) ? everything : moving_.still(), matters_[lamp]});
     }
     if (kept) {
         const std::vector<std::vector<DrawnPlace>> places = drawn_places(maps);
@@ -311,6 +342,7 @@ void DistanceMaps::draw(const gpu_scene::SceneFrame& poses) {
     make_moves();
     draw_maps(poses);
     draw_tiles(poses);
+    matters_.clear();
 }
 
 VisibilityMaps DistanceMaps::maps(graph::FrameGraph& graph, const gpu_scene::LampList& list,

@@ -1,6 +1,7 @@
 // Distance maps of a scene's lamps, kept from frame to frame. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -82,8 +83,13 @@ private:
     void draw_maps(const gpu_scene::SceneFrame& poses);
     void draw_tiles(const gpu_scene::SceneFrame& poses);
     void draw(const std::vector<MapToDraw>& maps, const gpu_scene::SceneFrame& poses);
+    void look_from(const gpu_scene::View& view, const gpu_scene::SceneFrame& poses);
+    void find_what_matters(const gpu_scene::LampList& list, bool current);
     void forget_still(const std::vector<uint32_t>& placements);
     bool is_whole(uint32_t lamp) const { return whole_[lamp] || moving_.moves(lamps_[lamp].node); }
+    bool is_out_of_date(uint32_t lamp) const {
+        return drawn_version_[lamp] != moving_.version() || (for_view_[lamp] && !one_view_);
+    }
     void drop_tiles(uint32_t lamp);
     void plan_new_maps(const gpu_scene::LampList& list, uint64_t& budget);
     void plan_moved_maps(const gpu_scene::LampList& list, uint64_t budget);
@@ -101,8 +107,13 @@ private:
     std::vector<bool> drawn_;              // of lamps: the map holds what stands still
     std::vector<bool> whole_;              // of lamps: the map is drawn as that of one that moves
     std::vector<uint64_t> drawn_version_;  // of what moves, in maps of lamps that move
-    std::map<TileKey, Cover> covered_;     // tiles that hold more
-    std::vector<uint32_t> maps_to_draw_;   // lamps
+    std::vector<bool> for_view_;           // of lamps: the map holds what hides it from the view alone
+    gpu_scene::View view_;                 // of the last plan()
+    bool one_view_ = false;                // what is drawn is for this one alone
+    bool more_views_ = true;               // of the same moment
+    std::vector<std::function<bool(const gpu_scene::WorldSphere&)>> matters_;  // of lamps, see MapToDraw
+    std::map<TileKey, Cover> covered_;                                         // tiles that hold more
+    std::vector<uint32_t> maps_to_draw_;                                       // lamps
     std::vector<TileToDraw> tiles_to_draw_;
     std::vector<MapPlaces::Move> moves_;   // to be made before
     std::map<TileKey, uint32_t> waiting_;  // frames for which tiles have been carried over

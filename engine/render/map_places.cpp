@@ -33,7 +33,8 @@ MapPlaces::MapPlaces(std::vector<gpu_scene::MapLayout> layouts, double scale)
     for (uint32_t k = kTiles; k-- > 0;) free_tiles_.push_back(uint32_t(texels_) + k * kTileTexels);
 }
 
-MapPlaces::Change MapPlaces::fit(const gpu_scene::LampList& list, uint64_t most_texels) {
+MapPlaces::Change MapPlaces::fit(const gpu_scene::LampList& list, uint64_t most_texels,
+                                 const std::vector<bool>& moves) {
     std::vector<gpu_scene::MapLayout> wanted;
     std::vector<double> distances;
     for (uint32_t i = 0; i < list.placed(); ++i) {
@@ -41,6 +42,8 @@ MapPlaces::Change MapPlaces::fit(const gpu_scene::LampList& list, uint64_t most_
         distances.push_back(double(glm::length(list.lamps[i].position)));
     }
     gpu_scene::choose_sides(wanted, distances, scale_, texels_);
+    for (uint32_t i = 0; i < list.placed(); ++i)
+        if (moves[list.indices[i]] && wanted[i].side > gpu_scene::kLeastMapSide) wanted[i].side /= 2;
     const auto ratio = [&](uint32_t i) {  // a power of two
         const uint32_t a = wanted[i].side, b = layouts_[list.indices[i]].side;
         return b == 0 ? ~0u : std::max(a, b) / std::max(std::min(a, b), 1u);

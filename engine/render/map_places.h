@@ -28,10 +28,11 @@ public:
         std::vector<uint32_t> lamps;  ///< whose maps have another side, and hold nothing
         std::vector<Move> moves;      ///< of other maps, to be made all at once
     };
-    /// Fits the sides of the maps of a list to its view. `most_texels`: of maps that may change their side, beside
+    /// Fits the sides of the maps of a list to its view; those of lamps that move, which are drawn in each frame, have
+    /// half the side. `moves`: of each lamp. `most_texels`: of maps that may change their side, beside
     /// those that have none yet; then maps within a factor of two keep theirs. Throws Error where the maps of all lamps
     /// do not fit gpu_scene::kMostMapTexels.
-    Change fit(const gpu_scene::LampList& list, uint64_t most_texels);
+    Change fit(const gpu_scene::LampList& list, uint64_t most_texels, const std::vector<bool>& moves);
 
     /// First texel of a free tile; nothing if there is none.
     std::optional<uint32_t> take_tile();

@@ -276,9 +276,10 @@ TEST(Visibility, WhatMovesIsDrawnOverWhatStandsStill) {
         Lit anew(rig, street.s.scene());
         street.place(anew.poses, x);
         EXPECT_EQ(different(now, anew.render(Traffic::view())), 0u);
-        anew.poses.moving.clear();  // what is not known to move is drawn with the rest
-        Lit still(rig, street.s.scene());
+        Lit still(rig, street.s.scene());  // but for the lamp, what is not known to move is drawn with the rest
         still.poses.world = anew.poses.world;
+        still.poses.moving.assign(still.poses.world.size(), false);
+        still.poses.moving.back() = true;
         // Vertices are snapped to 1/256 texel of the tile or of the map.
         EXPECT_LE(different(now, still.render(Traffic::view())), 30u);
         if (before && x == 0.1) {
@@ -291,6 +292,33 @@ TEST(Visibility, WhatMovesIsDrawnOverWhatStandsStill) {
         before = now;
     }
     EXPECT_EQ(all.maps.report().maps + all.maps.report().tiles, 0u) << "at the end nothing has moved";
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// The map of a lamp that moves holds what hides it from the view that it is drawn for. Other views of the same moment,
+// and a view that moves on while nothing else does, see as much as if all were drawn.
+TEST(Visibility, ALampThatMovesIsHiddenFromEachView) {
+    PassRig rig;
+    Traffic street;
+    Lit all(rig, street.s.scene());
+    const auto aside = [](double x, double z) {  // at a quarter of the ground
+        gpu_scene::View view = view_of_the_ground(96, 5);
+        view.world_to_view = view.world_to_view * glm::translate(glm::dmat4(1), glm::dvec3(-x, 0, -z));
+        return view;
+    };
+    size_t of_one = 0;
+    for (const double x : {-2.0, -1.9, 2.5, 2.4, 0.1, 0.1}) {
+        SCOPED_TRACE("at " + std::to_string(x));
+        street.place(all.poses, x);
+        std::vector<gpu_scene::View> views{aside(-2, 3)};
+        if (x > 2.45) views.push_back(aside(3, -2));
+        if (x == 0.1) views = {of_one++ == 0 ? aside(2, 4) : aside(-2, -3)};
+        for (const gpu_scene::View& view : views) {
+            Lit anew(rig, street.s.scene());
+            street.place(anew.poses, x);
+            EXPECT_EQ(different(all.render(view), anew.render(view)), 0u);
+        }
+    }
     EXPECT_EQ(rig.complaints(), "");
 }
 
@@ -391,7 +419,7 @@ TEST(Visibility, NightStreetAgreesWithRays) {
         EXPECT_NEAR(light.got, light.truth, 0.01 * light.truth) << camera;
         EXPECT_LT(light.leaked, 0.006 * light.truth) << camera;
         EXPECT_LT(light.lost, 0.008 * light.truth) << camera;
-        EXPECT_GT(double(light.within), 0.94 * double(light.pixels)) << camera;
+        EXPECT_GT(double(light.within), 0.935 * double(light.pixels)) << camera;
         EXPECT_GT(light.pixels, 2000u);
     }
     EXPECT_EQ(rig.complaints(), "");

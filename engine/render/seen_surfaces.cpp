@@ -1,5 +1,6 @@
 #include "render/seen_surfaces.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "gpu/graphics_pipeline.h"
@@ -17,9 +18,12 @@ std::vector<transport::LitPoint> points_of(std::span<const glm::vec4> surface, c
         const double depth = double(surface[i].z);
         if (!(depth > 0) || !std::isfinite(depth)) continue;
         const glm::dvec2 centre = glm::dvec2(i % view.extent.width, i / view.extent.width) + 0.5;
-        const glm::dvec3 at = depth * (1 - kBefore) * glm::dvec3(scale * centre + offset, -1);
-        const glm::dvec3 normal = glm::dmat3(world) * photometry::octahedral_direction({surface[i].x, surface[i].y});
-        if (!(glm::length(normal) > 0)) continue;  // not finite
+        const glm::dvec3 n = photometry::octahedral_direction({surface[i].x, surface[i].y});
+        const glm::dvec3 normal = glm::dmat3(world) * n, ray(scale * centre + offset, -1);
+        if (!(glm::length(normal) > 0)) continue;                                        // not finite
+        const double change = glm::dot(glm::abs(glm::dvec2(n) * scale), glm::dvec2(1));  // of depth over a px, times:
+        const double before = kSnapped * change / std::max(std::abs(glm::dot(n, ray)), change);
+        const glm::dvec3 at = depth * (1 - kBefore - before) * ray;
         points[i] = {glm::dvec3(world * glm::dvec4(at, 1)), glm::normalize(normal)};
     }
     return points;

@@ -9,9 +9,10 @@
 
 namespace vesper::render {
 
-/// Where the pixels of a view see surfaces, as the G-buffer has them: rgba32f texels, row by row. Points lie by kBefore
-/// of their distance before their surface, so that rounding of the depth does not put them behind it.
-constexpr double kBefore = 1e-5;
+/// Where the pixels of a view see surfaces, as the G-buffer has them: rgba32f texels, row by row. Points lie before
+/// their surface, so that what a device rounds does not put them behind it: by kBefore of their distance, and by what
+/// depth changes within kSnapped px, as vertices are snapped to 1/256 px.
+constexpr double kBefore = 1e-5, kSnapped = 1.0 / 256;
 std::vector<transport::LitPoint> points_of(std::span<const glm::vec4> surface, const gpu_scene::View& view);
 
 /// The same of a scene with everything at its pose of `poses`, drawn for it. Throws Error if the device fails.

@@ -44,8 +44,9 @@ std::vector<Pixels> noise(VkExtent2D extent, size_t samples) {
     return pictures;
 }
 
-// Rounding of one float, 6e-8, and of what is left of the sums, whatever their number.
-constexpr double kRounding = 1e-7;
+// Rounding of one float, 6e-8, and of what is left of the sums, whatever their number; and that of a quotient, which a
+// device may be 2.5 units in the last place off.
+constexpr double kRounding = 4e-7;
 
 TEST(Samples, MatchTheReference) {
     PassRig rig;

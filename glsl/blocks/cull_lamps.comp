@@ -20,8 +20,8 @@ layout(binding = 0, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 1) uniform samplerBuffer lamps;
 layout(binding = 2) uniform usamplerBuffer counts;
 layout(binding = 3) uniform usamplerBuffer indices;
-layout(binding = 4, r32ui) writeonly uniform uimageBuffer block_counts;
-layout(binding = 5, r32ui) writeonly uniform uimageBuffer entries;
+layout(binding = 4, scalar) writeonly buffer BlockCounts { uint block_counts[]; };
+layout(binding = 5, scalar) writeonly buffer Entries { uint entries[]; };
 layout(binding = 6) uniform samplerBuffer tables;
 layout(binding = 7) uniform usamplerBuffer block_slices;
 layout(push_constant, scalar) uniform Push { CullPush push; };
@@ -135,12 +135,12 @@ void main() {
             const bool cone = lamp < push.view.lamps.cones;
             if (!lights_block(lamp)) continue;
             const uint at = cone ? cones : push.capacity - 1u - others;
-            if (cones + others < push.capacity) imageStore(entries, int(base + at), uvec4(entry_of(lamp, first, last)));
+            if (cones + others < push.capacity) entries[base + at] = entry_of(lamp, first, last);
             others += cone ? 0u : 1u;
             cones += cone ? 1u : 0u;
         }
         fits = fits && cones + others <= push.capacity && turns < kMaxTurns;
     }
-    imageStore(block_counts, int(2u * block), uvec4(fits ? cones : kAllLamps));
-    imageStore(block_counts, int(2u * block + 1u), uvec4(fits ? others : kAllLamps));
+    block_counts[2u * block] = fits ? cones : kAllLamps;
+    block_counts[2u * block + 1u] = fits ? others : kAllLamps;
 }

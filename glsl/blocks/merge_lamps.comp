@@ -22,12 +22,12 @@ layout(constant_id = 4) const uint kMaps = 1u;    // distance maps of lamps
 layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 2) uniform samplerBuffer lamps;
-layout(binding = 3, r32ui) uniform uimageBuffer block_counts;
-layout(binding = 4, r32ui) uniform uimageBuffer entries;
-layout(binding = 5, rgba32f) writeonly uniform imageBuffer sums;
+layout(binding = 3, scalar) buffer BlockCounts { uint block_counts[]; };
+layout(binding = 4, scalar) buffer Entries { uint entries[]; };
+layout(binding = 5, scalar) writeonly buffer Sums { vec4 sums[]; };
 layout(binding = 6) uniform samplerBuffer tables;
-layout(binding = 7, r32ui) uniform uimageBuffer class_counts;
-layout(binding = 8, r32ui) writeonly uniform uimageBuffer class_blocks;
+layout(binding = 7, scalar) buffer ClassCounts { uint class_counts[]; };
+layout(binding = 8, scalar) writeonly buffer ClassBlocks { uint class_blocks[]; };
 layout(push_constant, scalar) uniform Push { MergePush push; };
 
 #include "lamp.glsl"
@@ -163,27 +163,27 @@ bool covers(uint entry) { return (slices & ~slices_of(entry)) == 0u; }
 // Merges lamps of a block. Returns whether any is left on its list.
 bool merge_block(uint block) {
     const int counts = int(2u * block), first = int(block * push.capacity), last = first + int(push.capacity) - 1;
-    const uint cones = imageLoad(block_counts, counts).r, others = imageLoad(block_counts, counts + 1).r;
+    const uint cones = block_counts[counts], others = block_counts[counts + 1];
     lookups = kMaps != 0u && cones == kAllLamps;
     const uint tables_from = push.view.lamps.cones + push.view.lamps.powers;
     if (!plane || cones == kAllLamps || push.tolerance < 0.0) return cones + others != 0u || push.tolerance < 0.0;
     int kept_cones = 0, kept_others = 0;
     if (kCones != 0u)
         for (int i = 0; i < int(cones); ++i) {
-            const uint entry = imageLoad(entries, first + i).r;
+            const uint entry = entries[first + i];
             if (covers(entry) && (entry & kMixedBit) == 0u && !remains(fetch(lamp_of(entry), true, tables_from), share_of(entry), true)) continue;
-            imageStore(entries, first + kept_cones, uvec4(entry));
+            entries[first + kept_cones] = entry;
             ++kept_cones;
         }
     if (kPowers != 0u || kTables != 0u)
         for (int i = 0; i < int(others); ++i) {
-            const uint entry = imageLoad(entries, last - i).r;
+            const uint entry = entries[last - i];
             if (covers(entry) && (entry & kMixedBit) == 0u && !remains(fetch(lamp_of(entry), false, tables_from), share_of(entry), false)) continue;
-            imageStore(entries, last - kept_others, uvec4(entry));
+            entries[last - kept_others] = entry;
             ++kept_others;
         }
-    imageStore(block_counts, counts, uvec4(kept_cones));
-    imageStore(block_counts, counts + 1, uvec4(kept_others));
+    block_counts[counts] = uint(kept_cones);
+    block_counts[counts + 1] = uint(kept_others);
     return kept_cones + kept_others != 0;
 }
 
@@ -205,15 +205,15 @@ void main() {
     look_at_block(uvec2(x, y) * kBlockSize);
     const uint class_ = class_of(merge_block(block));
 
-    const uint place = imageAtomicAdd(class_counts, int(class_ * kClassWords + 3u), 1u);
-    if (place % kBlocksPerGroup == 0u) imageAtomicAdd(class_counts, int(class_ * kClassWords), 1u);
-    imageStore(class_blocks, int(class_ * push.blocks_x * push.blocks_y + place), uvec4(block));
+    const uint place = atomicAdd(class_counts[class_ * kClassWords + 3u], 1u);
+    if (place % kBlocksPerGroup == 0u) atomicAdd(class_counts[class_ * kClassWords], 1u);
+    class_blocks[class_ * push.blocks_x * push.blocks_y + place] = block;
     const int at = int(block * kMergedTexels);
-    imageStore(sums, at, vec4(sum[0], sum[1].r));
-    imageStore(sums, at + 1, vec4(sum[1].gb, sum[2].rg));
-    imageStore(sums, at + 2, vec4(sum[2].b, sum[3]));
-    imageStore(sums, at + 3, vec4(sum[4], sum[5].r));
-    imageStore(sums, at + 4, vec4(sum[5].gb, sum[6].rg));
-    imageStore(sums, at + 5, vec4(sum[6].b, sum[7]));
-    imageStore(sums, at + 6, vec4(sum[8], 0.0));
+    sums[at] = vec4(sum[0], sum[1].r);
+    sums[at + 1] = vec4(sum[1].gb, sum[2].rg);
+    sums[at + 2] = vec4(sum[2].b, sum[3]);
+    sums[at + 3] = vec4(sum[4], sum[5].r);
+    sums[at + 4] = vec4(sum[5].gb, sum[6].rg);
+    sums[at + 5] = vec4(sum[6].b, sum[7]);
+    sums[at + 6] = vec4(sum[8], 0.0);
 }

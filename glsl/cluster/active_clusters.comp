@@ -9,8 +9,8 @@
 layout(local_size_x = 8, local_size_y = 8) in;  // the blocks of a tile
 
 layout(binding = 0, rgba32f) readonly uniform image2D surface_image;
-layout(binding = 1, r32ui) writeonly uniform uimageBuffer block_slices;
-layout(binding = 2, r32ui) uniform uimageBuffer tile_slices;
+layout(binding = 1, scalar) writeonly buffer BlockSlices { uint block_slices[]; };
+layout(binding = 2, scalar) buffer TileSlices { uint tile_slices[]; };
 layout(push_constant, scalar) uniform Push { ActiveClustersPush push; };
 
 void main() {
@@ -19,6 +19,6 @@ void main() {
     uint slices = 0u;
     for (uint y = corner.y; y < end.y; ++y)
         for (uint x = corner.x; x < end.x; ++x) slices |= slice_bit(push.grid, imageLoad(surface_image, ivec2(x, y)).z);
-    imageStore(block_slices, int(gl_GlobalInvocationID.y * push.blocks_x + gl_GlobalInvocationID.x), uvec4(slices));
-    imageAtomicOr(tile_slices, int(gl_WorkGroupID.y * push.grid.tiles_x + gl_WorkGroupID.x), slices);
+    block_slices[gl_GlobalInvocationID.y * push.blocks_x + gl_GlobalInvocationID.x] = slices;
+    atomicOr(tile_slices[gl_WorkGroupID.y * push.grid.tiles_x + gl_WorkGroupID.x], slices);
 }

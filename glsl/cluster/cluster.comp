@@ -18,8 +18,8 @@ layout(constant_id = 2) const uint kLockstep = 0u;  // see lanes.glsl
 layout(binding = 0) uniform samplerBuffer lamps;
 layout(binding = 1) uniform usamplerBuffer parent_counts;
 layout(binding = 2) uniform usamplerBuffer parent_indices;
-layout(binding = 3, r32ui) writeonly uniform uimageBuffer counts;
-layout(binding = 4, r32ui) writeonly uniform uimageBuffer indices;
+layout(binding = 3, scalar) writeonly buffer Counts { uint counts[]; };
+layout(binding = 4, scalar) writeonly buffer Indices { uint indices[]; };
 layout(binding = 5, scalar) buffer Report { ClusterReport report; };
 layout(binding = 6) uniform samplerBuffer tables;
 layout(binding = 7) uniform usamplerBuffer tile_slices;
@@ -70,7 +70,7 @@ uint list_lamps(uint from, uint number, bool cone, bool all_of_them, uint base, 
         const uint lamp = all_of_them || i >= number ? from + i : texelFetch(parent_indices, int(from + i)).r;
         const bool listed = i < number && counts_here(lamp, cone);
         const uint at = count + lanes_add_before(listed ? 1u : 0u);
-        if (listed && at < push.capacity) imageStore(indices, int(base + at), uvec4(lamp));
+        if (listed && at < push.capacity) indices[base + at] = lamp;
         count += lanes_add(listed ? 1u : 0u);
     }
     return count;
@@ -96,8 +96,8 @@ void main() {
     if (gl_LocalInvocationID.x != 0u) return;
 
     const bool fits = count <= push.capacity;
-    imageStore(counts, int(2u * index), uvec4(fits ? kept_cones : kAllLamps));
-    imageStore(counts, int(2u * index + 1u), uvec4(fits ? count - kept_cones : kAllLamps));
+    counts[2u * index] = fits ? kept_cones : kAllLamps;
+    counts[2u * index + 1u] = fits ? count - kept_cones : kAllLamps;
     if (push.reports != 0u) {
         atomicAdd(report.overflowed, fits ? 0u : 1u);
         atomicMax(report.longest, count);

@@ -18,7 +18,7 @@ layout(constant_id = 0) const uint kLockstep = 0u;  // see lanes.glsl
 layout(binding = 0, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 1) uniform samplerBuffer maps;       // DirectionalMap
 layout(binding = 2) uniform samplerBuffer distances;  // halves
-layout(binding = 3, r32ui) writeonly uniform uimageBuffer shares;
+layout(binding = 3, scalar) writeonly buffer Shares { uint shares[]; };
 layout(push_constant, scalar) uniform Push { DirectionalVisibilityPush push; };
 
 #include "lanes.glsl"
@@ -149,6 +149,6 @@ void main() {
         [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) words[r] = 0u;
         for (uint i = w * kSharesPerWord; i < min(push.lamps, (w + 1u) * kSharesPerWord); ++i) look(i, words);
         const int at = int(((block * count + w) * kBlockSize) * kBlockSize + lane);
-        [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) imageStore(shares, at + int(r * kBlockSize), uvec4(words[r]));
+        [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) shares[at + int(r * kBlockSize)] = words[r];
     }
 }

@@ -15,8 +15,8 @@ layout(constant_id = 2) const uint kRows = 1u;  // pixels of a column that an in
 layout(binding = 0, rg32ui) readonly uniform uimage2D triangles;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 2, rgba32f) readonly uniform image2D scene_image;
-layout(binding = 3, r32ui) uniform uimageBuffer counts;
-layout(binding = 4, r32ui) writeonly uniform uimageBuffer edges;
+layout(binding = 3, scalar) buffer Counts { uint counts[]; };
+layout(binding = 4, scalar) writeonly buffer Edges { uint edges[]; };
 layout(push_constant, scalar) uniform Push { EdgesPush push; };
 
 #include "edges.glsl"
@@ -55,9 +55,9 @@ void main() {
         [[unroll]] for (int i = 0; i < 3; ++i) edge = edge || differs(here, rgb, above, i) || differs(here, rgb, below, i);
         above = row, row = below;
         if (!edge || any(greaterThanEqual(pixel, ivec2(push.size)))) continue;
-        const uint place = imageAtomicAdd(counts, 3, 1u);
+        const uint place = atomicAdd(counts[3], 1u);
         if (place >= kEdgesPerGroup * kMostEdgeGroups) continue;
-        if (place % kEdgesPerGroup == 0u) imageAtomicAdd(counts, 0, 1u);
-        imageStore(edges, int(place), uvec4(uint(pixel.y) * push.size.x + uint(pixel.x)));
+        if (place % kEdgesPerGroup == 0u) atomicAdd(counts[0], 1u);
+        edges[place] = uint(pixel.y) * push.size.x + uint(pixel.x);
     }
 }

@@ -21,13 +21,13 @@ layout(constant_id = 2) const uint kLockstep = 0u;  // see lanes.glsl
 
 layout(binding = 0, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 1) uniform samplerBuffer lamps;
-layout(binding = 2, r32ui) uniform uimageBuffer block_counts;
-layout(binding = 3, r32ui) uniform uimageBuffer entries;
+layout(binding = 2, scalar) buffer BlockCounts { uint block_counts[]; };
+layout(binding = 3, scalar) buffer Entries { uint entries[]; };
 layout(binding = 4) uniform samplerBuffer maps;
 layout(binding = 5) uniform samplerBuffer distances;
 layout(binding = 6) uniform samplerBuffer tables;
-layout(binding = 7, r32ui) writeonly uniform uimageBuffer shares;
-layout(binding = 8, r32ui) uniform uimageBuffer report;
+layout(binding = 7, scalar) writeonly buffer Shares { uint shares[]; };
+layout(binding = 8, scalar) buffer Report { uint report[]; };
 layout(push_constant, scalar) uniform Push { VisibilityPush push; };
 
 #include "lamp.glsl"
@@ -227,13 +227,13 @@ uint look(uint index, float stops, out uint word) {
 uvec4 see(uint x, uint y) {
     const uint lane = gl_LocalInvocationID.x, block = y * push.blocks_x + x;
     const int counts = int(2u * block), first = int(block * push.capacity), last = first + int(push.capacity) - 1;
-    const uint cones = imageLoad(block_counts, counts).r, all_ = cones + imageLoad(block_counts, counts + 1).r;
+    const uint cones = block_counts[counts], all_ = cones + block_counts[counts + 1];
     if (cones == kAllLamps || all_ == 0u) return uvec4(0u);
     look_at_block(uvec2(x, y) * kBlockSize);
 
     float light = 0.0;  // the mean of the block is the sum of all invocations, lx
     for (uint i = lane; i < all_; i += kBlockSize) {
-        const uint entry = imageLoad(entries, i < cones ? first + int(i) : last - int(i - cones)).r;
+        const uint entry = entries[i < cones ? first + int(i) : last - int(i - cones)];
         listed[i] = entry;
         light += probe(i, lamp_of(entry), i < cones);
     }
@@ -281,7 +281,7 @@ uvec4 see(uint x, uint y) {
             const float stops = lanes_max(mine ? way[i] : 0.0);
             const uint sees_it = look(lamp, stops, word);
             if (sees_it == kMixed)
-                imageStore(shares, int((block * kSharePlaces + mixed) * kBlockSize + lane), uvec4(word));
+                shares[(block * kSharePlaces + mixed) * kBlockSize + lane] = word;
             visible = mine ? sees_it : visible;
             mark = mine && sees_it == kMixed ? kMixedBit | mixed << kShareShift : mark;
             mixed += sees_it == kMixed ? 1u : 0u;
@@ -290,15 +290,15 @@ uvec4 see(uint x, uint y) {
         mark = visible < kShares ? visible << kShareShift : mark;
         const bool stays = visible != kDark;
         const uint one = stays ? (cone ? 1u : 1u << 16u) : 0u, before = kept + lanes_add_before(one);
-        if (stays) imageStore(entries, cone ? first + int(before & 0xffffu) : last - int(before >> 16u), uvec4(entry | mark));
+        if (stays) entries[cone ? first + int(before & 0xffffu) : last - int(before >> 16u)] = entry | mark;
         kept += lanes_add(one);
         lit += visible == kLit ? 1u : 0u;
         dark += there && visible == kDark ? 1u : 0u;
     }
     lit = lanes_add(lit), dark = lanes_add(dark);
     if (lane == 0u) {
-        imageStore(block_counts, counts, uvec4(kept & 0xffffu));
-        imageStore(block_counts, counts + 1, uvec4(kept >> 16u));
+        block_counts[counts] = kept & 0xffffu;
+        block_counts[counts + 1] = kept >> 16u;
     }
     return uvec4(lit, dark, mixed, all_ - lit - dark - mixed);
 }
@@ -308,5 +308,5 @@ void main() {
     const uint y = turn < even_rows ? 2u * turn : 2u * (turn - even_rows) + 1u;
     const uvec4 pairs = see(gl_WorkGroupID.x, y);
     if (gl_LocalInvocationID.x != 0u) return;
-    [[unroll]] for (int k = 0; k < 4; ++k) imageAtomicAdd(report, k, pairs[k]);
+    [[unroll]] for (int k = 0; k < 4; ++k) atomicAdd(report[k], pairs[k]);
 }

@@ -9,7 +9,7 @@
 namespace vesper::render {
 namespace {
 
-using graph::load, graph::store, graph::update;
+using graph::load, graph::sample, graph::store, graph::update;
 
 constexpr gpu::Shader kCull{"cull_triangles.comp", cull_triangles_comp};
 
@@ -24,6 +24,11 @@ constexpr size_t kMostRuns = 65535;
 constexpr uint32_t kMostTriangles = 1u << 19u;
 
 }  // namespace
+
+bool has_map_triangles(const gpu::Device& device, const gpu_scene::GpuScene& scene) {
+    return std::max(scene.vertex_count() * (sizeof(scene::Vertex) / sizeof(glm::vec2)), scene.index_count()) <=
+           device.limits().maxTexelBufferElements;
+}
 
 // What one dispatch culls.
 struct MapTriangles::Chunk {
@@ -51,14 +56,13 @@ void MapTriangles::add(const gpu_scene::GpuScene::Part& part, uint32_t rows, uin
              .triangles = std::min((part.index_count - first) / 3, shared::kTrianglesOfRun)});
 }
 
-void MapTriangles::draw(const FrameContext& frame, const gpu_scene::GpuScene& scene, const std::string& name,
-                        graph::Resource depth) const {
+void MapTriangles::draw(const FrameContext& frame, const gpu_scene::GpuScene& scene, const Image& image) const {
     if (rows_.empty()) return;
-    const graph::Resource rows = frame.graph.upload("map rows" + name, rows_);
+    const graph::Resource rows = frame.graph.upload("map rows" + image.name, rows_);
     Chunk chunk;
     uint32_t number = 0;
     const auto draw_chunk = [&] {
-        draw(chunk, frame, scene, rows, name + "." + std::to_string(number++), depth);
+        draw(chunk, frame, scene, rows, {image.name + "." + std::to_string(number++), image.depth, image.small});
         chunk = {};
     };
     for (const QuadrantRuns& of : quadrants_) {
@@ -76,12 +80,13 @@ void MapTriangles::draw(const FrameContext& frame, const gpu_scene::GpuScene& sc
 }
 
 void MapTriangles::draw(const Chunk& chunk, const FrameContext& frame, const gpu_scene::GpuScene& scene,
-                        graph::Resource rows, const std::string& name, graph::Resource depth) const {
+                        graph::Resource rows, const Image& image) const {
     graph::FrameGraph& graph = frame.graph;
-    const graph::Resource vertices =
-        graph.external("vertices" + name, scene.vertices(), scene.vertex_count() * sizeof(scene::Vertex));
+    const std::string& name = image.name;
+    const graph::Resource vertices = graph.external(
+        "vertices" + name, scene.vertices(), scene.vertex_count() * sizeof(scene::Vertex), VK_FORMAT_R32G32_SFLOAT);
     const graph::Resource indices =
-        graph.external("indices" + name, scene.indices(), scene.index_count() * sizeof(uint32_t));
+        graph.external("indices" + name, scene.indices(), scene.index_count() * sizeof(uint32_t), VK_FORMAT_R32_UINT);
     std::vector<VkDrawIndirectCommand> none;
     for (const shared::MapQuadrant& quadrant : chunk.quadrants) none.push_back({0, 1, 3 * quadrant.first, 0});
     const graph::Resource nothing = graph.upload("no triangles" + name, none);
@@ -90,14 +95,15 @@ void MapTriangles::draw(const Chunk& chunk, const FrameContext& frame, const gpu
     graph.copy("no triangles" + name, nothing, draws);
     const graph::Resource kept =
         graph.transient("map triangles" + name, graph::buffer_shape(chunk.triangles * 3 * sizeof(glm::vec3)));
-    graph.dispatch("cull triangles" + name, frame.kernels.get(kCull),
-                   {load(vertices), load(indices), load(rows), load(graph.upload("map runs" + name, chunk.runs)),
-                    load(graph.upload("map quadrants" + name, chunk.quadrants)), update(draws), store(kept)},
-                   shared::CullTrianglesPush{sizeof(scene::Vertex) / sizeof(float)},
-                   graph::Groups{uint32_t(chunk.runs.size()), 1, 1});
+    graph.dispatch(
+        "cull triangles" + name, frame.kernels.get(kCull, {frame.lockstep() ? 8u : 64u}),
+        {sample(vertices), sample(indices), load(rows), load(graph.upload("map runs" + name, chunk.runs)),
+         load(graph.upload("map quadrants" + name, chunk.quadrants)), update(draws), store(kept), update(image.small)},
+        shared::CullTrianglesPush{sizeof(scene::Vertex) / sizeof(glm::vec2)},
+        graph::Groups{uint32_t(chunk.runs.size()), 1, 1});
     graph.raster(
         "map triangles" + name,
-        {{kept, graph::Access::Vertices}, {draws, graph::Access::Arguments}, {depth, graph::Access::DepthTarget}},
+        {{kept, graph::Access::Vertices}, {draws, graph::Access::Arguments}, {image.depth, graph::Access::DepthTarget}},
         [&pipelines = frame.pipelines, kept, draws, quadrants = chunk.quadrants](const graph::Recording& recording) {
             const VkCommandBuffer commands = recording.commands();
             const gpu::GraphicsPipeline& pipeline = pipelines.get(kTriangles, {.targets = {}, .depth = kDepthFormat});

@@ -11,6 +11,9 @@
 
 namespace vesper::render {
 
+/// Whether the device has room for texel buffers of all vertices and indices of the scene.
+bool has_map_triangles(const gpu::Device& device, const gpu_scene::GpuScene& scene);
+
 /// What is drawn into an image: runs of triangles, quadrant by quadrant.
 class MapTriangles {
 public:
@@ -22,9 +25,13 @@ public:
     /// All triangles of a part.
     void add(const gpu_scene::GpuScene::Part& part, uint32_t rows, uint32_t quadrant);
 
-    /// Draws into the depth image those that may cover the middle of a texel. `name`: of the image, for messages.
-    void draw(const FrameContext& frame, const gpu_scene::GpuScene& scene, const std::string& name,
-              graph::Resource depth) const;
+    /// Draws into a depth image, and small triangles into words of a buffer, a float for each of its texels: kMapNear
+    /// over the distance, where that is more than is there.
+    struct Image {
+        std::string name;  ///< for messages
+        graph::Resource depth, small;
+    };
+    void draw(const FrameContext& frame, const gpu_scene::GpuScene& scene, const Image& image) const;
 
 private:
     struct Chunk;
@@ -33,7 +40,7 @@ private:
         std::vector<shared::TriangleRun> runs;
     };
     void draw(const Chunk& chunk, const FrameContext& frame, const gpu_scene::GpuScene& scene, graph::Resource rows,
-              const std::string& name, graph::Resource depth) const;
+              const Image& image) const;
 
     std::vector<QuadrantRuns> quadrants_;
     std::vector<shared::MapRows> rows_;

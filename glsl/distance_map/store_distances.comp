@@ -11,6 +11,7 @@
 layout(local_size_x = 16, local_size_y = 16) in;  // kRegion / kGroup
 
 layout(binding = 0) uniform texture2D drawn;  // kMapNear / distance; 0 without a surface
+layout(binding = 3, scalar) readonly buffer Small { uint small[]; };  // the same of small triangles, bits of floats
 layout(binding = 1) uniform usamplerBuffer regions;  // rgba32ui, two texels each
 layout(binding = 2, scalar) buffer Distances { uint distances[]; };  // two halves, side by side
 
@@ -24,7 +25,9 @@ void main() {
     const int saved = int((b.z & ~kSaveNow) * (kMapUnit / 2u));
     for (int k = 0; k < 8; ++k) {
         const ivec2 texel = group + ivec2(k % 2 * 2, k / 2);
-        const vec2 s = vec2(texelFetch(drawn, image + texel, 0).r, texelFetch(drawn, image + texel + ivec2(1, 0), 0).r) * (1.0 / kMapNear);
+        const int first = (image.y + texel.y) * textureSize(drawn, 0).x + image.x + texel.x;
+        const vec2 rasterized = vec2(texelFetch(drawn, image + texel, 0).r, texelFetch(drawn, image + texel + ivec2(1, 0), 0).r);
+        const vec2 s = max(rasterized, vec2(uintBitsToFloat(small[first]), uintBitsToFloat(small[first + 1]))) * (1.0 / kMapNear);
         vec2 norm = min(mix(vec2(kMapFar), 1.0 / s, greaterThan(s, vec2(0.0))), vec2(kMapFar));
         const int word = (int(b.y * kMapUnit) + (corner.y + texel.y) * side + corner.x + texel.x) / 2;
         const int kept = saved + (texel.y * int(kRegion) + texel.x) / 2;

@@ -56,8 +56,7 @@ struct MapInstance {
 };
 SHARED_SIZE(MapInstance, 84)
 
-// Opaque parts are drawn by their triangles, without those that cover no middle of a texel. A quadrant of a hemisphere, or of a
-// tile of it, in the image:
+// Opaque parts are drawn by their triangles. A quadrant of a hemisphere, or of a tile of it, in the image:
 struct MapQuadrant {
     vec4 place;        // as in MapInstance
     vec4 window;
@@ -65,8 +64,11 @@ struct MapQuadrant {
     uint first;        // its first triangle among those that are kept
     float mirror;      // -1 in the second hemisphere: z is mirrored there; 1
     float side;        // of the image, texels
+    vec2 corner;       // of the hemisphere or tile in the image, texels
+    float width;       // its own side, texels
+    float unused;
 };
-SHARED_SIZE(MapQuadrant, 48)
+SHARED_SIZE(MapQuadrant, 64)
 
 // Triangles of one part, for one quadrant; at most kTrianglesOfRun.
 struct TriangleRun {
@@ -77,7 +79,8 @@ struct TriangleRun {
     uint triangles;
 };
 SHARED_SIZE(TriangleRun, 20)
-const uint kTrianglesOfRun = 32u;
+const uint kTrianglesOfRun = 128u;
+const uint kSmallTriangle = 16u;  // texels: triangles in boxes of that side are drawn by cull_triangles.comp itself
 
 // Of the matrix from a mesh to the frame of a map, m.
 struct MapRows {
@@ -86,7 +89,7 @@ struct MapRows {
 SHARED_SIZE(MapRows, 48)
 
 struct CullTrianglesPush {
-    uint vertex_words;  // of a vertex, which begins with its position
+    uint vertex_texels;  // rg32f, of a vertex, which begins with its position
 };
 SHARED_SIZE(CullTrianglesPush, 4)
 

@@ -16,7 +16,7 @@ namespace vesper::render {
 namespace {
 
 using gpu_scene::GpuScene;
-using graph::sample, graph::update;
+using graph::load, graph::sample, graph::update;
 
 constexpr gpu::Shader kStore{"store_distances.comp", store_distances_comp};
 
@@ -92,7 +92,8 @@ std::vector<DrawnImage> fill_images(std::span<const MapToDraw> maps) {
     return images;
 }
 
-// What is drawn into an image: opaque triangles; and masked parts, and an instance each, side by side.
+// What is drawn into an image: triangles of opaque parts; and of masked ones, or of all where there is no room for
+// these, parts and an instance each, side by side.
 struct Drawn {
     MapTriangles opaque;
     std::vector<uint32_t> parts;
@@ -102,8 +103,8 @@ struct Drawn {
 // What stands where a square sees it.
 class Collector {
 public:
-    Collector(const GpuScene& scene, const gpu_scene::SceneFrame& poses)
-        : scene_(scene), poses_(poses), bounds_(scene.placements().size()) {}
+    Collector(const GpuScene& scene, const gpu_scene::SceneFrame& poses, bool triangles)
+        : scene_(scene), poses_(poses), triangles_(triangles), bounds_(scene.placements().size()) {}
 
     void collect(const Square& square, uint32_t image_side, Drawn& drawn) {
         const gpu_scene::MapLayout& layout = square.map->layout;
@@ -196,7 +197,10 @@ private:
                                                .y_sign = float(signs.y),
                                                .first = 0,
                                                .mirror = square.second ? -1.0f : 1.0f,
-                                               .side = image};
+                                               .side = image,
+                                               .corner = glm::vec2(square.place),
+                                               .width = float(square.side),
+                                               .unused = 0};
             quadrants.push_back({window, signs, drawn.opaque.quadrants(), quadrant});
             drawn.opaque.add_quadrant(quadrant);
         }
@@ -206,7 +210,7 @@ private:
     void add(const Quadrant& quadrant, uint32_t part, Rows& rows, Drawn& drawn) const {
         const shared::MapQuadrant& to = quadrant.drawn;
         const GpuScene::Part& of = scene_.parts()[part];
-        if (scene_.surfaces()[of.material].material.alpha == scene::Material::Alpha::Mask) {
+        if (!triangles_ || scene_.surfaces()[of.material].material.alpha == scene::Material::Alpha::Mask) {
             drawn.parts.push_back(part);
             drawn.instances.push_back({.row_x = rows.rows[0],
                                        .row_y = rows.rows[1],
@@ -222,6 +226,7 @@ private:
 
     const GpuScene& scene_;
     const gpu_scene::SceneFrame& poses_;
+    bool triangles_;              // opaque parts are drawn by them
     std::vector<Bounds> bounds_;  // of placements
 };
 
@@ -264,7 +269,7 @@ MaskedParts masked_parts(const Drawn& drawn, const GpuScene& scene) {
 void add_distance_maps(const FrameContext& frame, const GpuScene& scene, const gpu_scene::SceneFrame& poses,
                        std::span<const MapToDraw> maps, graph::Resource distances) {
     graph::FrameGraph& graph = frame.graph;
-    Collector collector(scene, poses);
+    Collector collector(scene, poses, has_map_triangles(frame.kernels.device(), scene));
     uint32_t number = 0;
     for (DrawnImage& image : fill_images(maps)) {
         std::erase_if(image.squares, [](const Square& square) { return square.map->there; });
@@ -282,12 +287,16 @@ void add_distance_maps(const FrameContext& frame, const GpuScene& scene, const g
                       batches = std::move(parts.batches)](const graph::Recording& recording) {
                          record_map_parts(recording, device, pipelines, kMapShaders, scene, placed, batches);
                      });
-        drawn.opaque.draw(frame, scene, which, depth);
+        const graph::Resource small = graph.transient(
+            "small triangles" + which, graph::buffer_shape(uint64_t(image.side) * image.side * sizeof(float)));
+        graph.clear("no small triangles" + which, small);
+        drawn.opaque.draw(frame, scene, {which, depth, small});
 
         const std::vector<shared::MapRegion> regions = regions_of(image.squares);
         const graph::Resource list = graph.upload("map regions" + which, regions, VK_FORMAT_R32G32B32A32_UINT);
         graph.dispatch("store distances" + which, frame.kernels.get(kStore),
-                       {sample(depth), sample(list), update(distances)}, graph::Groups{uint32_t(regions.size()), 1, 1});
+                       {sample(depth), sample(list), update(distances), load(small)},
+                       graph::Groups{uint32_t(regions.size()), 1, 1});
     }
 }
 

@@ -40,6 +40,11 @@ std::string compare_runs(const RunResult& a, const RunResult& b) {
     if (!alike(a.settings, b.settings)) text += "\nwith " + b.settings.title() + b.settings.details();
     text += "\n  " + apps::column("", 36) + "         A         B   B / A  (as laps differ)\n" +
             row("frame, ms", a.frame, b.frame, laps) + row("frame, 99 %, ms", a.p99, b.p99);
+    if (a.arithmetic.median > 0 && b.arithmetic.median > 0)
+        text += row("arithmetic on all threads, ms", a.arithmetic, b.arithmetic, laps) +
+                row("frame over that", a.frame.median / a.arithmetic.median, b.frame.median / b.arithmetic.median);
+    if (a.listed > 0 && b.listed > 0)
+        text += row("lamps on the list of a block", a.listed, b.listed) + row("lamps seen by it", a.kept, b.kept);
     for (size_t i = 0; i < kHostParts.size(); ++i)
         text += row(std::string("host: ") + kHostParts[i] + ", ms", a.host[i], b.host[i], laps);
     std::string only;

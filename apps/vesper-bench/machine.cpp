@@ -89,6 +89,27 @@ double copy_bandwidth(const gpu::Device& device) {
     return device.is_cpu() ? host_copy_bandwidth() : device_copy_bandwidth(device);
 }
 
+double arithmetic_ms(uint64_t operations) {
+    constexpr size_t kChains = 32;  // that do not wait for one another
+    const size_t threads = std::max(1u, std::thread::hardware_concurrency());
+    std::vector<float> results(threads);
+    const Stopwatch watch;
+    std::vector<std::thread> working;
+    for (float& result : results)
+        working.emplace_back([&result, operations] {
+            float values[kChains];
+            for (size_t k = 0; k < kChains; ++k) values[k] = float(k);
+            for (uint64_t i = 0; i < operations / kChains; ++i)
+                for (float& value : values) value = value * 0.999f + 0.001f;  // towards 1
+            for (const float value : values) result += value;
+        });
+    for (std::thread& thread : working) thread.join();
+    const double time = watch.milliseconds();
+    for (const float result : results)
+        if (!(result >= 0)) return 0;  // never: so that they are computed
+    return time;
+}
+
 uint64_t peak_host_bytes() {
     if (const std::string peak = value_in("/proc/self/status", "VmHWM"); !peak.empty())
         return std::strtoull(peak.c_str(), nullptr, 10) << 10;  // kB

@@ -27,10 +27,12 @@ struct RunSamples {
     Samples frame;
     std::array<Samples, kHostParts.size()> host;
     std::vector<PassSamples> passes;
+    Samples arithmetic;
     double total_ms = 0;
+    double blocks = 0, listed = 0, kept = 0;  // of pixels, and lamps on their lists
 
     void next_lap() {
-        frame.next_lap();
+        frame.next_lap(), arithmetic.next_lap();
         for (Samples& part : host) part.next_lap();
         for (PassSamples& pass : passes) pass.ms.next_lap(), pass.bytes_read.next_lap(), pass.bytes_written.next_lap();
     }
@@ -81,6 +83,7 @@ public:
             for (size_t i = 0; i < std::size(parts); ++i) host[1 + i] += parts[i];
             host.back() += watch.lap() - (times.declare + times.plan + times.record + times.submit + times.wait);
             graph::add_times(timings, last_.timings);  // channels are counted together
+            if (samples) count_lamps(view, *samples);
         }
         if (samples) samples->add(whole.milliseconds(), host, timings);
     }
@@ -89,6 +92,14 @@ public:
     render::Frame& last() { return last_; }
 
 private:
+    void count_lamps(const gpu_scene::View& view, RunSamples& samples) const {
+        const shared::VisibilityReport& pairs = last_.visibility;
+        const auto blocks = [](uint32_t pixels) { return (pixels + shared::kBlockSize - 1) / shared::kBlockSize; };
+        samples.blocks += double(blocks(view.extent.width)) * blocks(view.extent.height);
+        const double kept = double(pairs.lit) + pairs.mixed + pairs.faint;
+        samples.kept += kept, samples.listed += kept + pairs.dark;
+    }
+
     const RunPlan& plan_;
     const scene::Scene& scene_;
     double seconds_;
@@ -102,6 +113,8 @@ void summarize(const RunSamples& samples, RunResult& result) {
     result.frame = samples.frame.spread();
     result.p5 = percentile(frames, 5), result.p95 = percentile(frames, 95), result.p99 = percentile(frames, 99);
     result.low_fps = one_percent_low(frames);
+    result.arithmetic = samples.arithmetic.spread();
+    result.listed = samples.listed / samples.blocks, result.kept = samples.kept / samples.blocks;
     for (size_t i = 0; i < result.host.size(); ++i) result.host[i] = samples.host[i].spread();
     for (const PassSamples& pass : samples.passes)
         result.passes.push_back(
@@ -139,6 +152,7 @@ RunResult measure(const RunPlan& plan, const scene::Scene& scene, const std::fun
     for (uint32_t lap = 0; lap < settings.laps; ++lap) {
         drive.renderer().reset_adaptation();
         if (lap) samples.next_lap();
+        samples.arithmetic.add(arithmetic_ms());
         for (uint32_t i = 0; i < settings.frames; ++i) {
             drive.frame(double(i) / settings.frames, i ? step : 0, &samples);
             frame_done();

@@ -48,10 +48,12 @@ struct Start {
 
 struct RunResult {
     RunSettings settings;
-    double fps = 0;                              ///< frames by the time they took together
-    Spread frame;                                ///< on the host's clock, ms
-    double p5 = 0, p95 = 0, p99 = 0;             ///< of frame times, ms
-    double low_fps = 0;                          ///< of the slowest hundredth
+    double fps = 0;                   ///< frames by the time they took together
+    Spread frame;                     ///< on the host's clock, ms
+    double p5 = 0, p95 = 0, p99 = 0;  ///< of frame times, ms
+    double low_fps = 0;               ///< of the slowest hundredth
+    Spread arithmetic;  ///< of arithmetic_ms() before each lap, ms: how fast the host was then; 0: not measured
+    double listed = 0, kept = 0;  ///< lamps of a block of pixels, on average: looked at, and seen; 0 without shadows
     std::array<Spread, kHostParts.size()> host;  ///< ms
     std::vector<PassResult> passes;              ///< in the order they run; empty where the device has no timestamps
     double host_bytes = 0, device_bytes = 0;     ///< peaks: resident memory of the process, allocations on the device

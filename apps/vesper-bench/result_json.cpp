@@ -54,6 +54,8 @@ Json of(const BenchResult& result, const RunResult& run) {
             {"frame_ms", of(run.frame)},
             {"frame_ms_percentiles", {{"p5", run.p5}, {"p95", run.p95}, {"p99", run.p99}}},
             {"one_percent_low_fps", run.low_fps},
+            {"arithmetic_ms", of(run.arithmetic)},
+            {"lamps_of_a_block", {{"listed", run.listed}, {"kept", run.kept}}},
             {"host_ms", host},
             {"passes", passes},
             {"memory_bytes", {{"host_peak", run.host_bytes}, {"device_peak", run.device_bytes}}},
@@ -100,6 +102,9 @@ RunResult read_run(const JsonValue& value) {
     run.p5 = amount(percentiles.at("p5")), run.p95 = amount(percentiles.at("p95")),
     run.p99 = amount(percentiles.at("p99"));
     run.low_fps = amount(value.at("one_percent_low_fps"));
+    if (value.find("arithmetic_ms")) run.arithmetic = read_spread(value.at("arithmetic_ms"));
+    if (const std::optional<JsonValue> lamps = value.find("lamps_of_a_block"))
+        run.listed = amount(lamps->at("listed")), run.kept = amount(lamps->at("kept"));
     for (size_t i = 0; i < kHostParts.size(); ++i) run.host[i] = read_spread(value.at("host_ms").at(kHostParts[i]));
     for (const JsonValue& pass : value.at("passes").elements())
         run.passes.push_back({words(pass.at("name")), read_spread(pass.at("ms")), amount(pass.at("bytes_read")),

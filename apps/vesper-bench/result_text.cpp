@@ -71,6 +71,13 @@ std::string text_of(const BenchResult& result, const RunResult& run) {
     text += "frame     median " + with_spread(run.frame, " ms") +
             format(" as laps differ; 5 %% %.1f, 95 %% %.1f, 99 %% %.1f ms; 1 %% low %.1f fps\n", run.p5, run.p95,
                    run.p99, run.low_fps);
+    if (run.arithmetic.median > 0)
+        text += "yardstick " + with_spread(run.arithmetic, " ms") +
+                format(" for arithmetic on all threads before each lap; a frame is %.2f of it\n",
+                       run.frame.median / run.arithmetic.median);
+    if (run.listed > 0)
+        text +=
+            format("lamps     of a block of 8x8 px: %.1f on its list, of which it sees %.1f\n", run.listed, run.kept);
     text += "host, ms ";
     for (size_t i = 0; i < kHostParts.size(); ++i)
         text += format(" %s %.2f", kHostParts[i], run.host[i].median) + (i + 1 < kHostParts.size() ? "," : "\n");
@@ -101,6 +108,10 @@ std::string markdown_of(const BenchResult& result) {
     for (const RunResult& run : result.runs) {
         text += "\n## " + run.settings.title() + run.settings.details() + "\n\n| | measured |\n| --- | ---: |\n";
         text += "| whole frame, median (medians of the laps) | " + with_spread(run.frame, " ms") + " |\n";
+        if (run.arithmetic.median > 0)
+            text += "| arithmetic on all threads, before each lap | " + with_spread(run.arithmetic, " ms") + " |\n";
+        if (run.listed > 0)
+            text += format("| lamps on the list of a block, seen by it | %.1f, %.1f |\n", run.listed, run.kept);
         text += format("| 5, 95 and 99 %% of the frames | %.1f, %.1f, %.1f ms |\n", run.p5, run.p95, run.p99);
         text += format("| frames per second (slowest 1 %%) | %.1f (%.1f) |\n", run.fps, run.low_fps);
         text += format("| recording and submission on the host | %.2f ms, %.2f ms |\n", run.host[3].median,

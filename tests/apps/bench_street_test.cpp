@@ -137,6 +137,7 @@ TEST(BenchMachine, CopiesInOrder) {
     PassRig rig;
     EXPECT_GT(bench::device_copy_bandwidth(rig.device(), 1 << 16), 0);
     EXPECT_GT(bench::host_copy_bandwidth(1 << 16), 0);
+    EXPECT_GT(bench::arithmetic_ms(1 << 12), 0);
     EXPECT_EQ(rig.complaints(), "") << "validation";
 }
 

@@ -43,6 +43,7 @@ bench::RunResult made_up_run(uint32_t lamps, double scale) {
     run.fps = 100 / scale;
     run.frame = {10 * scale, 9 * scale, 12 * scale};
     run.p5 = 8 * scale, run.p95 = 13 * scale, run.p99 = 14 * scale, run.low_fps = 70 / scale;
+    run.arithmetic = {5, 4, 6}, run.listed = 20, run.kept = 10;
     for (size_t i = 0; i < run.host.size(); ++i)
         run.host[i] = {double(i) * scale, double(i) * scale, double(i) * scale};
     run.passes = {{"shade", {4 * scale, 3 * scale, 5 * scale}, 3e6, 1e6}, {"composite", {1, 1, 1}, 2e6, 2e6}};
@@ -88,6 +89,7 @@ TEST_F(BenchProgram, ComparesTwoFiles) {
     EXPECT_NE(line("frame, ms").find(" 10.00      5.00   0.500  (0.375 to 0.667)"), std::string::npos) << printed;
     EXPECT_NE(line("pass: shade, ms").find(" 0.500  (0.300 to 0.833)"), std::string::npos) << printed;
     EXPECT_NE(line("pass: composite, ms").find(" 1.000  (1.000 to 1.000)"), std::string::npos) << printed;
+    EXPECT_NE(line("frame over that").find(" 2.00      1.00   0.500"), std::string::npos) << printed;
     EXPECT_NE(line("host: update, ms").find(" -"), std::string::npos) << "nothing to relate to";
     EXPECT_NE(line("start, warm, s").find(" 2.00      1.00   0.500"), std::string::npos) << printed;
 }
@@ -231,6 +233,9 @@ TEST_F(BenchProgram, DrivesASmallStreet) {
     EXPECT_EQ(r.settings.glare, "ldr");
     EXPECT_EQ(r.settings.channels, 2u);
     EXPECT_GT(result.copy_bandwidth, 0);
+    EXPECT_GT(r.arithmetic.low, 0);
+    EXPECT_GT(r.listed, 0);
+    EXPECT_LE(r.kept, r.listed);
     EXPECT_FALSE(result.device.empty() || result.driver.empty() || result.host.empty() || result.version.empty());
     EXPECT_LE(r.p5, r.frame.median);
     EXPECT_LE(r.frame.median, r.p95);

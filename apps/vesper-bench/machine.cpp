@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <thread>
 #include <vector>
 
@@ -91,23 +92,23 @@ double copy_bandwidth(const gpu::Device& device) {
 
 double arithmetic_ms(uint64_t operations) {
     constexpr size_t kChains = 32;  // that do not wait for one another
-    const size_t threads = std::max(1u, std::thread::hardware_concurrency());
-    std::vector<float> results(threads);
-    const Stopwatch watch;
-    std::vector<std::thread> working;
-    for (float& result : results)
-        working.emplace_back([&result, operations] {
-            float values[kChains];
-            for (size_t k = 0; k < kChains; ++k) values[k] = float(k);
-            for (uint64_t i = 0; i < operations / kChains; ++i)
-                for (float& value : values) value = value * 0.999f + 0.001f;  // towards 1
-            for (const float value : values) result += value;
-        });
-    for (std::thread& thread : working) thread.join();
-    const double time = watch.milliseconds();
-    for (const float result : results)
-        if (!(result >= 0)) return 0;  // never: so that they are computed
-    return time;
+    std::vector<float> results(std::max(1u, std::thread::hardware_concurrency()));
+    double best = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < kTries; ++i) {
+        const Stopwatch watch;
+        std::vector<std::thread> working;
+        for (float& result : results)
+            working.emplace_back([&result, operations] {
+                float values[kChains];
+                for (size_t k = 0; k < kChains; ++k) values[k] = float(k);
+                for (uint64_t n = 0; n < operations / kChains; ++n)
+                    for (float& value : values) value = value * 0.999f + 0.001f;  // towards 1
+                for (const float value : values) result += value;
+            });
+        for (std::thread& thread : working) thread.join();
+        best = std::min(best, watch.milliseconds());
+    }
+    return std::ranges::all_of(results, [](float result) { return result > 0; }) ? best : 0;  // they are used
 }
 
 uint64_t peak_host_bytes() {

@@ -21,8 +21,8 @@ double host_copy_bandwidth(uint64_t bytes = kCopiedBytes);
 double copy_bandwidth(const gpu::Device& device);
 
 /// Time that all threads of the host take for the same amount of arithmetic, each kArithmetic multiplications and as
-/// many additions of floats, ms: how fast the processor is at this hour.
-constexpr uint64_t kArithmetic = 1ull << 28;
+/// many additions of floats, ms, the least of several times: how fast the processor is at this hour.
+constexpr uint64_t kArithmetic = 1ull << 26;
 double arithmetic_ms(uint64_t operations = kArithmetic);
 
 /// Most memory of this process that was resident at once, bytes, since it was last forgotten (where the system can

@@ -5,7 +5,7 @@
 
 namespace vesper::gpu_scene {
 
-std::vector<HalfSpace> light_paths(const View& view, glm::dvec3 lamp) {
+std::vector<HalfSpace> light_paths(const View& view, glm::dvec3 lamp, double reach) {
     constexpr double kLeast = 1e-9;  // m: a lamp nearer to an edge of what is seen gives no plane with it
     const glm::dmat3 to_world = glm::transpose(glm::dmat3(view.world_to_view));
     const glm::dvec3 eye = eye_of(view), to_lamp = lamp - eye;
@@ -34,6 +34,9 @@ std::vector<HalfSpace> light_paths(const View& view, glm::dvec3 lamp) {
         inward = glm::normalize(inward) * (glm::dot(inward, edges[(k + 2) % 4]) < 0 ? -1.0 : 1.0);
         spaces.push_back({inward, glm::dot(inward, eye)});
     }
+    // lamp + reach (p - lamp) is off a plane by as much less as the lamp is before it.
+    for (HalfSpace& space : spaces)
+        space.offset -= (reach - 1) * std::max(glm::dot(space.inward, lamp) - space.offset, 0.0);
     return spaces;
 }
 

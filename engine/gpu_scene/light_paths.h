@@ -15,8 +15,9 @@ struct HalfSpace {
     double offset = 0;     ///< m
 };
 
-/// Half spaces that hold a lamp's place and all that a view may see, and so every straight way between them. World, m.
-std::vector<HalfSpace> light_paths(const View& view, glm::dvec3 lamp);
+/// Half spaces that hold a lamp's place and all that a view may see, and so every straight way between them; and the
+/// ways beyond what is seen, up to `reach` (at least 1) times as far from the lamp. World, m.
+std::vector<HalfSpace> light_paths(const View& view, glm::dvec3 lamp, double reach = 1);
 
 /// Whether some of a sphere lies in all of the half spaces. May be true where none does.
 bool may_lie_in(const std::vector<HalfSpace>& spaces, const WorldSphere& sphere);

@@ -20,9 +20,10 @@ uint64_t cost_of(const gpu_scene::MapLayout& layout) {
     return std::max<uint64_t>(layout.texels() / MapPlaces::kTileTexels, kLeast);
 }
 
-constexpr double kFaintestMoving = 0.1;    // lx: what a lamp lights less while it moves it may light through something
-constexpr double kPenumbra = 3;            // of its radius, at most (visibility.comp)
-constexpr double kTexelsAside = 4;         // of a look at a map, at most, with the next texels
+constexpr double kFaintestMoving = 0.1;  // lx: what a lamp lights less while it moves it may light through something
+// visibility.comp: a look is aside by at most so many radii of the lamp, across the way of its light and then along a
+// plane on which it is ten times as long; and by so many texels, where the plane of a surface may be twice as far.
+constexpr double kAside = 3 * 11, kTexelsAside = 4, kPlaneReach = 2;
 constexpr double kLeastShare = 1.0 / 100;  // of the light at a placement: a lamp that gives less is not hidden by it
 
 }  // namespace
@@ -64,8 +65,9 @@ bool DistanceMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneF
     uint64_t for_tiles = budget - budget / 4;
     budget -= for_tiles;
     plan_tiles(covers(list, poses, view), list, for_tiles);
-    plan_moved_maps(list, budget + for_tiles);
-    find_what_matters(list, most_texels == kNoShadowBudget);
+    const bool budgeted = most_texels != kNoShadowBudget;
+    plan_moved_maps(list, budget + for_tiles, budgeted);
+    find_what_matters(list, !budgeted);
     report_.maps = uint32_t(maps_to_draw_.size());
     report_.tiles = uint32_t(tiles_to_draw_.size());
     report_.bytes = arena_.bytes() + executor_.heap_bytes();
@@ -117,29 +119,33 @@ void DistanceMaps::plan_new_maps(const gpu_scene::LampList& list, uint64_t& budg
 // looked at from elsewhere.
 void DistanceMaps::find_what_matters(const gpu_scene::LampList& list, bool current) {
     matters_.assign(lamps_.size(), {});
+    drawn_for_view_ = current && one_view_;
     const glm::dmat3 to_view(view_.world_to_view);
     for (uint32_t i = 0; i < list.placed(); ++i) {
         const uint32_t lamp = list.indices[i];
         if (!is_whole(lamp) || std::ranges::find(maps_to_draw_, lamp) == maps_to_draw_.end()) continue;
         const gpu_scene::MapLayout& layout = places_[lamp];
         const glm::dvec3 position = glm::transpose(to_view) * glm::dvec3(list.lamps[i].position) + eye_of(view_);
-        for_view_[lamp] = current && one_view_;
         std::vector<gpu_scene::HalfSpace> paths;
-        if (for_view_[lamp]) paths = gpu_scene::light_paths(view_, position);
-        const double beside = kPenumbra * double(layout.radius);
-        const double aside = kTexelsAside * 2 / (double(layout.side) * double(layout.zoom));
+        if (drawn_for_view_) paths = gpu_scene::light_paths(view_, position, kPlaneReach);
+        const double beside = kAside * double(layout.radius);
+        const double texels = kTexelsAside * 2 / (double(layout.side) * double(layout.zoom));
+        // Of the lamp as it shines undimmed, so that its map serves when it is dimmed otherwise.
+        const double undimmed = gpu_scene::kFaintestLight * double(layout.range) * double(layout.range);
+        const double share = undimmed / double(list.lamps[i].intensity);
         const double least = moving_.moves(lamps_[lamp].node) ? kFaintestMoving : 0;
         matters_[lamp] = [=, &list](const gpu_scene::WorldSphere& sphere) {
             const glm::dvec3 to = sphere.centre - position;
             const double away = glm::length(to), nearest = std::max(away - sphere.radius, 0.0);
-            return may_lie_in(paths, {sphere.centre, sphere.radius + beside + aside * away}) &&
-                   intensity_towards(list, i, to_view * to, sphere.radius) >= least * nearest * nearest;
+            const double radius = sphere.radius + beside + texels * away;
+            return may_lie_in(paths, {sphere.centre, radius}) &&
+                   share * intensity_towards(list, i, to_view * to, radius) >= least * nearest * nearest;
         };
     }
 }
 
 // Of maps of lamps that move, those first whose light is nearest to the eye.
-void DistanceMaps::plan_moved_maps(const gpu_scene::LampList& list, uint64_t budget) {
+void DistanceMaps::plan_moved_maps(const gpu_scene::LampList& list, uint64_t budget, bool budgeted) {
     std::vector<std::pair<double, uint32_t>> moved;
     for (uint32_t i = 0; i < list.placed(); ++i) {
         const uint32_t lamp = list.indices[i];
@@ -155,7 +161,8 @@ void DistanceMaps::plan_moved_maps(const gpu_scene::LampList& list, uint64_t bud
     bool any = false;  // one is drawn in any case, so that none waits for ever
     for (const auto& [worth, lamp] : moved) {
         const uint64_t cost = cost_of(places_[lamp]);
-        if (cost > budget && (any || budget == 0)) {
+        const bool elsewhere = for_view_[lamp] && budgeted;  // what hides it from this view may not be there at all
+        if (cost > budget && (any || budget == 0) && !elsewhere) {
             ++report_.carried;
             ++waiting_maps_[lamp];
             continue;
@@ -310,7 +317,10 @@ void DistanceMaps::draw_maps(const gpu_scene::SceneFrame& poses) {
     draw(maps, poses);
     if (kept) report_.note = kept->keep();
     report_.kept = uint32_t(std::ranges::count(maps, true, &MapToDraw::there)), report_.maps -= report_.kept;
-    for (const uint32_t lamp : maps_to_draw_) drawn_[lamp] = true, drawn_version_[lamp] = moving_.version();
+    for (const uint32_t lamp : maps_to_draw_) {
+        drawn_[lamp] = true, drawn_version_[lamp] = moving_.version();
+        for_view_[lamp] = drawn_for_view_ && is_whole(lamp);
+    }
     maps_to_draw_.clear();
 }
 

@@ -36,7 +36,9 @@ struct MapReport {
 /// Owns the maps on the device. A map holds what stands still around its lamp, drawn when its lamp moves or the view
 /// wants another size; and over it, tile by tile, what moves: a placement whose node is animated, said to move by a
 /// frame, or was seen to have moved. A placement does not hide lamps that give less than 1/100 of the light at it while
-/// it moves. Sizes depend on the view, contents on the scene alone. Not thread-safe.
+/// it moves. The map of a lamp that moves has half the side, and holds what hides the lamp from the view and would get
+/// 0.1 lx of it undimmed. Sizes depend on the view; what a view sees of the maps depends on the scene, and on what has
+/// moved once. Not thread-safe.
 class DistanceMaps {
 public:
     DistanceMaps(gpu::Device& device, const gpu_scene::GpuScene& resident,
@@ -92,7 +94,7 @@ private:
     }
     void drop_tiles(uint32_t lamp);
     void plan_new_maps(const gpu_scene::LampList& list, uint64_t& budget);
-    void plan_moved_maps(const gpu_scene::LampList& list, uint64_t budget);
+    void plan_moved_maps(const gpu_scene::LampList& list, uint64_t budget, bool budgeted);
     std::map<TileKey, Cover> covers(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses,
                                     const gpu_scene::View& view) const;
     void plan_tiles(std::map<TileKey, Cover> wanted, const gpu_scene::LampList& list, uint64_t& budget);
@@ -109,6 +111,7 @@ private:
     std::vector<uint64_t> drawn_version_;  // of what moves, in maps of lamps that move
     std::vector<bool> for_view_;           // of lamps: the map holds what hides it from the view alone
     gpu_scene::View view_;                 // of the last plan()
+    bool drawn_for_view_ = false;          // what is to be drawn
     bool one_view_ = false;                // what is drawn is for this one alone
     bool more_views_ = true;               // of the same moment
     std::vector<std::function<bool(const gpu_scene::WorldSphere&)>> matters_;  // of lamps, see MapToDraw

@@ -1,6 +1,8 @@
 #include "render/map_triangles.h"
 
 #include <algorithm>
+#include <bit>
+#include <utility>
 
 #include "shaders/distance_map/cull_triangles.comp.inc"
 #include "shaders/distance_map/map_triangles.frag.inc"
@@ -32,6 +34,7 @@ bool has_map_triangles(const gpu::Device& device, const gpu_scene::GpuScene& sce
 
 // What one dispatch culls.
 struct MapTriangles::Chunk {
+    std::vector<shared::MapRows> rows;
     std::vector<shared::MapQuadrant> quadrants;
     std::vector<shared::TriangleRun> runs;
     uint32_t triangles = 0;
@@ -58,19 +61,21 @@ void MapTriangles::add(const gpu_scene::GpuScene::Part& part, uint32_t rows, uin
 
 void MapTriangles::draw(const FrameContext& frame, const gpu_scene::GpuScene& scene, const Image& image) const {
     if (rows_.empty()) return;
-    const graph::Resource rows = frame.graph.upload("map rows" + image.name, rows_);
     Chunk chunk;
     uint32_t number = 0;
     const auto draw_chunk = [&] {
-        draw(chunk, frame, scene, rows, {image.name + "." + std::to_string(number++), image.depth, image.small});
+        draw(chunk, frame, scene, {image.name + "." + std::to_string(number++), image.depth, image.small});
         chunk = {};
     };
     for (const QuadrantRuns& of : quadrants_) {
         bool begun = false;
+        uint32_t last_rows = 0;
         for (shared::TriangleRun run : of.runs) {
             if (!chunk.has_room(run.triangles)) draw_chunk(), begun = false;
             if (!begun) chunk.quadrants.push_back(of.quadrant), chunk.quadrants.back().first = chunk.triangles;
+            if (!begun || run.rows != last_rows) chunk.rows.push_back(rows_[run.rows]);
             begun = true;
+            last_rows = std::exchange(run.rows, uint32_t(chunk.rows.size()) - 1);
             run.quadrant = uint32_t(chunk.quadrants.size()) - 1;
             chunk.triangles += run.triangles;
             chunk.runs.push_back(run);
@@ -80,25 +85,28 @@ void MapTriangles::draw(const FrameContext& frame, const gpu_scene::GpuScene& sc
 }
 
 void MapTriangles::draw(const Chunk& chunk, const FrameContext& frame, const gpu_scene::GpuScene& scene,
-                        graph::Resource rows, const Image& image) const {
+                        const Image& image) const {
     graph::FrameGraph& graph = frame.graph;
     const std::string& name = image.name;
     const graph::Resource vertices = graph.external(
         "vertices" + name, scene.vertices(), scene.vertex_count() * sizeof(scene::Vertex), VK_FORMAT_R32G32_SFLOAT);
     const graph::Resource indices =
         graph.external("indices" + name, scene.indices(), scene.index_count() * sizeof(uint32_t), VK_FORMAT_R32_UINT);
-    std::vector<VkDrawIndirectCommand> none;
-    for (const shared::MapQuadrant& quadrant : chunk.quadrants) none.push_back({0, 1, 3 * quadrant.first, 0});
+    std::vector<VkDrawIndirectCommand> none(std::bit_ceil(chunk.quadrants.size()));
+    for (size_t i = 0; i < chunk.quadrants.size(); ++i) none[i] = {0, 1, 3 * chunk.quadrants[i].first, 0};
     const graph::Resource nothing = graph.upload("no triangles" + name, none);
     const graph::Resource draws =
         graph.transient("map draws" + name, graph::buffer_shape(none.size() * sizeof(VkDrawIndirectCommand)));
     graph.copy("no triangles" + name, nothing, draws);
+    // Of few sizes, so that memory is not made anew for each frame.
+    const uint64_t room = std::bit_ceil(std::max(chunk.triangles, 1u << 12u));
     const graph::Resource kept =
-        graph.transient("map triangles" + name, graph::buffer_shape(chunk.triangles * 3 * sizeof(glm::vec3)));
+        graph.transient("map triangles" + name, graph::buffer_shape(room * 3 * sizeof(glm::vec3)));
     graph.dispatch(
         "cull triangles" + name, frame.kernels.get(kCull, {frame.lockstep() ? 8u : 64u}),
-        {sample(vertices), sample(indices), load(rows), load(graph.upload("map runs" + name, chunk.runs)),
-         load(graph.upload("map quadrants" + name, chunk.quadrants)), update(draws), store(kept), update(image.small)},
+        {sample(vertices), sample(indices), load(graph.upload("map rows" + name, chunk.rows)),
+         load(graph.upload("map runs" + name, chunk.runs)), load(graph.upload("map quadrants" + name, chunk.quadrants)),
+         update(draws), store(kept), update(image.small)},
         shared::CullTrianglesPush{sizeof(scene::Vertex) / sizeof(glm::vec2)},
         graph::Groups{uint32_t(chunk.runs.size()), 1, 1});
     graph.raster(

@@ -20,7 +20,7 @@ public:
     /// Begins a quadrant, of which runs follow.
     void add_quadrant(const shared::MapQuadrant& quadrant);
     uint32_t quadrants() const { return uint32_t(quadrants_.size()); }
-    /// The number of the rows of a matrix, for add().
+    /// The number of the rows of a matrix from a mesh to the frame of a map, m, for add().
     uint32_t add_rows(const glm::mat4& rows);
     /// All triangles of a part.
     void add(const gpu_scene::GpuScene::Part& part, uint32_t rows, uint32_t quadrant);
@@ -39,7 +39,7 @@ private:
         shared::MapQuadrant quadrant;
         std::vector<shared::TriangleRun> runs;
     };
-    void draw(const Chunk& chunk, const FrameContext& frame, const gpu_scene::GpuScene& scene, graph::Resource rows,
+    void draw(const Chunk& chunk, const FrameContext& frame, const gpu_scene::GpuScene& scene,
               const Image& image) const;
 
     std::vector<QuadrantRuns> quadrants_;

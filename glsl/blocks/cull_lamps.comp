@@ -21,7 +21,7 @@ layout(binding = 1) uniform samplerBuffer lamps;
 layout(binding = 2) uniform usamplerBuffer counts;
 layout(binding = 3) uniform usamplerBuffer indices;
 layout(binding = 4, scalar) writeonly buffer BlockCounts { uint block_counts[]; };
-layout(binding = 5, scalar) writeonly buffer Entries { uint entries[]; };
+layout(binding = 5, r32ui) writeonly uniform uimageBuffer entries;
 layout(binding = 6) uniform samplerBuffer tables;
 layout(binding = 7) uniform usamplerBuffer block_slices;
 layout(push_constant, scalar) uniform Push { CullPush push; };
@@ -135,7 +135,7 @@ void main() {
             const bool cone = lamp < push.view.lamps.cones;
             if (!lights_block(lamp)) continue;
             const uint at = cone ? cones : push.capacity - 1u - others;
-            if (cones + others < push.capacity) entries[base + at] = entry_of(lamp, first, last);
+            if (cones + others < push.capacity) imageStore(entries, int(base + at), uvec4(entry_of(lamp, first, last)));
             others += cone ? 0u : 1u;
             cones += cone ? 1u : 0u;
         }

@@ -23,7 +23,7 @@ layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 2) uniform samplerBuffer lamps;
 layout(binding = 3, scalar) buffer BlockCounts { uint block_counts[]; };
-layout(binding = 4, scalar) buffer Entries { uint entries[]; };
+layout(binding = 4, r32ui) uniform uimageBuffer entries;
 layout(binding = 5, scalar) writeonly buffer Sums { vec4 sums[]; };
 layout(binding = 6) uniform samplerBuffer tables;
 layout(binding = 7, scalar) buffer ClassCounts { uint class_counts[]; };
@@ -170,16 +170,16 @@ bool merge_block(uint block) {
     int kept_cones = 0, kept_others = 0;
     if (kCones != 0u)
         for (int i = 0; i < int(cones); ++i) {
-            const uint entry = entries[first + i];
+            const uint entry = imageLoad(entries, first + i).r;
             if (covers(entry) && (entry & kMixedBit) == 0u && !remains(fetch(lamp_of(entry), true, tables_from), share_of(entry), true)) continue;
-            entries[first + kept_cones] = entry;
+            imageStore(entries, first + kept_cones, uvec4(entry));
             ++kept_cones;
         }
     if (kPowers != 0u || kTables != 0u)
         for (int i = 0; i < int(others); ++i) {
-            const uint entry = entries[last - i];
+            const uint entry = imageLoad(entries, last - i).r;
             if (covers(entry) && (entry & kMixedBit) == 0u && !remains(fetch(lamp_of(entry), false, tables_from), share_of(entry), false)) continue;
-            entries[last - kept_others] = entry;
+            imageStore(entries, last - kept_others, uvec4(entry));
             ++kept_others;
         }
     block_counts[counts] = uint(kept_cones);

@@ -55,7 +55,8 @@ void draw_small(InImage image, InQuadrant at[3], uint side) {
     }
     const vec3 inverse = kMapNear / vec3(at[0].position.w, at[1].position.w, at[2].position.w);
     const float least = min(inverse.x, min(inverse.y, inverse.z)), most = max(inverse.x, max(inverse.y, inverse.z));
-    const float per_area = abs(area) > 1e-6 ? 1.0 / area : 0.0;
+    if (abs(area) <= 1e-6) return;  // seen from its edge
+    const float per_area = 1.0 / area;
     const vec2 rise = inverse.yz - inverse.x;
     const vec2 slope = per_area * vec2(rise.x * b.y - rise.y * a.y, rise.y * a.x - rise.x * b.x);
     const uint width = uint(image.last.x - image.first.x) + 1u, count = width * (uint(image.last.y - image.first.y) + 1u);

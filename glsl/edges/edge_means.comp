@@ -22,7 +22,7 @@ layout(binding = 4) uniform usamplerBuffer edges;
 layout(binding = 5) uniform samplerBuffer instances;
 layout(binding = 6) uniform samplerBuffer vertices;
 layout(binding = 7) uniform usamplerBuffer facets;
-layout(binding = 8, scalar) writeonly buffer Means { vec4 means[]; };
+layout(binding = 8, rgba32f) writeonly uniform imageBuffer means;
 layout(push_constant, scalar) uniform Push { EdgesPush push; };
 
 #include "edges.glsl"
@@ -82,5 +82,5 @@ void main() {
         [[unroll]] for (uint i = 0u; i < kEdgeSamples; ++i) share += which[i] == k ? 1.0 / float(kEdgeSamples) : 0.0;
         if (share > 0.0) sum += share * imageLoad(scene_image, pixel + neighbour(k)).rgb;
     }
-    means[number] = vec4(sum, 1.0);
+    imageStore(means, int(number), vec4(sum, 1.0));
 }

@@ -22,11 +22,11 @@ layout(constant_id = 2) const uint kLockstep = 0u;  // see lanes.glsl
 layout(binding = 0, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 1) uniform samplerBuffer lamps;
 layout(binding = 2, scalar) buffer BlockCounts { uint block_counts[]; };
-layout(binding = 3, scalar) buffer Entries { uint entries[]; };
+layout(binding = 3, r32ui) uniform uimageBuffer entries;
 layout(binding = 4) uniform samplerBuffer maps;
 layout(binding = 5) uniform samplerBuffer distances;
 layout(binding = 6) uniform samplerBuffer tables;
-layout(binding = 7, scalar) writeonly buffer Shares { uint shares[]; };
+layout(binding = 7, r32ui) writeonly uniform uimageBuffer shares;
 layout(binding = 8, scalar) buffer Report { uint report[]; };
 layout(push_constant, scalar) uniform Push { VisibilityPush push; };
 
@@ -233,7 +233,7 @@ uvec4 see(uint x, uint y) {
 
     float light = 0.0;  // the mean of the block is the sum of all invocations, lx
     for (uint i = lane; i < all_; i += kBlockSize) {
-        const uint entry = entries[i < cones ? first + int(i) : last - int(i - cones)];
+        const uint entry = imageLoad(entries, i < cones ? first + int(i) : last - int(i - cones)).r;
         listed[i] = entry;
         light += probe(i, lamp_of(entry), i < cones);
     }
@@ -281,7 +281,7 @@ uvec4 see(uint x, uint y) {
             const float stops = lanes_max(mine ? way[i] : 0.0);
             const uint sees_it = look(lamp, stops, word);
             if (sees_it == kMixed)
-                shares[(block * kSharePlaces + mixed) * kBlockSize + lane] = word;
+                imageStore(shares, int((block * kSharePlaces + mixed) * kBlockSize + lane), uvec4(word));
             visible = mine ? sees_it : visible;
             mark = mine && sees_it == kMixed ? kMixedBit | mixed << kShareShift : mark;
             mixed += sees_it == kMixed ? 1u : 0u;
@@ -290,7 +290,7 @@ uvec4 see(uint x, uint y) {
         mark = visible < kShares ? visible << kShareShift : mark;
         const bool stays = visible != kDark;
         const uint one = stays ? (cone ? 1u : 1u << 16u) : 0u, before = kept + lanes_add_before(one);
-        if (stays) entries[cone ? first + int(before & 0xffffu) : last - int(before >> 16u)] = entry | mark;
+        if (stays) imageStore(entries, cone ? first + int(before & 0xffffu) : last - int(before >> 16u), uvec4(entry | mark));
         kept += lanes_add(one);
         lit += visible == kLit ? 1u : 0u;
         dark += there && visible == kDark ? 1u : 0u;

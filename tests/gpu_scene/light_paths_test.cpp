@@ -60,6 +60,8 @@ TEST(LightPaths, HoldAllWaysFromLamps) {
             const glm::dvec3 seen(to_world * glm::dvec4(away * glm::dvec3(tangent, -1), 1));
             const glm::dvec3 between = glm::mix(lamp, seen, 0.5 + 0.5 * unit(random));
             ASSERT_TRUE(may_lie_in(paths, {between, 1e-4})) << i << ", " << k;
+            const glm::dvec3 beyond = glm::mix(lamp, seen, 1.5 + 0.5 * unit(random));
+            ASSERT_TRUE(may_lie_in(light_paths(view, lamp, 2), {beyond, 1e-4})) << i << ", " << k;
             ++all, beside += may_lie_in(paths, {somewhere(40), 1e-4}) ? 0 : 1;
         }
     }

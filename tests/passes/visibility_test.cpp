@@ -322,6 +322,22 @@ TEST(Visibility, ALampThatMovesIsHiddenFromEachView) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+// What hides a lamp that is dimmed hides it when it shines again, though nothing has moved.
+TEST(Visibility, ALampThatMovesIsHiddenHoweverItIsDimmed) {
+    PassRig rig;
+    Traffic street;
+    Lit all(rig, street.s.scene());
+    street.place(all.poses, -2);
+    all.poses.dimming.assign(all.poses.world.size(), 1);
+    for (const float dimmed : {1e-5f, 1.0f}) {
+        all.poses.dimming.back() = dimmed;
+        Lit anew(rig, street.s.scene());
+        anew.poses = all.poses;
+        EXPECT_EQ(different(all.render(Traffic::view()), anew.render(Traffic::view())), 0u) << dimmed;
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
 // What a budget does not reach stays as it was, is counted, and is drawn later.
 TEST(Visibility, WhatTheBudgetDoesNotReachIsCarriedOver) {
     PassRig rig;

@@ -29,6 +29,23 @@ std::string value_in(const char* file, const std::string& key) {
     return {};
 }
 
+size_t host_threads() { return std::max(1u, std::thread::hardware_concurrency()); }
+
+/// The least time of several that all threads of the host take for work(thread, threads), ms.
+template <class Work>
+double least_ms(const Work& work) {
+    const size_t threads = host_threads();
+    double best = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < kTries; ++i) {
+        const Stopwatch watch;
+        std::vector<std::thread> working;
+        for (size_t t = 0; t < threads; ++t) working.emplace_back([&work, t, threads] { work(t, threads); });
+        for (std::thread& thread : working) thread.join();
+        best = std::min(best, watch.milliseconds());
+    }
+    return best;
+}
+
 }  // namespace
 
 std::string processor_name() {
@@ -38,19 +55,11 @@ std::string processor_name() {
 
 double host_copy_bandwidth(uint64_t bytes) {
     std::vector<std::byte> from(bytes, std::byte{1}), to(bytes, std::byte{2});
-    const size_t threads = std::max(1u, std::thread::hardware_concurrency());
-    double best = 0;
-    for (int i = 0; i < kTries; ++i) {
-        const Stopwatch watch;
-        std::vector<std::thread> copying;
-        for (size_t t = 0; t < threads; ++t) {
-            const size_t begin = bytes * t / threads, end = bytes * (t + 1) / threads;
-            copying.emplace_back([&, begin, end] { std::memcpy(to.data() + begin, from.data() + begin, end - begin); });
-        }
-        for (std::thread& thread : copying) thread.join();
-        best = std::max(best, 2 * double(bytes) / (watch.milliseconds() * 1e-3));
-    }
-    return best;
+    const double best = least_ms([&](size_t thread, size_t threads) {
+        const size_t begin = bytes * thread / threads, end = bytes * (thread + 1) / threads;
+        std::memcpy(to.data() + begin, from.data() + begin, end - begin);
+    });
+    return 2 * double(bytes) / (best * 1e-3);
 }
 
 double device_copy_bandwidth(const gpu::Device& device, uint64_t bytes) {
@@ -92,22 +101,14 @@ double copy_bandwidth(const gpu::Device& device) {
 
 double arithmetic_ms(uint64_t operations) {
     constexpr size_t kChains = 32;  // that do not wait for one another
-    std::vector<float> results(std::max(1u, std::thread::hardware_concurrency()));
-    double best = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < kTries; ++i) {
-        const Stopwatch watch;
-        std::vector<std::thread> working;
-        for (float& result : results)
-            working.emplace_back([&result, operations] {
-                float values[kChains];
-                for (size_t k = 0; k < kChains; ++k) values[k] = float(k);
-                for (uint64_t n = 0; n < operations / kChains; ++n)
-                    for (float& value : values) value = value * 0.999f + 0.001f;  // towards 1
-                for (const float value : values) result += value;
-            });
-        for (std::thread& thread : working) thread.join();
-        best = std::min(best, watch.milliseconds());
-    }
+    std::vector<float> results(host_threads());
+    const double best = least_ms([&](size_t thread, size_t) {
+        float values[kChains];
+        for (size_t k = 0; k < kChains; ++k) values[k] = float(k);
+        for (uint64_t n = 0; n < operations / kChains; ++n)
+            for (float& value : values) value = value * 0.999f + 0.001f;  // towards 1
+        for (const float value : values) results[thread] += value;
+    });
     return std::ranges::all_of(results, [](float result) { return result > 0; }) ? best : 0;  // they are used
 }
 

@@ -94,8 +94,9 @@ public:
 private:
     void count_lamps(const gpu_scene::View& view, RunSamples& samples) const {
         const shared::VisibilityReport& pairs = last_.visibility;
-        const auto blocks = [](uint32_t pixels) { return (pixels + shared::kBlockSize - 1) / shared::kBlockSize; };
-        samples.blocks += double(blocks(view.extent.width)) * blocks(view.extent.height);
+        const graph::Groups blocks =
+            graph::cover(view.extent.width, view.extent.height, shared::kBlockSize, shared::kBlockSize);
+        samples.blocks += double(blocks.x) * blocks.y;
         const double kept = double(pairs.lit) + pairs.mixed + pairs.faint;
         samples.kept += kept, samples.listed += kept + pairs.dark;
     }

@@ -67,7 +67,7 @@ bool DistanceMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneF
     plan_tiles(covers(list, poses, view), list, for_tiles);
     const bool budgeted = most_texels != kNoShadowBudget;
     plan_moved_maps(list, budget + for_tiles, budgeted);
-    find_what_matters(list, !budgeted);
+    find_what_matters(list, poses, !budgeted);
     report_.maps = uint32_t(maps_to_draw_.size());
     report_.tiles = uint32_t(tiles_to_draw_.size());
     report_.bytes = arena_.bytes() + executor_.heap_bytes();
@@ -117,7 +117,8 @@ void DistanceMaps::plan_new_maps(const gpu_scene::LampList& list, uint64_t& budg
 
 // Of lamps whose maps are drawn as a whole, frame by frame. `current`: no map is ever out of date, and so none is
 // looked at from elsewhere.
-void DistanceMaps::find_what_matters(const gpu_scene::LampList& list, bool current) {
+void DistanceMaps::find_what_matters(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses,
+                                     bool current) {
     matters_.assign(lamps_.size(), {});
     drawn_for_view_ = current && one_view_;
     const glm::dmat3 to_view(view_.world_to_view);
@@ -125,7 +126,7 @@ void DistanceMaps::find_what_matters(const gpu_scene::LampList& list, bool curre
         const uint32_t lamp = list.indices[i];
         if (!is_whole(lamp) || std::ranges::find(maps_to_draw_, lamp) == maps_to_draw_.end()) continue;
         const gpu_scene::MapLayout& layout = places_[lamp];
-        const glm::dvec3 position = glm::transpose(to_view) * glm::dvec3(list.lamps[i].position) + eye_of(view_);
+        const glm::dvec3 position(poses.world[lamps_[lamp].node][3]);
         std::vector<gpu_scene::HalfSpace> paths;
         if (drawn_for_view_) paths = gpu_scene::light_paths(view_, position, kPlaneReach);
         const double beside = kAside * double(layout.radius);

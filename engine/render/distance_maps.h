@@ -86,7 +86,7 @@ private:
     void draw_tiles(const gpu_scene::SceneFrame& poses);
     void draw(const std::vector<MapToDraw>& maps, const gpu_scene::SceneFrame& poses);
     void look_from(const gpu_scene::View& view, const gpu_scene::SceneFrame& poses);
-    void find_what_matters(const gpu_scene::LampList& list, bool current);
+    void find_what_matters(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses, bool current);
     void forget_still(const std::vector<uint32_t>& placements);
     bool is_whole(uint32_t lamp) const { return whole_[lamp] || moving_.moves(lamps_[lamp].node); }
     bool is_out_of_date(uint32_t lamp) const {

@@ -7,6 +7,7 @@
 #include "shaders/distance_map/cull_triangles.comp.inc"
 #include "shaders/distance_map/map_triangles.frag.inc"
 #include "shaders/distance_map/map_triangles.vert.inc"
+#include "shared/edges.h"
 
 namespace vesper::render {
 namespace {
@@ -28,7 +29,7 @@ constexpr uint32_t kMostTriangles = 1u << 19u;
 }  // namespace
 
 bool has_map_triangles(const gpu::Device& device, const gpu_scene::GpuScene& scene) {
-    return std::max(scene.vertex_count() * (sizeof(scene::Vertex) / sizeof(glm::vec2)), scene.index_count()) <=
+    return std::max(scene.vertex_count() * shared::kTexelsPerVertex, scene.index_count()) <=
            device.limits().maxTexelBufferElements;
 }
 
@@ -107,7 +108,6 @@ void MapTriangles::draw(const Chunk& chunk, const FrameContext& frame, const gpu
         {sample(vertices), sample(indices), load(graph.upload("map rows" + name, chunk.rows)),
          load(graph.upload("map runs" + name, chunk.runs)), load(graph.upload("map quadrants" + name, chunk.quadrants)),
          update(draws), store(kept), update(image.small)},
-        shared::CullTrianglesPush{sizeof(scene::Vertex) / sizeof(glm::vec2)},
         graph::Groups{uint32_t(chunk.runs.size()), 1, 1});
     graph.raster(
         "map triangles" + name,

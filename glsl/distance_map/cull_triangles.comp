@@ -8,6 +8,7 @@
 // a few texels or less, for which that takes much longer.
 
 #include "shared/distance_map.h"
+#include "shared/edges.h"
 
 layout(local_size_x_id = 0) in;
 
@@ -19,7 +20,6 @@ layout(binding = 4, scalar) readonly buffer Quadrants { MapQuadrant quadrants[];
 layout(binding = 5, scalar) buffer Draws { uvec4 draws[]; };              // VkDrawIndirectCommand, one for each quadrant
 layout(binding = 6, scalar) writeonly buffer Triangles { float kept[]; };  // corners in the frame of the map, m
 layout(binding = 7, scalar) buffer Small { uint small[]; };                // kMapNear / distance, bits of a float, of the image
-layout(push_constant, scalar) uniform Push { CullTrianglesPush push; };
 
 #include "quadrant.glsl"
 
@@ -95,7 +95,7 @@ void main() {
         vec3 q[3];
         InQuadrant at[3];
         [[unroll]] for (uint k = 0u; k < 3u; ++k) {
-            const int first = int((run.first_vertex + texelFetch(indices, int(run.first_index + 3u * triangle + k)).r) * push.vertex_texels);
+            const int first = int((run.first_vertex + texelFetch(indices, int(run.first_index + 3u * triangle + k)).r) * kTexelsPerVertex);
             const vec4 p = vec4(texelFetch(vertices, first).xy, texelFetch(vertices, first + 1).x, 1.0);
             q[k] = vec3(dot(to_map.x, p), dot(to_map.y, p), dot(to_map.z, p) * quadrant.mirror);
             at[k] = to_quadrant(q[k], quadrant.place, quadrant.window, quadrant.y_sign);

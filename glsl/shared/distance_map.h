@@ -66,9 +66,8 @@ struct MapQuadrant {
     float side;        // of the image, texels
     vec2 corner;       // of the hemisphere or tile in the image, texels
     float width;       // its own side, texels
-    float unused;
 };
-SHARED_SIZE(MapQuadrant, 64)
+SHARED_SIZE(MapQuadrant, 60)
 
 // Triangles of one part, for one quadrant; at most kTrianglesOfRun.
 struct TriangleRun {
@@ -87,11 +86,6 @@ struct MapRows {
     vec4 x, y, z;
 };
 SHARED_SIZE(MapRows, 48)
-
-struct CullTrianglesPush {
-    uint vertex_texels;  // rg32f, of a vertex, which begins with its position
-};
-SHARED_SIZE(CullTrianglesPush, 4)
 
 SHARED_END
 #endif

@@ -199,8 +199,7 @@ private:
                                                .mirror = square.second ? -1.0f : 1.0f,
                                                .side = image,
                                                .corner = glm::vec2(square.place),
-                                               .width = float(square.side),
-                                               .unused = 0};
+                                               .width = float(square.side)};
             quadrants.push_back({window, signs, drawn.opaque.quadrants(), quadrant});
             drawn.opaque.add_quadrant(quadrant);
         }

@@ -190,17 +190,27 @@ uint look(uint index, float stops, out uint word) {
     } else {
         // Each pixel looks at every second point of the disc; in wide penumbrae each of 2 x 2 at another quarter of them.
         const uint step = by_fours ? 4u : 2u, looks = kDisc / step;
+        // Rows side by side, so that points of the disc are computed for all of them at once.
+        MapPoint points[kBlockSize];
+        mat2 steps[kBlockSize];
         uint counts[kBlockSize];
+        [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
+            const vec3 from = position[r] - lamp;
+            points[r] = map_point(map, from, normal[r]);
+            steps[r] = width * texels_across(map, from);
+            counts[r] = 0u;
+        }
+        const uint begin = by_fours ? lane & 1u : 0u;
+        for (uint k = 0u; k < kDisc; k += step) {
+            const vec2 even = disc_point(begin + k), odd = disc_point(begin + k + (by_fours ? 2u : 0u));
+            [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
+                const vec2 aside = steps[r] * ((r & 1u) == 0u ? even : odd);
+                counts[r] += sees(map, points[r], ivec2(floor(points[r].texel + aside))) ? 1u : 0u;
+            }
+        }
         uint packed = 0u;
         [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
-            const uint begin = by_fours ? 2u * (r & 1u) + (lane & 1u) : 0u;
-            const vec3 from = position[r] - lamp;
-            const MapPoint p = map_point(map, from, normal[r]);
-            const mat2 steps = width * texels_across(map, from);
-            uint seen = 0u;
-            for (uint k = begin; k < kDisc; k += step)
-                seen += sees(map, p, ivec2(floor(p.texel + steps * disc_point(k)))) ? 1u : 0u;
-            counts[r] = p.inside ? seen : looks;
+            counts[r] = points[r].inside ? counts[r] : looks;
             packed |= counts[r] << 4u * r;  // 8 at most, by fours
         }
         counted[lane] = packed;

@@ -52,8 +52,9 @@ render::Frame FrameRelay::render(render::Renderer& renderer, const render::Rende
         shared_eye_.set_eye(found());
         const render::ToneMapped adapted = shared_eye_.adapt(rest, std::span(&seen, 1), 0, seconds);
         hand_on(adapted.eye);
-        shown = mapper_.show(rest, picture, adapted.curve,
-                             {.display = outputs.display, .display_light = outputs.display_light});
+        shown = mapper_.show(
+            rest, picture, adapted.curve,
+            {.display = outputs.display, .display_light = outputs.display_light, .projection = outputs.projection});
         shown.curve = adapted.curve, shown.histogram = adapted.histogram, shown.eye = adapted.eye;
         graph::add_times(frame.timings, adapted.timings);
         if (outputs.scene) shown.scene = std::move(frame.retina);

@@ -212,7 +212,7 @@ io::PngColour png_colour_of(const vision::Display& display) {
 
 void write_codes(const std::string& file, const render::ToneMapped& shown, const vision::Display& display,
                  const io::Header& texts) {
-    const auto [width, height] = shown.extent;
+    const auto [width, height] = shown.shown_extent;
     const io::PngColour colour = png_colour_of(display);
     if (display.bits == 8) return io::write_png(file, width, height, shown.display, colour, texts);
     std::vector<uint32_t> words(shown.display.size() / 4);

@@ -17,6 +17,7 @@
 #include "picture_arguments.h"
 #include "print.h"
 #include "progress.h"
+#include "quality_arguments.h"
 #include "scene/scene.h"
 #include "scenes.h"
 #include "shadow_arguments.h"
@@ -35,6 +36,7 @@ struct BenchArguments {
     apps::ShadowArguments shadows;
     apps::IndirectArguments indirect{.indirect = "off"};
     apps::EdgeArguments edges;
+    apps::QualityArguments quality;
     std::string json, picture, growth, tables;
     std::vector<std::string> compared;
     bool no_start = false;
@@ -82,7 +84,8 @@ std::vector<Planned> planned_runs(const BenchArguments& a) {
         s.scene = short_name(run.scene) + (run.luminaire.empty() ? "" : "(" + run.luminaire + ")");
         s.tone_operator = apps::name_of(run.plan.render.tone_operator), s.glare = glare, s.channels = channels;
         s.width = apps::parse_size(size).width, s.height = apps::parse_size(size).height;
-        s.threshold = double(run.plan.render.clusters.threshold);
+        apps::set_quality(a.quality, run.plan.render);
+        s.quality = a.quality.quality, s.threshold = double(run.plan.render.clusters.threshold);
         apps::set_shadows(a.shadows, run.plan.render);
         s.shadows = run.plan.render.shadows;
         apps::set_indirect(a.indirect, run.plan.render);
@@ -240,14 +243,11 @@ void add_bench(apps::Command program) {
     program.add_option("--warm-up", s.warm_up, "Frames from all along the path before the first lap, not counted")
         .check(apps::range(0u, 10000u))
         .shows_default();
-    program
-        .add_option("--threshold", a->run.render.clusters.threshold,
-                    "Illuminance below which a lamp counts as dark, lx")
-        .check(apps::between(1e-9, 1e3))
-        .shows_default();
     apps::add_shadow_options(program, a->shadows, "all", "off; one that is empty at first for the timing of starts");
     apps::add_indirect_options(program, a->indirect);
     apps::add_edge_options(program, a->edges);
+    apps::add_quality_option(program, a->quality);
+    apps::add_bound_options(program, a->quality);
     program.add_option("--device", a->run.device,
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     apps::Option json = program.add_option("--json", a->json, "Write everything that was measured to a file");

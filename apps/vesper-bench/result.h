@@ -17,9 +17,10 @@ struct RunSettings {
     uint32_t channels = 1;           ///< views in every frame, side by side
     uint32_t lamps = 0;              ///< that shine
     uint64_t triangles = 0;
-    double threshold = 0;   ///< lx: lamps count where they give more
-    bool shadows = false;   ///< lamps light only what they see
-    bool indirect = false;  ///< light between surfaces, which is gathered before
+    std::string quality = "standard";  ///< of what frames leave out
+    double threshold = 0;              ///< lx: lamps count where they give more
+    bool shadows = false;              ///< lamps light only what they see
+    bool indirect = false;             ///< light between surfaces, which is gathered before
     bool anti_aliasing = false;
     uint32_t samples = 1;  ///< of each pixel
     uint32_t frames = 0, laps = 0, warm_up = 0;

@@ -58,12 +58,13 @@ std::string headline(const BenchResult& result, const RunResult& run) {
 std::string text_of(const BenchResult& result, const RunResult& run) {
     const RunSettings& s = run.settings;
     std::string text = format(
-        "%u lamps, counted where they give %g lx, %llu triangles, shadows %s, indirect light %s, anti-aliasing %s, %u "
+        "quality %s, %u lamps, counted where they give %g lx, %llu triangles, shadows %s, indirect light %s, "
+        "anti-aliasing %s, %u "
         "sample%s, glare %s, %u "
         "channel%s; %u lap%s of %u "
         "frames, after "
         "%u\n",
-        s.lamps, s.threshold, static_cast<unsigned long long>(s.triangles), s.shadows ? "on" : "off",
+        s.quality.c_str(), s.lamps, s.threshold, static_cast<unsigned long long>(s.triangles), s.shadows ? "on" : "off",
         s.indirect ? "on" : "off", s.anti_aliasing ? "on" : "off", s.samples, s.samples == 1 ? "" : "s",
         s.glare.c_str(), s.channels, s.channels == 1 ? "" : "s", s.laps, s.laps == 1 ? "" : "s", s.frames, s.warm_up);
     text += "vesper " + result.version + ", " + result.driver + ", " + std::to_string(result.threads) + " threads of " +

@@ -212,7 +212,7 @@ void put_together(ChannelMosaic& wall, bool scene) {
         wall.columns.push_back(extent.width);
         extent = {extent.width + channel.extent.width, std::max(extent.height, channel.extent.height)};
     }
-    wall.shown.extent = extent;
+    wall.shown.extent = wall.shown.shown_extent = extent;
     constexpr float kNone = std::numeric_limits<float>::quiet_NaN();  // has no vote in what is measured
     constexpr uint8_t kOpaque = 255;  // the darkest code of 8 bits; of 10 bits, as well, but for the bits of alpha
     wall.shown.display = side_by_side<uint8_t>(wall, &render::ToneMapped::display, {0, 0, 0, kOpaque});

@@ -13,6 +13,7 @@
 #include "own_data.h"
 #include "picture_arguments.h"
 #include "ranks.h"
+#include "scale_arguments.h"
 #include "windowed.h"
 
 namespace vesper::drive {
@@ -56,7 +57,9 @@ void refuse_idle(const apps::Command& program, const DriveArguments& a) {
          {"--window", "--fullscreen", "--vsync", "--limit", "--scaling", "--controllers"},
          "has a meaning only in a window, not with --headless"},
         {a.channels.empty(), {"--latency"}, "of which channels? give --channels"},
-        {!a.channels.empty(), {"--size", "--fov"}, "channels have sizes and angles of their own (--channels)"},
+        {!a.channels.empty(),
+         {"--size", "--scale", "--fov"},
+         "channels have sizes and angles of their own (--channels)"},
         {!films && !logs, {"--fps"}, "of what? give --video or --log"},
         {!logs, {"--probe"}, "is a column of the log: give --log"},
         {a.headless && !replays && (camera == a.settings.end() || camera->second != "free"),
@@ -171,6 +174,8 @@ void add_drive(apps::Command program) {
         .add_option("--size,-s", a->size,
                     "WIDTHxHEIGHT of pictures, px\nDefault: in a replay as recorded, in a window its size")
         .shows_default();
+    program.help_group("Speed");
+    apps::add_scale_option(program, a->scale);
     program.help_group("Files");
     program.add_allow_outside();
     program.help_group("Window");

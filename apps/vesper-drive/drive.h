@@ -24,6 +24,7 @@ struct DriveArguments {
     unsigned latency = 0;          ///< moments, of what the eye sees of channels: 0 or 1
     bool headless = false, autopilot = false;
     double seconds = 20;  ///< of a drive without a window, s
+    double scale = 1;     ///< of each side of pictures, rendered and then enlarged
     double fps = 0;       ///< of films, 1/s; 0: the recording's own frames, or 30
     uint64_t seed = 1;
     DriveSettings::Values settings;

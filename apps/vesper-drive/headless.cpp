@@ -23,6 +23,7 @@
 #include "playback.h"
 #include "print.h"
 #include "progress.h"
+#include "scale_arguments.h"
 #include "session.h"
 #include "shadow_arguments.h"
 #include "tone_arguments.h"
@@ -81,7 +82,7 @@ class Outlet {
 public:
     /// `meets`: ranks do so to show a frame.
     Outlet(const DriveArguments& a, VkExtent2D extent, bool meets)
-        : arguments_(a), extent_(extent), probes_(probes_of(a.probes)), meets_(meets) {
+        : arguments_(a), extent_(extent), scaled_(extent, a.scale), probes_(probes_of(a.probes)), meets_(meets) {
         if (!a.video.empty()) {
             film_ = a.video.ends_with(".mp4");
             exr_ = a.video.ends_with(".exr");
@@ -118,8 +119,11 @@ public:
     bool wants_scene() const { return exr_; }
     render::Outputs outputs(const Session& session) const {
         const bool ldr = session.settings().render().tone_operator == render::Operator::Ldr;
-        return {.display = film_ || (names_ && !exr_), .scene = exr_ || (logs() && !ldr)};
+        return {.display = film_ || (names_ && !exr_),
+                .scene = exr_ || (logs() && !ldr),
+                .projection = scaled_.enlargement()};
     }
+    const apps::ScaledPicture& scaled() const { return scaled_; }
     /// Writes the files of a frame. Returns what is to be appended to others: of the picture, and of the row.
     apps::Bytes take(unsigned index, const Session& session, const render::ToneMapped& shown, uint32_t lamps,
                      const std::string& row) {
@@ -171,13 +175,16 @@ private:
                         {"vesper:seconds", apps::digits(session.world().seconds())},
                         {"vesper:lights", std::to_string(lamps)}};
         const render::RenderSettings& settings = session.settings().render();
-        for (const io::Header& part : {apps::describe_edges(settings), apps::describe_tone(settings, frame)})
+        for (const io::Header& part :
+             {apps::describe_quality(session.settings().quality()), apps::describe_scale(arguments_.scale),
+              apps::describe_edges(settings), apps::describe_tone(settings, frame)})
             made.insert(made.end(), part.begin(), part.end());
         return made;
     }
 
     const DriveArguments& arguments_;
     VkExtent2D extent_;
+    apps::ScaledPicture scaled_;
     std::vector<LogProbe> probes_;
     bool film_ = false, exr_ = false;
     std::optional<vision::Display> first_;
@@ -307,6 +314,7 @@ void run_headless(const DriveArguments& a) {
     if (a.messages.live) live.emplace(a, session, playback);
     if (first) outlet.open(playback.frames());
     apps::print_notes(session.scenery().notes());
+    if (!channels) outlet.scaled().print_note();
     if (first && !a.osi_out.empty()) session.write_trace(a.osi_out);
     if (first && !a.record.empty())
         session.record(a.record, outlet.wanted() && !channels ? std::optional(glm::uvec2(extent.width, extent.height))
@@ -329,7 +337,7 @@ void run_headless(const DriveArguments& a) {
             take_wall(outlet, index, session, *channels, ranks ? &*ranks : nullptr, fps);
             progress.step();
         } else if (relay.has(index)) {
-            const gpu_scene::View view = session.view(extent);
+            const gpu_scene::View view = outlet.scaled().rendered(session.view(extent));
             const render::Frame frame = session.render(view, outlet.outputs(session));
             const std::string row = outlet.logs() ? outlet.rows().next(session, view, frame) : "";
             relay.deliver(index, outlet.take(index, session, frame, frame.lamps, row), take);

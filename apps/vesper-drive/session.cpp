@@ -128,7 +128,8 @@ render::Frame Session::render(VkExtent2D extent, render::Outputs outputs) { retu
 
 render::RenderSettings Session::frame_settings() const {
     render::RenderSettings settings = settings_.render();
-    if (!settings_.values().contains("shadow-budget")) settings.shadow_budget = shadow_budget_;
+    const bool exact = settings_.quality().quality == "exact";
+    if (!exact && !settings_.values().contains("shadow-budget")) settings.shadow_budget = shadow_budget_;
     return settings;
 }
 

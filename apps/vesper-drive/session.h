@@ -86,8 +86,8 @@ public:
     void gather_light(Cache* cache);
     /// Called after a frame for each view of it.
     std::function<void(const render::MapReport&)> on_maps;
-    /// Tiles of distance maps drawn for a frame where the setting "shadow-budget" is not set; at first all. It is not
-    /// recorded: a replay draws all unless it is told otherwise.
+    /// Tiles of distance maps drawn for a frame where neither the setting "shadow-budget" nor the quality "exact" is
+    /// set; at first all. It is not recorded: a replay draws all unless it is told otherwise.
     void set_shadow_budget(uint64_t tiles) { shadow_budget_ = tiles; }
     /// What the camera of the settings sees in a picture of that size.
     gpu_scene::View view(VkExtent2D) const;

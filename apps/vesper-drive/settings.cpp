@@ -28,7 +28,7 @@ struct SettingsArguments {
     std::string camera = "driver";
     std::vector<double> free{0, 2, 0, 0, 0};
     double sun = 0, fov = 0;
-    float threshold = render::ClusterSettings{}.threshold;
+    apps::QualityArguments quality;
     apps::ShadowArguments shadows;
     apps::IndirectArguments indirect;
     apps::EdgeArguments edges;
@@ -51,14 +51,13 @@ void add(apps::Command command, SettingsArguments& a) {
                     "Elevation of the sun under a closed cover of cloud, degrees\nDefault: the night of the scene")
         .check(apps::between(-90.0, 90.0));
     command.help_group("Cameras and lamps");
-    command.add_option("--threshold", a.threshold, "Illuminance below which a lamp counts as dark, lx")
-        .check(apps::between(1e-9, 1e3))
-        .shows_default();
     apps::add_shadow_options(command, a.shadows,
                              std::to_string(kWindowShadowBudget) + " in a window, all without one and in replays");
     apps::add_indirect_options(command, a.indirect);
     apps::add_edge_options(command, a.edges);
+    apps::add_bound_options(command, a.quality);
     command.help_group();
+    apps::add_quality_option(command, a.quality);
 }
 
 // Names of all settings but lamps, without dashes.
@@ -132,7 +131,7 @@ void DriveSettings::apply(const Values& values) {
     }
     render::RenderSettings render;
     static_cast<render::ToneChainSettings&>(render) = apps::tone_settings(a.tone);
-    render.clusters.threshold = a.threshold;
+    apps::set_quality(a.quality, render);
     apps::set_shadows(a.shadows, render);
     apps::set_indirect(a.indirect, render);
     apps::set_edges(a.edges, render);
@@ -142,6 +141,7 @@ void DriveSettings::apply(const Values& values) {
     camera_ = kCameras.at(a.camera);
     free_ = free;
     fov_ = a.fov;
+    quality_ = a.quality;
     lamps_ = std::move(lamps);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "command_line.h"
+#include "quality_arguments.h"
 
 #include "render/renderer.h"
 
@@ -47,6 +48,8 @@ public:
     /// "fov": of the picture's height, degrees; 0: the camera's own.
     double vertical_fov() const { return fov_; }
     const std::map<std::string, double>& lamps() const { return lamps_; }
+    /// "quality": of what frames may leave out; recorded with pictures.
+    const apps::QualityArguments& quality() const { return quality_; }
 
     /// Adds them all as options to a command, and takes over those that were given.
     static void add_options(apps::Command);
@@ -61,6 +64,7 @@ private:
     CameraKind camera_ = CameraKind::Driver;
     FreeCamera free_;
     double fov_ = 0;
+    apps::QualityArguments quality_;
     std::map<std::string, double> lamps_;
 };
 

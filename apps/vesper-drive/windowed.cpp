@@ -17,6 +17,7 @@
 #include "picture_arguments.h"
 #include "print.h"
 #include "render/passes/operators.h"
+#include "scale_arguments.h"
 #include "shadow_arguments.h"
 #include "tone_arguments.h"
 
@@ -130,6 +131,9 @@ void WindowedDrive::open_session(const Drive& drive) {
     watch_contacts();
     keep_maps();
     apps::print_notes(session_->scenery().notes());
+    if (arguments_.scale < 1)
+        apps::print_note(format("each side of pictures is rendered with %g of its pixels, and enlarged (--scale)",
+                                arguments_.scale));
 }
 
 // A scene that cannot be used leaves everything as it is.
@@ -179,17 +183,18 @@ std::string WindowedDrive::title() const {
     if (replay_) text += ", replay";
     if (paused_) text += ", paused";
     if (!recording_.empty()) text += ", recording";
+    if (arguments_.scale < 1) text += format(", rendered at %ux%u", rendered_.width, rendered_.height);
     return text + " - Vesper";
 }
 
-VkExtent2D WindowedDrive::picture_extent() const {
+VkExtent2D WindowedDrive::picture_extent(double scale) const {
     const VkExtent2D whole = size_.value_or(window_.extent());
-    const auto part = [&](uint32_t side) { return uint32_t(std::max(1.0, std::round(side / kCoarser[coarser_]))); };
-    return {part(whole.width), part(whole.height)};
+    scale /= kCoarser[coarser_];
+    return {apps::scaled(whole.width, scale), apps::scaled(whole.height, scale)};
 }
 
 std::optional<glm::uvec2> WindowedDrive::recorded_size() const {
-    const VkExtent2D extent = picture_extent();
+    const VkExtent2D extent = picture_extent(1);
     return channels_ ? std::nullopt : std::optional(glm::uvec2(extent.width, extent.height));
 }
 
@@ -347,7 +352,7 @@ void WindowedDrive::draw(const render::Outputs& outputs, ChannelMosaic& wall) {
 
 void WindowedDrive::render(bool moved) {
     take_light();
-    const VkExtent2D extent = picture_extent();
+    const VkExtent2D extent = picture_extent(arguments_.scale);
     const bool ldr = session_->settings().render().tone_operator == render::Operator::Ldr;
     const bool measures = instruments_.needs_scene() || log_;
     const render::Outputs outputs{.display = true, .scene = measures && !ldr};

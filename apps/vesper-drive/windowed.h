@@ -70,7 +70,7 @@ private:
     std::pair<gpu_scene::View, std::optional<glm::uvec2>> view_at(std::optional<glm::uvec2> pixel) const;
     void say(const std::string& text, bool alarm = false);
     std::string title() const;
-    VkExtent2D picture_extent() const;
+    VkExtent2D picture_extent(double scale) const;
     std::optional<glm::uvec2> recorded_size() const;
 
     DriveArguments arguments_;

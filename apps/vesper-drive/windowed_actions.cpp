@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "print.h"
 #include "render/passes/operators.h"
+#include "scale_arguments.h"
 #include "tone_arguments.h"
 #include "windowed.h"
 
@@ -82,7 +83,7 @@ void WindowedDrive::record() {
 void WindowedDrive::save_picture() {
     try {
         const std::string name = free_name("picture-", ".png");
-        apps::write_codes(name, frame_, session_->settings().render().display);
+        apps::write_codes(name, frame_, session_->settings().render().display, apps::describe_scale(arguments_.scale));
         say("saved " + name);
     } catch (const Error& error) {
         say(error.what(), true);

@@ -21,7 +21,9 @@
 #include "picture_arguments.h"
 #include "print.h"
 #include "progress.h"
+#include "quality_arguments.h"
 #include "render/renderer.h"
+#include "scale_arguments.h"
 #include "scene/placement.h"
 #include "scene_notes.h"
 #include "shadow_arguments.h"
@@ -43,6 +45,8 @@ struct RenderArguments {
     apps::ShadowArguments shadows;
     apps::IndirectArguments indirect;
     apps::EdgeArguments edges;
+    apps::QualityArguments quality;
+    double scale = 1;
     unsigned paths = kPathsOfPixel;
     bool traces = false;  // light for each pixel
     transport::TraceSettings tracing;
@@ -85,10 +89,25 @@ io::Header describe_frame(const RenderArguments& arguments, const gpu::Device& d
                       {"vesper:device", device.name() + ", " + device.driver()}};
     render::RenderSettings luminance = arguments.settings;
     luminance.display_average = false;  // of codes
-    for (const io::Header& part : {apps::describe_edges(luminance), apps::describe_tone(arguments.settings, frame)})
+    for (const io::Header& part : {apps::describe_quality(arguments.quality), apps::describe_scale(arguments.scale),
+                                   apps::describe_edges(luminance), apps::describe_tone(arguments.settings, frame)})
         header.insert(header.end(), part.begin(), part.end());
     const io::Header dazzled = apps::describe_glare(arguments.settings, glare);
     header.insert(header.end(), dazzled.begin(), dazzled.end());
+    return header;
+}
+
+std::string statistics_json(const RenderArguments& arguments, const render::Frame& frame) {
+    return "{\"quality\": \"" + arguments.quality.quality + "\", \"scale\": " + apps::digits(arguments.scale) + ", " +
+           apps::json_of(apps::luminance_statistics(frame.scene)).substr(1);
+}
+
+// The same of a picture of codes.
+io::Header describe_codes(const RenderArguments& arguments) {
+    io::Header header;
+    for (const io::Header& part : {apps::describe_quality(arguments.quality), apps::describe_scale(arguments.scale),
+                                   apps::describe_edges(arguments.settings)})
+        header.insert(header.end(), part.begin(), part.end());
     return header;
 }
 
@@ -141,7 +160,7 @@ void write_outputs(const RenderArguments& arguments, const gpu::Device& device, 
     for (const std::string& output : arguments.outputs) {
         const std::string file = file_of_frame(output, index, arguments.frames);
         if (output.ends_with(".png"))
-            apps::write_codes(file, frame, arguments.settings.display, apps::describe_edges(arguments.settings));
+            apps::write_codes(file, frame, arguments.settings.display, describe_codes(arguments));
         else
             io::write_exr(file, frame.extent.width, frame.extent.height, frame.scene,
                           describe_frame(arguments, device, view, frame, glare, seconds));
@@ -177,6 +196,7 @@ void check_arguments(RenderArguments& arguments) {
     apps::check_target(arguments.glare, settings);
     settings.paper_lambert = arguments.lambert == "paper";
     apps::set_edges(arguments.edges, settings);
+    apps::set_quality(arguments.quality, settings);
     apps::set_shadows(arguments.shadows, settings);
     apps::set_indirect(arguments.indirect, settings);
     check_paths(arguments);
@@ -291,6 +311,7 @@ private:
 void run(RenderArguments& arguments) {
     const VkExtent2D extent = apps::parse_size(arguments.size);
     check_arguments(arguments);
+    const apps::ScaledPicture scaled(extent, arguments.scale);
     const bool wants_statistics = arguments.statistics || !arguments.statistics_file.empty();
     render::Outputs outputs{.display = wants_statistics, .scene = false};  // what is timed includes the display image
     for (const std::string& output : arguments.outputs)
@@ -312,6 +333,7 @@ void run(RenderArguments& arguments) {
     loaded.scene.name = arguments.scene;
     check_wanted(arguments);  // a scene that cannot be read is said first
     apps::print_notes(loaded.notes);
+    scaled.print_note();
     const scene::Scene& scene = loaded.scene;
     gpu_scene::SceneFrame moment{scene::world_transforms(scene, moments.front().seconds)};
     gpu_scene::camera_view(scene, moment, arguments.camera, extent);  // a wrong name is known before a device is opened
@@ -347,16 +369,17 @@ void run(RenderArguments& arguments) {
         const auto& [seconds, step, eye] = moments[index];
         number = index;
         moment.world = scene::world_transforms(scene, seconds);
-        const gpu_scene::View view = gpu_scene::camera_view(scene, moment, arguments.camera, extent);
+        const gpu_scene::View view = scaled.rendered(gpu_scene::camera_view(scene, moment, arguments.camera, extent));
         const bool last = index + 1 == arguments.frames;
         if (arguments.traces)
             renderer.set_illuminance(
                 other_light(traced_light(device, scene, renderer.scene(), moment, view, arguments.tracing,
                                          [&](double share) { progress.at(index, share); })));
-        const render::Frame frame =
-            relay.render(renderer, arguments.settings, view, moment, step,
-                         {.display = outputs.display, .scene = outputs.scene || (last && wants_statistics)}, index,
-                         {.eye = eye, .all_known = !arguments.replay_file.empty()});
+        const render::Frame frame = relay.render(renderer, arguments.settings, view, moment, step,
+                                                 {.display = outputs.display,
+                                                  .scene = outputs.scene || (last && wants_statistics),
+                                                  .projection = scaled.enlargement()},
+                                                 index, {.eye = eye, .all_known = !arguments.replay_file.empty()});
         milliseconds.push_back(frame.milliseconds);
         apps::print_cache_note(frame.maps.note);
         if (const std::string note = apps::photometry_note(loaded, arguments.scene); index == 0 && !note.empty())
@@ -379,8 +402,7 @@ void run(RenderArguments& arguments) {
             if (wants_target) apps::print_text(apps::target_line(glare));
             if (arguments.statistics) print_statistics(arguments, device, renderer, frame, milliseconds);
             if (!arguments.statistics_file.empty())
-                apps::write_text(arguments.statistics_file,
-                                 apps::json_of(apps::luminance_statistics(frame.scene)) + "\n");
+                apps::write_text(arguments.statistics_file, statistics_json(arguments, frame) + "\n");
         }
         relay.deliver(index, rows.packed(), take);
     }
@@ -399,6 +421,7 @@ void add_render(apps::Command program) {
                        "OUT.png: display image; OUT.exr: absolute cd/m^2; may be given twice");
     command.add_option("--camera,-c", a->camera, "Name of a camera of the scene (default: the first)");
     command.add_option("--size,-s", a->size, "WIDTHxHEIGHT, px").shows_default();
+    apps::add_scale_option(command, a->scale);
     command.add_option("--frames", a->frames, "How many frames; files are numbered")
         .check(apps::range(1u, 1000000u))
         .shows_default();
@@ -432,12 +455,9 @@ void add_render(apps::Command program) {
     command.add_option("--lambert", a->lambert, "physical: L = E R / pi; paper: L = E R")
         .check(apps::one_of({"physical", "paper"}))
         .shows_default();
-    command
-        .add_option("--threshold", a->settings.clusters.threshold,
-                    "Illuminance below which a lamp counts as dark: on matt surfaces, or on a plane facing it, lx")
-        .check(apps::between(1e-9, 1e3))
-        .shows_default();
+    apps::add_bound_options(command, a->quality);
     command.help_group();
+    apps::add_quality_option(command, a->quality);
     apps::add_tone_options(command, a->tone);
     apps::add_glare_options(command, a->glare);
     command.help_group("Light");

@@ -75,6 +75,7 @@ void add_pictures(Command command, StudyArguments& a) {
         .check(apps::between(0.0, 1e6))
         .shows_default();
     apps::add_edge_options(command, a.source.edges);
+    apps::add_quality_option(command, a.source.quality);
     command.add_allow_outside();
     command.add_option("--layer", a.source.layer, apps::kLayerHelp);
     apps::add_scale_options(command, a.source.scale);

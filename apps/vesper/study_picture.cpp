@@ -30,6 +30,7 @@ StudyPicture rendered(const PictureSource& arguments, gpu::Device& device, const
     render::RenderSettings render;
     static_cast<render::ToneChainSettings&>(render) = settings;
     apps::set_edges(arguments.edges, render);
+    apps::set_quality(arguments.quality, render);
     render::Frame made = renderer.render(render, view, frame, 0, {.display = false, .scene = true});
     StudyPicture picture{.name = {}, .extent = extent, .values = std::move(made.scene), .channels = 4};
     picture.vertical_fov = double(std::atan(view.tangent_high.y) - std::atan(view.tangent_low.y));

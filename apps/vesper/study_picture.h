@@ -6,6 +6,7 @@
 
 #include "edge_arguments.h"
 #include "picture_arguments.h"
+#include "quality_arguments.h"
 #include "render/tone_mapper.h"
 
 namespace vesper::commands {
@@ -30,6 +31,7 @@ struct PictureSource {
     std::string camera, size = "1680x1050";  ///< of a scene
     double start = 0;                        ///< s, of a scene
     apps::EdgeArguments edges;               ///< of a scene
+    apps::QualityArguments quality;          ///< of a scene
     std::string layer;                       ///< of OpenEXR files, see read_hdr_image
     apps::ScaleArguments scale;              ///< of a picture
     double fov = 0;                          ///< angle a picture covers in height, degrees; 0: as its file says, or 40

@@ -79,7 +79,7 @@ static_assert(sizeof(void*) != 8 ||
               (sizeof(VesperDeviceOptions) == 40 && sizeof(VesperToneSettings) == 136 &&
                sizeof(VesperFrameReport) == 32 && sizeof(VesperOutputs) == 40 && sizeof(VesperPicture) == 48 &&
                sizeof(VesperMaterial) == 56 && sizeof(VesperMesh) == 56 && sizeof(VesperLamp) == 80 &&
-               sizeof(VesperView) == 120 && sizeof(VesperImage) == 40 && sizeof(VesperHandover) == 32 &&
+               sizeof(VesperView) == 128 && sizeof(VesperImage) == 40 && sizeof(VesperHandover) == 32 &&
                sizeof(VesperImagePicture) == 40));
 
 }  // namespace

@@ -99,6 +99,7 @@ void give_known(T made, T* to) {
     std::memcpy(to, &made, made.size);
 }
 
+inline bool within(float value, float low, float high) { return value >= low && value <= high; }
 template <size_t n>
 bool finite(const float (&values)[n]) {
     return std::all_of(values, values + n, [](float v) { return std::isfinite(v); });

@@ -3,6 +3,7 @@
 
 #include "api/handles.h"
 #include "io/cache_folder.h"
+#include "render/quality.h"
 #include "scene/placement.h"
 #include "transport/kept_radiosity.h"
 
@@ -40,7 +41,10 @@ gpu_scene::View view_of(const VesperView& v, const scene::Scene& scene, const gp
 }
 
 // Sizes of a VesperView before there was a field that lies where such views have padding.
-constexpr uint32_t kViewWithoutIndirect = 104, kViewWithoutAntiAliasing = 112;
+constexpr uint32_t kViewWithoutIndirect = 104, kViewWithoutAntiAliasing = 112, kViewWithoutQuality = 120;
+static_assert(int(render::Quality::Standard) == VESPER_QUALITY_STANDARD &&
+              int(render::Quality::Draft) == VESPER_QUALITY_DRAFT &&
+              int(render::Quality::Exact) == VESPER_QUALITY_EXACT);
 
 /// What is drawn and from where.
 struct Seen {
@@ -48,8 +52,12 @@ struct Seen {
     gpu_scene::View view;
     bool shadows, indirect, moving_reflections, anti_aliasing;
     uint32_t samples;
+    render::Quality quality;
+    float threshold;  // lx; 0: that of the quality
 };
 void apply(const Seen& seen, render::RenderSettings& how) {
+    render::set_quality(how, seen.quality);
+    if (seen.threshold > 0) how.clusters.threshold = seen.threshold;
     how.shadows = seen.shadows, how.indirect = seen.indirect, how.moving_reflections = seen.moving_reflections;
     how.anti_aliasing = seen.anti_aliasing, how.samples = seen.samples;
 }
@@ -57,19 +65,24 @@ Seen see(const VesperRenderer& renderer, const VesperView* view) {
     VesperView v = known(view, "a view without its size");
     if (v.size <= kViewWithoutIndirect) v.no_indirect = 0;
     if (v.size <= kViewWithoutAntiAliasing) v.no_anti_aliasing = 0;
+    if (v.size <= kViewWithoutQuality) v.quality = VESPER_QUALITY_STANDARD;
     require(v.scene_seconds >= 0 && v.scene_seconds <= 1e9, "the scene's time is 0 to 1e9 s");
     require(v.no_shadows == 0 || v.no_shadows == 1, "VesperView::no_shadows is 0 or 1");
     require(v.no_indirect == 0 || v.no_indirect == 1, "VesperView::no_indirect is 0 or 1");
     require(v.moving_reflections == 0 || v.moving_reflections == 1, "VesperView::moving_reflections is 0 or 1");
     require(v.no_anti_aliasing == 0 || v.no_anti_aliasing == 1, "VesperView::no_anti_aliasing is 0 or 1");
     require(v.samples <= render::kMostSamples, "VesperView::samples is at most 65536");
+    require(v.quality <= VESPER_QUALITY_EXACT, "there is no such quality");
+    require(v.threshold == 0 || within(v.threshold, 1e-9f, 1e3f), "a threshold is 0, or 1e-9 to 1000 lx");
     Seen seen{frame_of(renderer, v.scene_seconds),
               {},
               v.no_shadows == 0,
               v.no_indirect == 0,
               v.moving_reflections == 1,
               v.no_anti_aliasing == 0,
-              std::max(v.samples, 1u)};
+              std::max(v.samples, 1u),
+              render::Quality(v.quality),
+              v.threshold};
     seen.view = view_of(v, renderer.scene.scene, seen.frame);
     return seen;
 }

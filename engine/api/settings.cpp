@@ -26,8 +26,6 @@ static_assert(VESPER_PUPIL_MESOPIC == int(vision::SpencerState::Mesopic) &&
 
 constexpr size_t kLongestOptions = 4096;  // characters that are read
 
-bool within(float value, float low, float high) { return value >= low && value <= high; }
-
 VesperToneSettings default_settings() {
     const render::ToneChainSettings settings;
     const render::ToneSettings& tone = settings.tone;

@@ -8,7 +8,7 @@ IndirectCells IndirectLight::cells(graph::FrameGraph& graph, const gpu::Device& 
                                    const transport::RadiosityLight& light, const std::vector<bool>& moving,
                                    const std::function<void()>& wait) {
     if (radiosity_->cells() == 0) return {};
-    Lit lit{std::vector<float>(sources_.size(), 1), light.sky, light.reflections};
+    Lit lit{std::vector<float>(sources_.size(), 1), light.sky, light.reflections, light.left_out};
     std::vector<float> factors(sources_.empty() ? 0 : sources_.back() + size_t{1});  // of nodes
     for (size_t i = 0; i < sources_.size(); ++i) {
         const uint32_t node = sources_[i];

@@ -13,11 +13,6 @@
 #include "render/passes/small_emitters.h"
 
 namespace vesper::render {
-namespace {
-
-constexpr double kReflectionsLeftOut = 0.01;
-
-}  // namespace
 
 Renderer::Renderer(gpu::Device& device, const scene::Scene& scene)
     : device_(device), scene_(std::make_unique<SceneData>(device, scene)), frames_(device) {}
@@ -98,7 +93,8 @@ Renderer::FrameInputs Renderer::inputs_of(graph::FrameGraph& graph, const Render
     if (settings.shadows)
         add_maps(graph, in, poses, view, settings.samples > 1 ? kNoShadowBudget : settings.shadow_budget);
     in.shading.all_lamps = settings.all_lamps;
-    if (settings.all_lamps) in.shading.merge_tolerance = -1;
+    in.shading.merge_tolerance = settings.all_lamps ? kMergesNothing : settings.merge_error;
+    in.shading.faint = settings.shadow_error;
     if (settings.paper_lambert) in.shading.lambert = 1;
     if (settings.unit_lamps) in.shading.emission_limit = 1;
     if (settings.lamps_alone) {
@@ -137,7 +133,7 @@ void Renderer::add_indirect_light(graph::FrameGraph& graph, FrameInputs& in, con
                                               .sky = glm::dvec3(ambient.sky),
                                               .sky_picture = scene_->sky_on ? &*scene_->sky_on : nullptr,
                                               .reflections = settings.reflections,
-                                              .left_out = kReflectionsLeftOut};
+                                              .left_out = settings.reflections_left_out};
         in.indirect = indirect_->cells(graph, device_, light, poses.moving, [this] { frames_.wait(); });
         if (!in.indirect.texels) return;  // nothing stands still
         std::vector<transport::LitPatch> patches;

@@ -97,6 +97,24 @@ TEST_F(CScene, PixelsMayHaveSamples) {
     EXPECT_EQ(render(view), smooth);
 }
 
+// A caller of before, whose view ends before these fields, has the standard.
+TEST_F(CScene, ViewsHaveAQuality) {
+    add(candle());
+    VesperView view = down();
+    const std::vector<float> standard = render(view);
+    EXPECT_GT(standard[4 * kMiddle], 0);
+    view.threshold = 10;  // the candle gives the ground 1 lx
+    EXPECT_EQ(render(view)[4 * kMiddle], 0);
+    view.threshold = 0, view.quality = VESPER_QUALITY_EXACT;
+    EXPECT_NEAR(render(view)[4 * kMiddle], standard[4 * kMiddle], 1e-3f * standard[4 * kMiddle]);
+    view.threshold = -1;
+    EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, nullptr, &error), VESPER_BAD_ARGUMENT);
+    view.threshold = 0, view.quality = 3;
+    EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, nullptr, &error), VESPER_BAD_ARGUMENT);
+    view.size = offsetof(VesperView, quality) + 4;  // with what was padding
+    EXPECT_EQ(render(view), standard);
+}
+
 // Distance maps that a host keeps: a second renderer has the same light.
 TEST_F(CScene, ShadowsMayBeKept) {
     add(candle());

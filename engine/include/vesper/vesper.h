@@ -381,6 +381,13 @@ typedef int32_t (*VesperProgress)(double share, void* user);
 VesperResult vesper_renderer_gather_light(VesperRenderer* renderer, VesperProgress progress, void* user,
                                           VesperError* error);
 
+/** What frames may leave out (docs/quality.md). */
+typedef enum VesperQuality {
+    VESPER_QUALITY_STANDARD = 0, /**< the default */
+    VESPER_QUALITY_DRAFT = 1,    /**< more, for speed */
+    VESPER_QUALITY_EXACT = 2     /**< nothing that has a bound */
+} VesperQuality;
+
 /** Position and angles of the eye, and size of the picture. */
 typedef struct VesperView {
     uint32_t size;        /**< of this structure */
@@ -402,6 +409,8 @@ typedef struct VesperView {
                                  * time, and after gathering, the frame takes longer */
     int32_t no_anti_aliasing; /**< 1: pixels at edges show one surface, in place of the mean of those that fill them */
     uint32_t samples;         /**< points of each pixel whose luminance is averaged, at most 65536; 0 and 1: one */
+    uint32_t quality;         /**< a VesperQuality */
+    float threshold; /**< illuminance below which a lamp counts as dark, lx, 1e-9 to 1000; 0: as `quality` says */
 } VesperView;
 
 /** Renders into arrays. `seconds`: time since the last frame, for the adaptation of the eye. */

@@ -1,0 +1,104 @@
+// Pictures that are rendered smaller than they are shown, and how many threads make them.
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+
+#include "io/hdr_image.h"
+#include "io/image_file.h"
+#include "io/read_file.h"
+#include "support/program.h"
+
+namespace vesper::test::scale_test {
+namespace {
+
+/// The lower half of what the eye sees emits 100 cd/m^2.
+std::string lower_half() {
+    GltfFile file;
+    file.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0}}},
+                               {"emissiveFactor", {1, 1, 1}},
+                               {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 100}}}}}}};
+    file.show({{"attributes", {{"POSITION", file.vec3({-9, -9, -2, 9, -9, -2, 9, 0, -2, -9, 0, -2})}}},
+               {"indices", file.indices(std::vector<uint16_t>{0, 1, 2, 0, 2, 3})},
+               {"material", 0}},
+              {{"name", "square"}});
+    file.root["nodes"].push_back({{"name", "eye"}, {"camera", 0}});
+    file.root["cameras"] = {
+        {{"type", "perspective"}, {"name", "eye"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}}};
+    file.root["extensionsUsed"] = {"KHR_materials_emissive_strength"};
+    return file.text();
+}
+
+std::string value(const io::HdrImage& image, const std::string& key) {
+    const auto found = std::ranges::find(image.header, key, [](const auto& entry) { return entry.first; });
+    return found == image.header.end() ? "none" : found->second;
+}
+
+class Scale : public ProgramTest {
+protected:
+    void SetUp() override { folder.write("a.gltf", lower_half()); }
+    const std::string render = "render a.gltf --indirect off --operator linear ";
+};
+
+TEST_F(Scale, CodesHaveTheSizeAskedForAndLuminancesThatOfTheRendered) {
+    ASSERT_EQ(run(render + "--size 61x40 --scale 0.5 -o a.png -o a.exr --stats-json a.json"), 0) << said;
+    EXPECT_NE(said.find("note: pictures of 61x40 are rendered as 31x20 and enlarged (--scale 0.5)"), said.npos) << said;
+    const auto shown = io::decode_image(io::read_file(folder / "a.png", 1u << 20), 64);
+    EXPECT_EQ(shown.width, 61u);
+    EXPECT_EQ(shown.height, 40u);
+    const io::HdrImage light = io::read_exr(folder / "a.exr");
+    EXPECT_EQ(light.width, 31u);
+    EXPECT_EQ(light.height, 20u);
+    EXPECT_EQ(value(light, "vesper:scale"), "0.5");
+    EXPECT_NE(read_text(folder / "a.png").find("vesper:scale"), std::string::npos);
+    EXPECT_NE(read_text(folder / "a.json").find("\"scale\": 0.5"), std::string::npos);
+    // The view stays: its edges, and the horizon in the middle.
+    ASSERT_EQ(run(render + "--size 61x40 -o b.exr"), 0) << said;
+    EXPECT_EQ(said.find("enlarged"), said.npos) << said;
+    const io::HdrImage whole = io::read_exr(folder / "b.exr");
+    EXPECT_EQ(value(whole, "vesper:scale"), "1");
+    EXPECT_EQ(value(whole, "vesper:tangents"), value(light, "vesper:tangents"));
+    for (uint32_t y = 0; y < 20; ++y)
+        EXPECT_NEAR(light.rgb[size_t{3} * (size_t{31} * y + 15)], y < 10 ? 0.0f : 100.0f, 1e-3f) << y;
+}
+
+TEST_F(Scale, OneIsNone) {
+    ASSERT_EQ(run(render + "--size 32x20 -o a.png"), 0) << said;
+    ASSERT_EQ(run(render + "--size 32x20 --scale 1 -o b.png"), 0) << said;
+    EXPECT_EQ(said.find("enlarged"), said.npos) << said;
+    EXPECT_EQ(read_text(folder / "a.png"), read_text(folder / "b.png"));
+}
+
+TEST_F(Scale, RefusesOthers) {
+    for (const char* scale : {"0.2", "1.1", "0", "-1", "nan", "half"})
+        expect_refused(render + "-o a.png --scale " + scale, {"--scale"});
+}
+
+TEST_F(Scale, ThreadsAreRecordedAndChangeNothing) {
+    ASSERT_EQ(run(render + "--size 61x40 --threads 1 -o a.exr"), 0) << said;
+    ASSERT_EQ(run(render + "--size 61x40 --threads 3 -o b.exr"), 0) << said;
+    const io::HdrImage one = io::read_exr(folder / "a.exr"), three = io::read_exr(folder / "b.exr");
+    EXPECT_EQ(value(one, "vesper:threads"), "1");
+    EXPECT_EQ(value(three, "vesper:threads"), "3");
+    EXPECT_EQ(one.rgb, three.rgb);
+    for (const char* number : {"0", "-1", "1025", "all"})
+        expect_refused(render + "-o a.png --threads " + number, {"--threads"});
+}
+
+class DriveScale : public ProgramTest {
+protected:
+    DriveScale() : ProgramTest(VESPER_DRIVE) {}
+};
+
+TEST_F(DriveScale, IsInPicturesAndInTheLog) {
+    const std::string drive = "--headless --autopilot --seconds 0.1 --shadows off --indirect off --size 64x40 ";
+    ASSERT_EQ(run(drive + "--scale 0.25 --video a%d.png --log a.csv --record a.json"), 0) << said;
+    EXPECT_NE(said.find("64x40 are rendered as 16x10"), said.npos) << said;
+    EXPECT_EQ(io::decode_image(io::read_file(folder / "a0.png", 1u << 20), 64).width, 64u);
+    EXPECT_NE(read_text(folder / "a.csv").find(",16,10,"), std::string::npos);
+    ASSERT_EQ(run("--headless --replay a.json --video b%d.exr"), 0) << said;
+    EXPECT_EQ(io::read_exr(folder / "b0.exr").width, 64u) << "a recording is of whole pictures";
+    folder.write("c.json", R"({"channels":[{"name":"a","size_px":[8,8]}]})");
+    expect_refused(drive + "--scale 0.5 --channels c.json --log a.csv", {"--s", "channels"});
+}
+
+}  // namespace
+}  // namespace vesper::test::scale_test

@@ -226,11 +226,11 @@ void Program::version(const std::string& text) { app_->set_version_flag("--versi
 
 namespace {
 
-// What all ranks must be given alike: all but their devices.
+// What all ranks must be given alike: all but their devices and threads.
 std::string common_arguments(int argc, char** argv) {
     std::string words;
     for (int i = 1; i < argc; ++i)
-        if (std::string_view(argv[i]) == "--device")
+        if (const std::string_view word(argv[i]); word == "--device" || word == "--threads")
             ++i;
         else
             words += std::string(argv[i]) + '\n';

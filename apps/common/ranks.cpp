@@ -170,6 +170,10 @@ std::string Ranks::fail(const std::string& text) {
                                                                       : started->name(started->rank()) + ": " + text;
 }
 
+int Ranks::on_this_machine() {
+    return several() ? number_in({"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", "SLURM_NTASKS_PER_NODE"}, 1) : 1;
+}
+
 bool Ranks::several() { return number_in({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}, 1) > 1; }
 
 int Ranks::own_number() {

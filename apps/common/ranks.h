@@ -35,6 +35,8 @@ public:
     static bool several();
     /// Number of this process, as the environment says; 0 without others.
     static int own_number();
+    /// How many of them are on this machine, as the environment says; 1 where it does not.
+    static int on_this_machine();
     /// At the end of a run, waits until all have come so far. Does nothing where all() was never called.
     static void finish();
     /// This process cannot go on, and so none can. During the start every rank comes to know; returns what this one is

@@ -4,11 +4,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <thread>
 
 #include "arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
+#include "base/parallel.h"
 #include "edge_arguments.h"
 #include "indirect_arguments.h"
 #include "io/file_gate.h"
@@ -22,6 +22,7 @@
 #include "scenes.h"
 #include "shadow_arguments.h"
 #include "start.h"
+#include "thread_arguments.h"
 #include "tone_arguments.h"
 
 namespace vesper::bench {
@@ -30,7 +31,7 @@ namespace {
 struct BenchArguments {
     std::vector<std::string> scenes{"rivoli"}, sizes{"1680x1050"}, luminaires, operators, glares;
     std::vector<uint32_t> lamps{kOwnLamps}, channels{1};
-    uint32_t triangles = 10000;
+    uint32_t triangles = 10000, threads = 0;
     RunPlan run{.settings = {.frames = 48, .laps = 3, .warm_up = 4}, .render = {}, .camera = {}, .device = {}};
     apps::ToneArguments tone;
     apps::ShadowArguments shadows;
@@ -141,7 +142,7 @@ BenchResult machine_of(const BenchArguments& a) {
             .device = device.name(),
             .driver = device.driver(),
             .host = processor_name(),
-            .threads = std::thread::hardware_concurrency(),
+            .threads = parallel_threads(),
             .cpu = device.is_cpu(),
             .copy_bandwidth = copy_bandwidth(device),
             .runs = {}};
@@ -250,6 +251,7 @@ void add_bench(apps::Command program) {
     apps::add_bound_options(program, a->quality);
     program.add_option("--device", a->run.device,
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
+    apps::add_thread_option(program, a->threads);
     apps::Option json = program.add_option("--json", a->json, "Write everything that was measured to a file");
     apps::Option picture = program.add_option("--picture", a->picture, "Write the last frame to a .png file");
     program.add_flag("--no-start", a->no_start,
@@ -278,7 +280,10 @@ void add_bench(apps::Command program) {
         "  vesper-bench --compare before.json now.json\n"
         "  vesper-bench --scene street --lamps 1024 --operator ward,reinhard --size 1680x1050,2560x1600\n"
         "  vesper-bench --matrix out/growth --json out/growth/growth.json\n");
-    program.callback([a] { work(*a); });
+    program.callback([a] {
+        apps::use_threads(a->threads);
+        work(*a);
+    });
 }
 
 }  // namespace vesper::bench

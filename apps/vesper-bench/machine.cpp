@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "gpu/memory.h"
 
@@ -29,12 +30,10 @@ std::string value_in(const char* file, const std::string& key) {
     return {};
 }
 
-size_t host_threads() { return std::max(1u, std::thread::hardware_concurrency()); }
-
 /// The least time of several that all threads of the host take for work(thread, threads), ms.
 template <class Work>
 double least_ms(const Work& work) {
-    const size_t threads = host_threads();
+    const size_t threads = parallel_threads();
     double best = std::numeric_limits<double>::infinity();
     for (int i = 0; i < kTries; ++i) {
         const Stopwatch watch;
@@ -101,7 +100,7 @@ double copy_bandwidth(const gpu::Device& device) {
 
 double arithmetic_ms(uint64_t operations) {
     constexpr size_t kChains = 32;  // that do not wait for one another
-    std::vector<float> results(host_threads());
+    std::vector<float> results(parallel_threads());
     const double best = least_ms([&](size_t thread, size_t) {
         float values[kChains];
         for (size_t k = 0; k < kChains; ++k) values[k] = float(k);

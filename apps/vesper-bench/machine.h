@@ -20,8 +20,9 @@ double host_copy_bandwidth(uint64_t bytes = kCopiedBytes);
 /// That of the device. Where it is the processor, that of the host, since the command there uses one thread.
 double copy_bandwidth(const gpu::Device& device);
 
-/// Time that all threads of the host take for the same amount of arithmetic, each kArithmetic multiplications and as
-/// many additions of floats, ms, the least of several times: how fast the processor is at this hour.
+/// Time that all threads of the host (parallel_threads()) take for the same amount of arithmetic, each kArithmetic
+/// multiplications and as many additions of floats, ms, the least of several times: how fast the processor is at this
+/// hour.
 constexpr uint64_t kArithmetic = 1ull << 26;
 double arithmetic_ms(uint64_t operations = kArithmetic);
 

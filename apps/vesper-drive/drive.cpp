@@ -14,6 +14,7 @@
 #include "picture_arguments.h"
 #include "ranks.h"
 #include "scale_arguments.h"
+#include "thread_arguments.h"
 #include "windowed.h"
 
 namespace vesper::drive {
@@ -176,6 +177,7 @@ void add_drive(apps::Command program) {
         .shows_default();
     program.help_group("Speed");
     apps::add_scale_option(program, a->scale);
+    apps::add_thread_option(program, a->threads);
     program.help_group("Files");
     program.add_allow_outside();
     program.help_group("Window");
@@ -217,6 +219,7 @@ void add_drive(apps::Command program) {
         "  vesper-drive --headless --autopilot --seconds 60 --record mine.json\n"
         "  vesper-drive --headless --replay mine.json --glare cie --age 60 --video mine.mp4\n");
     program.callback_of_ranks([a, program] {
+        apps::use_threads(a->threads);
         a->settings = DriveSettings::given(program);
         if (program.count("--shadow-cache")) a->shadow_cache = program.option("--shadow-cache").results().back();
         take_messages(program, *a);

@@ -27,6 +27,7 @@ struct DriveArguments {
     double scale = 1;     ///< of each side of pictures, rendered and then enlarged
     double fps = 0;       ///< of films, 1/s; 0: the recording's own frames, or 30
     uint64_t seed = 1;
+    unsigned threads = 0;  ///< as apps::use_threads() takes it
     DriveSettings::Values settings;
     std::string shadow_cache;  ///< as apps::shadow_cache() takes it
 

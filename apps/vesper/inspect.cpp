@@ -21,6 +21,7 @@
 #include "photometry/reflection_table.h"
 #include "picture_arguments.h"
 #include "print.h"
+#include "thread_arguments.h"
 
 namespace vesper::commands {
 namespace {
@@ -137,6 +138,7 @@ void add_inspect(apps::Command program) {
                      "Scenes: luminous flux that lamps and surfaces emit, and where it goes; takes a minute or so");
     command.add_option("--device", a->device,
                        "With --lamp and --light: part of a name, cpu, or an index of vesper devices");
+    apps::add_thread_option(command, a->threads);
     command.add_option("--probe", a->probes, "Pictures: X,Y from the top left, px; may be repeated");
     command.add_option("--layer", a->layer, apps::kLayerHelp);
     command.add_option("--low", a->low, "Pictures: lower end of the colour scale, cd/m^2; with --light, lx")
@@ -153,7 +155,10 @@ void add_inspect(apps::Command program) {
         "  vesper inspect night.gltf --light light --camera driver --paths 256\n"
         "  vesper inspect night.gltf --balance\n"
         "  vesper inspect night.exr --probe 840,700 -o luminance.png\n");
-    command.callback([a] { run(*a); });
+    command.callback([a] {
+        apps::use_threads(a->threads);
+        run(*a);
+    });
 }
 
 }  // namespace vesper::commands

@@ -13,6 +13,7 @@ namespace vesper::commands {
 
 struct InspectArguments {
     std::string file, json, picture, layer, lamp, device;
+    unsigned threads = 0;      ///< as apps::use_threads() takes it
     uint32_t lamp_number = 1;  ///< of those that `lamp` names, from 1
     std::vector<std::string> probes, points;
     std::string normal;        ///< of the surfaces at the points; empty: up

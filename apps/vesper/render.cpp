@@ -8,6 +8,7 @@
 
 #include "arguments.h"
 #include "base/one_line.h"
+#include "base/parallel.h"
 #include "commands.h"
 #include "edge_arguments.h"
 #include "frame_files.h"
@@ -28,6 +29,7 @@
 #include "scene_notes.h"
 #include "shadow_arguments.h"
 #include "statistics.h"
+#include "thread_arguments.h"
 #include "tone_arguments.h"
 #include "tone_log.h"
 #include "traced_light.h"
@@ -54,7 +56,7 @@ struct RenderArguments {
     std::vector<std::string> outputs;
     std::string statistics_file, log_file, replay_file, sources_file, eye_in, eye_out;
     render::RenderSettings settings;
-    unsigned frames = 1;
+    unsigned frames = 1, threads = 0;
     double dt = 1.0 / 30, start = 0;
     bool statistics = false, plan = false;
     std::string options;  // as given
@@ -86,7 +88,8 @@ io::Header describe_frame(const RenderArguments& arguments, const gpu::Device& d
                       {"vesper:lights", std::to_string(frame.lamps)},
                       {"vesper:illuminanceThreshold", apps::digits(double(arguments.settings.clusters.threshold))},
                       {"vesper:lambert", arguments.lambert},
-                      {"vesper:device", device.name() + ", " + device.driver()}};
+                      {"vesper:device", device.name() + ", " + device.driver()},
+                      {"vesper:threads", std::to_string(parallel_threads())}};
     render::RenderSettings luminance = arguments.settings;
     luminance.display_average = false;  // of codes
     for (const io::Header& part : {apps::describe_quality(arguments.quality), apps::describe_scale(arguments.scale),
@@ -113,10 +116,11 @@ io::Header describe_codes(const RenderArguments& arguments) {
 
 void print_statistics(const RenderArguments& arguments, const gpu::Device& device, const render::Renderer& renderer,
                       const render::Frame& frame, std::vector<double> milliseconds) {
-    print("%s on %s (%s)\n", arguments.scene.c_str(), device.name().c_str(), device.driver().c_str());
-    print("%ux%u, %s, %llu triangles, %u lamps, %.0f MiB on the device\n", frame.extent.width, frame.extent.height,
-          apps::name_of(arguments.settings.tone_operator).c_str(),
-          static_cast<unsigned long long>(renderer.scene().triangles()), frame.lamps,
+    print("%s on %s (%s), %u threads of the host\n", arguments.scene.c_str(), device.name().c_str(),
+          device.driver().c_str(), parallel_threads());
+    print("%ux%u, scale %g, %s, quality %s, %llu triangles, %u lamps, %.0f MiB on the device\n", frame.extent.width,
+          frame.extent.height, arguments.scale, apps::name_of(arguments.settings.tone_operator).c_str(),
+          arguments.quality.quality.c_str(), static_cast<unsigned long long>(renderer.scene().triangles()), frame.lamps,
           double(renderer.device_bytes()) / (1 << 20));
     print("clusters: to %.0f m, at most %u lamps in a froxel, %u froxels overflowed (and looked at every lamp)\n",
           double(frame.far), frame.clusters.longest, frame.clusters.overflowed);
@@ -449,6 +453,7 @@ void add_render(apps::Command program) {
     command.help_group();
     command.add_option("--device", a->device,
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
+    apps::add_thread_option(command, a->threads);
     command.help_group("Files");
     command.add_allow_outside();
     command.help_group("Light");
@@ -483,8 +488,9 @@ void add_render(apps::Command program) {
         "  vesper render night.gltf --camera driver --size 640x400 --indirect exact --paths 64 -o exact.png\n"
         "  mkdir drive && vesper render night.gltf --camera driver --frames 300 --dt 0.0333 -o drive/%04d.png\n");
     command.callback_of_ranks([a, command] {
+        apps::use_threads(a->threads);
         a->options = apps::options_of(command, {"--output", "--log", "--glare-sources", "--eye-out", "--stats",
-                                                "--stats-json", "--plan", "--shadow-cache"});
+                                                "--stats-json", "--plan", "--shadow-cache", "--threads"});
         run(*a);
     });
 }

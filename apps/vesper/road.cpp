@@ -16,12 +16,14 @@
 #include "roads/layout_file.h"
 #include "roads/layout_scene.h"
 #include "scene/gltf_save.h"
+#include "thread_arguments.h"
 
 namespace vesper::commands {
 namespace {
 
 struct RoadArguments {
     std::string layout, csv, json, wanted, device, scene, occlusion;
+    unsigned threads = 0;
     std::vector<std::string> pictures;
     roads::LayoutOverrides overrides;
     bool grid = false;
@@ -113,6 +115,7 @@ void add_road(apps::Command program) {
         "--scene", a->scene,
         "Write the road as a scene for vesper render: OUT.gltf or OUT.glb, with a camera for each observer");
     command.add_option("--device", a->device, "Where to render: part of a name, cpu, or an index of vesper devices");
+    apps::add_thread_option(command, a->threads);
     command.add_option("--occluders", o.occluders,
                        "Trees and buildings that hide luminaires: .gltf or .glb, placed as in OUT of --scene");
     command
@@ -137,7 +140,10 @@ void add_road(apps::Command program) {
         "  vesper road data/road/worked-example.json --render road.png\n"
         "  vesper road data/road/worked-example.json --scene road.gltf && vesper render road.gltf --camera \"observer "
         "lane 1\" --glare cie -o seen.png\n");
-    command.callback([a] { run(*a); });
+    command.callback([a] {
+        apps::use_threads(a->threads);
+        run(*a);
+    });
 }
 
 }  // namespace vesper::commands

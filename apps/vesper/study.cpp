@@ -14,6 +14,7 @@
 #include "picture_arguments.h"
 #include "print.h"
 #include "ranks.h"
+#include "thread_arguments.h"
 
 namespace vesper::commands {
 namespace {
@@ -92,9 +93,11 @@ Command add_one(Command studies, const std::shared_ptr<StudyArguments>& a, const
     command.add_option("--output,-o", a->folder, "Folder of the page, its pictures, CSV and plots").required();
     command.add_option("--device", a->device,
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
+    apps::add_thread_option(command, a->threads);
     apps::add_tone_options(command, a->tone);
     command.footer("Example:\n  vesper study " + name + " " + example + "\n");
     command.callback_of_ranks([a, name, title, study] {
+        apps::use_threads(a->threads);
         while (a->folder.size() > 1 && a->folder.ends_with('/')) a->folder.pop_back();
         run(*a, name, title, study);
     });

@@ -18,6 +18,7 @@ namespace vesper::commands {
 struct StudyArguments {
     std::vector<std::string> inputs;
     std::string folder, device;
+    unsigned threads = 0;
     PictureSource source;
     double outside = 5000, inside = 50, seconds = 300;  ///< cd/m^2, s; of the tunnel
     double contrast = 0.3, minutes = 10;                ///< of the target: (Lt - Lb) / Lb; diameter, arc minutes

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/one_line.h"
+#include "base/parallel.h"
 #include "commands.h"
 #include "glare_arguments.h"
 #include "io/file_gate.h"
@@ -17,6 +18,7 @@
 #include "print.h"
 #include "progress.h"
 #include "render/tone_mapper.h"
+#include "thread_arguments.h"
 #include "tone_arguments.h"
 #include "video.h"
 
@@ -31,6 +33,7 @@ constexpr size_t kMaxPictures = 1000000;
 struct TonemapArguments {
     std::vector<std::string> inputs, outputs;
     std::string device, layer;
+    unsigned threads = 0;
     apps::ToneArguments tone;
     apps::GlareArguments glare;
     apps::ScaleArguments scale;
@@ -178,7 +181,8 @@ void write_outputs(const TonemapArguments& arguments, const render::ToneChainSet
                           {"vesper:source", one_line(job.input)},
                           {"vesper:options", arguments.options},
                           {"vesper:unit", "cd/m^2 on the display, linear Rec. 709 RGB"},
-                          {"vesper:device", device.name() + ", " + device.driver()}};
+                          {"vesper:device", device.name() + ", " + device.driver()},
+                          {"vesper:threads", std::to_string(parallel_threads())}};
         header.insert(header.end(), scale.begin(), scale.end());
         const io::Header tone = apps::describe_tone(settings, picture);
         header.insert(header.end(), tone.begin(), tone.end());
@@ -305,6 +309,7 @@ void add_tonemap(apps::Command program) {
     command.add_flag("--stats", a->statistics, "Print adaptation, glare and milliseconds of each picture");
     command.add_option("--device", a->device,
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
+    apps::add_thread_option(command, a->threads);
     apps::add_tone_options(command, a->tone);
     apps::add_glare_options(command, a->glare);
     command.footer(
@@ -313,7 +318,8 @@ void add_tonemap(apps::Command program) {
         "  vesper tonemap drive.%04d.exr --fps 60 --fov 35 -o drive.mp4\n"
         "  vesper tonemap night.exr --display hdr10 -o night-pq.png -o night-on-display.exr\n");
     command.callback([a, command] {
-        a->options = apps::options_of(command, {"--output", "--stats"});
+        apps::use_threads(a->threads);
+        a->options = apps::options_of(command, {"--output", "--stats", "--threads"});
         run(*a);
     });
 }

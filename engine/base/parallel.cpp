@@ -2,12 +2,19 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdlib>
 #include <exception>
 #include <mutex>
 #include <thread>
 #include <vector>
 
 namespace vesper {
+
+unsigned parallel_threads() {
+    const char* variable = std::getenv(kThreadsVariable);
+    const unsigned long asked = variable ? std::strtoul(variable, nullptr, 10) : 0;
+    return asked >= 1 && asked <= kMostThreads ? unsigned(asked) : std::max(std::thread::hardware_concurrency(), 1u);
+}
 
 bool in_parallel(size_t count, size_t part, const std::function<void(size_t, size_t)>& work,
                  const std::function<bool(size_t)>& progress) {
@@ -32,7 +39,7 @@ bool in_parallel(size_t count, size_t part, const std::function<void(size_t, siz
     };
     {
         std::vector<std::jthread> threads;
-        const size_t parts = (count + part - 1) / part, wanted = std::max(std::thread::hardware_concurrency(), 1u);
+        const size_t parts = (count + part - 1) / part, wanted = parallel_threads();
         try {
             for (size_t i = 1; i < std::min(parts, wanted); ++i)
                 threads.emplace_back([&step] {

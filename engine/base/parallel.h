@@ -6,6 +6,12 @@
 
 namespace vesper {
 
+constexpr const char* kThreadsVariable = "VESPER_THREADS";  ///< of the environment
+constexpr unsigned kMostThreads = 1024;
+
+/// Threads that a loop uses: as VESPER_THREADS says, 1 to kMostThreads, or one for each processor.
+unsigned parallel_threads();
+
 /// Calls work(begin, end) for parts of `count` things, of `part` each but for the last, in any order and in several
 /// threads at a time. `progress` is called now and then from this thread with the number of things done; where it
 /// returns false no more are begun, and false is returned. Throws what `work` or `progress` throws first.

@@ -53,6 +53,20 @@ TEST(Parallel, UsesOtherThreads) {
     EXPECT_EQ(threads.size(), 2u);
 }
 
+// Of the environment; what is no number of threads counts as nothing.
+TEST(Parallel, UsesAsManyThreadsAsItIsTold) {
+    const unsigned all = parallel_threads();
+    EXPECT_GE(all, 1u);
+    for (const auto& [told, threads] : {std::pair("1", 1u), {"3", 3u}, {"0", all}, {"many", all}, {"1025", all}}) {
+        setenv(kThreadsVariable, told, 1);
+        EXPECT_EQ(parallel_threads(), threads) << told;
+    }
+    setenv(kThreadsVariable, "1", 1);
+    const std::thread::id here = std::this_thread::get_id();
+    in_parallel(64, 1, [&](size_t, size_t) { EXPECT_EQ(std::this_thread::get_id(), here); });
+    unsetenv(kThreadsVariable);
+}
+
 TEST(Parallel, ProgressIsToldHereWhatIsDone) {
     const std::thread::id here = std::this_thread::get_id();
     std::atomic<size_t> done{0};

@@ -68,7 +68,7 @@ std::string short_name(const std::string& name) {
 
 /// Empty: the scene's own lamps.
 std::vector<std::string> luminaires_of(const BenchArguments& a, const std::string& scene) {
-    return scene == "street" && !a.luminaires.empty() ? a.luminaires : std::vector<std::string>{""};
+    return is_generated(scene) && !a.luminaires.empty() ? a.luminaires : std::vector<std::string>{""};
 }
 
 /// Every combination of what was listed.
@@ -109,11 +109,11 @@ std::vector<Planned> planned_runs(const BenchArguments& a) {
 
 void check_files(const BenchArguments& a) {
     for (const std::string& scene : a.scenes)
-        if (scene != "street") io::announce_read(scene);
+        if (!is_generated(scene)) io::announce_read(scene);
     for (const std::string& luminaire : a.luminaires)
         if (luminaire != "point" && luminaire != "none") io::announce_read(luminaire);
-    if (!a.luminaires.empty() && std::find(a.scenes.begin(), a.scenes.end(), "street") == a.scenes.end())
-        throw Error("--luminaire: lamps of --scene street alone can be exchanged");
+    if (!a.luminaires.empty() && std::ranges::none_of(a.scenes, is_generated))
+        throw Error("--luminaire: lamps of --scene street and town alone can be exchanged");
     if (!a.growth.empty() && !std::filesystem::is_directory(a.growth)) {
         io::announce_write("--matrix", a.growth);
         std::error_code failed;
@@ -212,25 +212,26 @@ void add_bench(apps::Command program) {
     RunSettings& s = a->run.settings;
     a->command = program;
     program
-        .add_option("--scene", a->scenes,
-                    "rivoli: the night street; rivoli-measured: with measured lamps and road; street: generated; or a "
-                    ".gltf or .glb")
+        .add_option(
+            "--scene", a->scenes,
+            "rivoli: the night street; rivoli-measured: with measured lamps and road; street, town: generated; or "
+            "a .gltf or .glb")
         .separated_by(',')
         .shows_default();
     program.add_option("--camera,-c", a->run.camera, "Name of a camera of the scene (default: the first)");
     program.add_option("--size,-s", a->sizes, "WIDTHxHEIGHT of a channel, px").separated_by(',').shows_default();
     program
-        .add_option(
-            "--lamps", a->lamps,
-            "Of the street: how many (default 256); of others: those nearest the camera at the start (default: all)")
+        .add_option("--lamps", a->lamps,
+                    "Of generated scenes: how many (default 256); of others: those nearest the camera at the start "
+                    "(default: all)")
         .separated_by(',')
         .check(apps::range(0u, scene::kMaxLamps));
     program
         .add_option("--luminaire", a->luminaires,
-                    "Of the street, in place of its spots of 1,500 cd: point (1,500 cd), none, or a file of a "
+                    "Of generated scenes, in place of their spots of 1,500 cd: point (1,500 cd), none, or a file of a "
                     "distribution (.ies, .ldt, .csv, .exr), scaled to the flux that the point sends down")
         .separated_by(',');
-    program.add_option("--triangles", a->triangles, "Of the street: at least so many")
+    program.add_option("--triangles", a->triangles, "Of generated scenes: at least so many")
         .check(apps::range(0u, 100'000'000u))
         .shows_default();
     program.add_option("--channels", a->channels, "Views in every frame, side by side")

@@ -9,6 +9,7 @@
 #include "graph/times.h"
 #include "indirect_arguments.h"
 #include "machine.h"
+#include "render/seen_triangles.h"
 #include "scene/placement.h"
 #include "shadow_arguments.h"
 
@@ -87,6 +88,18 @@ public:
         }
         if (samples) samples->add(whole.milliseconds(), host, timings);
     }
+    /// What all channels draw and see at a part of the path.
+    void count_triangles(gpu::Device& device, double part, double weight, RunResult& result) {
+        const gpu_scene::SceneFrame moment{scene::world_transforms(scene_, part * seconds_)};
+        const gpu_scene::View camera = gpu_scene::camera_view(scene_, moment, plan_.camera, plan_.extent());
+        for (const gpu_scene::View& view : channel_views(camera, plan_.settings.channels)) {
+            const render::SeenTriangles counts = render::seen_triangles(device, renderer_.scene(), moment, view);
+            result.parts.in_view += weight * double(counts.parts),
+                result.parts.seen += weight * double(counts.seen_parts);
+            result.triangles.in_view += weight * double(counts.triangles);
+            result.triangles.seen += weight * double(counts.seen_triangles);
+        }
+    }
     double seconds() const { return seconds_; }
     render::Renderer& renderer() { return renderer_; }
     render::Frame& last() { return last_; }
@@ -164,6 +177,8 @@ RunResult measure(const RunPlan& plan, const scene::Scene& scene, const std::fun
     settings.triangles = drive.renderer().scene().triangles();
     result.host_bytes = double(peak_host_bytes()), result.device_bytes = double(device.use().peak_bytes);
     result.pipelines = device.use().pipelines, result.pipelines_ms = device.use().pipeline_ms;
+    constexpr int kMoments = 4;  // along the path
+    for (int i = 0; i < kMoments; ++i) drive.count_triangles(device, double(i) / kMoments, 1.0 / kMoments, result);
     if (last) *last = std::move(drive.last());
     return result;
 }

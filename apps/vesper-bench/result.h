@@ -41,6 +41,11 @@ struct PassResult {
     double bytes() const { return bytes_read + bytes_written; }
 };
 
+/// How many of something a frame draws and sees, averages along the path; 0: not counted.
+struct Counted {
+    double in_view = 0, seen = 0;
+};
+
 /// A fresh process: how long to the first frame on the host.
 struct Start {
     std::string cache;  ///< "cold": the driver's cache of shaders was empty; "warm": it was as the cold start left it
@@ -55,6 +60,7 @@ struct RunResult {
     double low_fps = 0;               ///< of the slowest hundredth
     Spread arithmetic;  ///< of arithmetic_ms() before each lap, ms: how fast the host was then; 0: not measured
     double listed = 0, kept = 0;  ///< lamps of a block of pixels, on average: looked at, and seen; 0 without shadows
+    Counted parts, triangles;     ///< of placed meshes; of these parts
     std::array<Spread, kHostParts.size()> host;  ///< ms
     std::vector<PassResult> passes;              ///< in the order they run; empty where the device has no timestamps
     double host_bytes = 0, device_bytes = 0;     ///< peaks: resident memory of the process, allocations on the device

@@ -20,6 +20,8 @@ using Json = nlohmann::ordered_json;
 
 Json of(const Spread& s) { return {{"median", s.median}, {"low", s.low}, {"high", s.high}}; }
 
+Json of(const Counted& c) { return {{"in_view", c.in_view}, {"seen", c.seen}}; }
+
 Json of(const RunSettings& s) {
     return {{"scene", s.scene},
             {"width", s.width},
@@ -57,6 +59,8 @@ Json of(const BenchResult& result, const RunResult& run) {
             {"one_percent_low_fps", run.low_fps},
             {"arithmetic_ms", of(run.arithmetic)},
             {"lamps_of_a_block", {{"listed", run.listed}, {"kept", run.kept}}},
+            {"parts", of(run.parts)},
+            {"triangles", of(run.triangles)},
             {"host_ms", host},
             {"passes", passes},
             {"memory_bytes", {{"host_peak", run.host_bytes}, {"device_peak", run.device_bytes}}},
@@ -107,6 +111,9 @@ RunResult read_run(const JsonValue& value) {
     if (value.find("arithmetic_ms")) run.arithmetic = read_spread(value.at("arithmetic_ms"));
     if (const std::optional<JsonValue> lamps = value.find("lamps_of_a_block"))
         run.listed = amount(lamps->at("listed")), run.kept = amount(lamps->at("kept"));
+    for (const auto& [name, counted] : {std::pair("parts", &run.parts), {"triangles", &run.triangles}})
+        if (const std::optional<JsonValue> counts = value.find(name))
+            *counted = {amount(counts->at("in_view")), amount(counts->at("seen"))};
     for (size_t i = 0; i < kHostParts.size(); ++i) run.host[i] = read_spread(value.at("host_ms").at(kHostParts[i]));
     for (const JsonValue& pass : value.at("passes").elements())
         run.passes.push_back({words(pass.at("name")), read_spread(pass.at("ms")), amount(pass.at("bytes_read")),

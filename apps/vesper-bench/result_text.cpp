@@ -79,6 +79,9 @@ std::string text_of(const BenchResult& result, const RunResult& run) {
     if (run.listed > 0)
         text +=
             format("lamps     of a block of 8x8 px: %.1f on its list, of which it sees %.1f\n", run.listed, run.kept);
+    if (run.parts.in_view > 0)
+        text += format("drawn     %.0f parts in view, %.0f of them seen; %.0f triangles, %.0f of them seen\n",
+                       run.parts.in_view, run.parts.seen, run.triangles.in_view, run.triangles.seen);
     text += "host, ms ";
     for (size_t i = 0; i < kHostParts.size(); ++i)
         text += format(" %s %.2f", kHostParts[i], run.host[i].median) + (i + 1 < kHostParts.size() ? "," : "\n");
@@ -113,6 +116,9 @@ std::string markdown_of(const BenchResult& result) {
             text += "| arithmetic on all threads, before each lap | " + with_spread(run.arithmetic, " ms") + " |\n";
         if (run.listed > 0)
             text += format("| lamps on the list of a block, seen by it | %.1f, %.1f |\n", run.listed, run.kept);
+        if (run.parts.in_view > 0)
+            text += format("| parts in view, seen; triangles in view, seen | %.0f, %.0f; %.0f, %.0f |\n",
+                           run.parts.in_view, run.parts.seen, run.triangles.in_view, run.triangles.seen);
         text += format("| 5, 95 and 99 %% of the frames | %.1f, %.1f, %.1f ms |\n", run.p5, run.p95, run.p99);
         text += format("| frames per second (slowest 1 %%) | %.1f (%.1f) |\n", run.fps, run.low_fps);
         text += format("| recording and submission on the host | %.2f ms, %.2f ms |\n", run.host[3].median,

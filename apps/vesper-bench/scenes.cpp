@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint32_t kStreetLamps = 256;
+constexpr uint32_t kGeneratedLamps = 256;
 
 }  // namespace
 
@@ -39,7 +39,7 @@ std::string Scenes::folder(const std::string& name) const {
 }
 
 void Scenes::prepare(const std::string& name) {
-    if (name == "street" || files_.contains(name)) return;
+    if (is_generated(name) || files_.contains(name)) return;
     if (name == "rivoli" || name == "rivoli-measured") {
         const fs::path data = apps::own_data() / "rivoli";
         files_[name] = folder_ + "/" + name + ".glb";
@@ -50,18 +50,22 @@ void Scenes::prepare(const std::string& name) {
         files_[name] = name;
     } else {
         throw Error("--scene " + one_line(name) +
-                    ": rivoli, rivoli-measured, street or a .gltf or .glb file is expected");
+                    ": rivoli, rivoli-measured, street, town or a .gltf or .glb file is expected");
     }
 }
 
 scene::Scene Scenes::load(const std::string& name, uint32_t lamps, uint64_t triangles, const std::string& luminaire,
                           const std::string& camera) const {
-    if (name == "street") return lamp_street(lamps != kOwnLamps ? lamps : kStreetLamps, triangles, luminaire);
+    if (is_generated(name))
+        return (name == "town" ? lamp_town : lamp_street)(lamps != kOwnLamps ? lamps : kGeneratedLamps, triangles,
+                                                          luminaire);
     scene::Scene scene = scene::read_gltf(files_.at(name)).scene;
     const gpu_scene::View view = gpu_scene::camera_view(scene, {scene::world_transforms(scene, 0)}, camera, {1, 1});
     if (lamps != kOwnLamps) keep_nearest_lamps(scene, glm::vec3(gpu_scene::eye_of(view)), lamps);
     return scene;
 }
+
+bool is_generated(const std::string& name) { return name == "street" || name == "town"; }
 
 void keep_nearest_lamps(scene::Scene& scene, glm::vec3 eye, uint32_t count) {
     const std::vector<glm::dmat4> world = scene::world_transforms(scene, 0);

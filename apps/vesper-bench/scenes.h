@@ -12,7 +12,7 @@ namespace vesper::bench {
 inline constexpr uint32_t kOwnLamps = ~0u;  ///< as many as a scene has
 
 /// The scenes of a benchmark by name: "rivoli", the night street; "rivoli-measured", the same with measured lamps and
-/// road; "street", generated; or a glTF file. Converted files live as long as this, in a temporary folder.
+/// road; "street" and "town", generated; or a glTF file. Converted files live as long as this, in a temporary folder.
 class Scenes {
 public:
     Scenes();
@@ -22,9 +22,9 @@ public:
 
     /// Converts what has to be. Throws Error.
     void prepare(const std::string& name);
-    /// Reads or generates one that was prepared, from its file on. `lamps`: of the street, how many, 256 if kOwnLamps;
-    /// of others, those nearest the camera at the start of its path, all if kOwnLamps. `triangles`: of the street, at
-    /// least; `luminaire`: of the street (street.h). Throws Error.
+    /// Reads or generates one that was prepared, from its file on. `lamps`: of generated ones, how many, 256 if
+    /// kOwnLamps; of others, those nearest the camera at the start of its path, all if kOwnLamps. `triangles`: of
+    /// generated ones, at least; `luminaire`: likewise (street.h). Throws Error.
     scene::Scene load(const std::string& name, uint32_t lamps, uint64_t triangles, const std::string& luminaire,
                       const std::string& camera) const;
 
@@ -35,6 +35,9 @@ private:
     std::string folder_;
     std::map<std::string, std::string> files_;  // by name of the scene
 };
+
+/// Whether a scene is made here.
+bool is_generated(const std::string& name);
 
 /// Takes the light from all lamps but the `count` nearest to `eye` at the start; the first of equals stay. Throws Error
 /// if there are fewer.

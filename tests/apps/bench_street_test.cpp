@@ -106,6 +106,41 @@ TEST(BenchStreet, LampsCanBeOfAnotherKind) {
     EXPECT_THROW(lamp_street(64, 0, "nowhere.ies"), Error);
 }
 
+// Lamps stand in the streets of the square kilometre, as many and as evenly as that goes.
+TEST(BenchTown, HasItsLampsInTheStreetsOfASquareKilometre) {
+    for (const uint32_t lamps : {1u, 256u, 4096u}) {
+        const scene::Scene scene = bench::lamp_town(lamps, 20000);
+        EXPECT_EQ(lamps_of(scene), lamps);
+        EXPECT_GE(triangles_of(scene), 20000u);
+        const auto world = scene::world_transforms(scene, 0);
+        double left = 0;
+        for (size_t i = 0; i < scene.nodes.size(); ++i) {
+            if (scene.nodes[i].lamp == scene::kNone) continue;
+            const glm::dvec3 at(world[i][3]);
+            EXPECT_LE(std::max(std::abs(at.x), std::abs(at.z)), 500);
+            EXPECT_EQ(at.y, 6.5);
+            // Houses are 86 m wide, and their middles 100 m apart, from -450 m on.
+            const auto from_middle = [](double v) { return std::abs(std::fmod(v + 500, 100) - 50); };
+            EXPECT_NEAR(std::max(from_middle(at.x), from_middle(at.z)), 44, 1e-3) << at.x << " " << at.z;
+            left += at.x < 0 ? 1 : 0;
+        }
+        if (lamps > 1) {
+            EXPECT_NEAR(left / lamps, 0.5, 0.05);
+        }
+    }
+    EXPECT_EQ(lamps_of(bench::lamp_town(64, 0, "none")), 0u);
+}
+
+// The eye drives along the street in the middle and never into a house.
+TEST(BenchTown, TheEyeStaysInItsStreet) {
+    const scene::Scene scene = bench::lamp_town(4, 0);
+    for (double seconds = 0; seconds <= 10; seconds += 0.5) {
+        const glm::dvec3 at(scene::world_transforms(scene, seconds).back()[3]);
+        EXPECT_NEAR(at.x, 1.75, 1e-5);
+        EXPECT_NEAR(at.z, 150 - seconds * 50 / 3.6, 1e-3);
+    }
+}
+
 TEST(BenchScenes, TheNearestLampsStay) {
     scene::Scene scene = lamp_street(64, 0);
     bench::keep_nearest_lamps(scene, {0, 6.5f, -120}, 6);

@@ -44,6 +44,7 @@ bench::RunResult made_up_run(uint32_t lamps, double scale) {
     run.frame = {10 * scale, 9 * scale, 12 * scale};
     run.p5 = 8 * scale, run.p95 = 13 * scale, run.p99 = 14 * scale, run.low_fps = 70 / scale;
     run.arithmetic = {5, 4, 6}, run.listed = 20, run.kept = 10;
+    run.parts = {30, 12}, run.triangles = {2000, 700};
     for (size_t i = 0; i < run.host.size(); ++i)
         run.host[i] = {double(i) * scale, double(i) * scale, double(i) * scale};
     run.passes = {{"shade", {4 * scale, 3 * scale, 5 * scale}, 3e6, 1e6}, {"composite", {1, 1, 1}, 2e6, 2e6}};
@@ -77,6 +78,13 @@ TEST_F(BenchProgram, ReadsWhatItWrites) {
     // 4 MB in 4 ms are an eighth of 8 GB/s.
     EXPECT_NEAR(json["runs"][0]["passes"][0]["copy_fraction"].get<double>(), 0.125, 1e-12);
     EXPECT_EQ(json["runs"][0]["host_ms"]["wait"]["median"], 5);
+    EXPECT_EQ(json["runs"][0]["triangles"]["seen"], 700);
+    EXPECT_EQ(json["runs"][0]["settings"]["quality"], "standard");
+    // Older files have neither.
+    nlohmann::json old = json;
+    for (const char* member : {"parts", "triangles"}) old["runs"][0].erase(member);
+    old["runs"][0]["settings"].erase("quality");
+    EXPECT_EQ(bench::read_result(put("old.json", old.dump())).runs[0].triangles.seen, 0);
 }
 
 TEST_F(BenchProgram, ComparesTwoFiles) {
@@ -236,6 +244,11 @@ TEST_F(BenchProgram, DrivesASmallStreet) {
     EXPECT_GT(r.arithmetic.low, 0);
     EXPECT_GT(r.listed, 0);
     EXPECT_LE(r.kept, r.listed);
+    EXPECT_GT(r.triangles.seen, 0);
+    EXPECT_LE(r.triangles.seen, r.triangles.in_view);
+    EXPECT_LE(r.triangles.in_view, 2 * double(r.settings.triangles)) << "of two channels";
+    EXPECT_LE(r.parts.seen, r.parts.in_view);
+    EXPECT_NE(printed.find(" of them seen"), std::string::npos) << printed;
     EXPECT_FALSE(result.device.empty() || result.driver.empty() || result.host.empty() || result.version.empty());
     EXPECT_LE(r.p5, r.frame.median);
     EXPECT_LE(r.frame.median, r.p95);

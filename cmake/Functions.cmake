@@ -2,7 +2,8 @@
 #   Compiles each shader of glsl/ to SPIR-V and links it into <target> as an array. The array is named after the file
 #   without its folder, its include file after both: glsl/sky/sky.comp becomes the array sky_comp, to be included from
 #   <shaders/sky/sky.comp.inc>. Shaders include files of glsl/ by their path in it, files of their own folder by their
-#   name. Rebuilt when a shader, or anything it includes, changes.
+#   name. Rebuilt when a shader, or anything it includes, changes. A shader that includes texels.glsl is compiled once
+#   more, with STORAGE_TEXELS: sky_comp_storage of <shaders/sky/sky.comp.storage.inc>.
 find_program(VESPER_GLSLANG NAMES glslang glslangValidator REQUIRED)
 
 function(vesper_embed_shaders target)
@@ -11,17 +12,31 @@ function(vesper_embed_shaders target)
         get_filename_component(folder ${name} DIRECTORY)
         string(MAKE_C_IDENTIFIER ${file} symbol)
         set(source ${PROJECT_SOURCE_DIR}/glsl/${name})
-        set(made ${CMAKE_CURRENT_BINARY_DIR}/shaders/${name}.inc)
         file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/shaders/${folder})
-        add_custom_command(
-            OUTPUT ${made}
-            DEPENDS ${source}
-            DEPFILE ${made}.d
-            COMMAND ${VESPER_GLSLANG} --quiet --target-env vulkan1.3 -I${PROJECT_SOURCE_DIR}/glsl
-                    -I${CMAKE_CURRENT_BINARY_DIR}/operators --vn ${symbol} --depfile ${made}.d -o ${made} ${source}
-            COMMENT "Shader ${name}"
-            VERBATIM)
-        target_sources(${target} PRIVATE ${made})
+        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
+        file(STRINGS ${source} texels REGEX "#include \"texels.glsl\"")
+        set(variants ".")
+        if(texels)
+            list(APPEND variants ".storage.")
+        endif()
+        foreach(variant IN LISTS variants)
+            set(made ${CMAKE_CURRENT_BINARY_DIR}/shaders/${name}${variant}inc)
+            set(array ${symbol})
+            set(define)
+            if(variant STREQUAL ".storage.")
+                set(array ${symbol}_storage)
+                set(define -DSTORAGE_TEXELS)
+            endif()
+            add_custom_command(
+                OUTPUT ${made}
+                DEPENDS ${source}
+                DEPFILE ${made}.d
+                COMMAND ${VESPER_GLSLANG} --quiet --target-env vulkan1.3 ${define} -I${PROJECT_SOURCE_DIR}/glsl
+                        -I${CMAKE_CURRENT_BINARY_DIR}/operators --vn ${array} --depfile ${made}.d -o ${made} ${source}
+                COMMENT "Shader ${name}"
+                VERBATIM)
+            target_sources(${target} PRIVATE ${made})
+        endforeach()
     endforeach()
     target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
 endfunction()

@@ -16,9 +16,9 @@ float area_left_of(vec2 a, vec2 b) {
 // Covered part of the pixel whose corner lies at `corner` from the silhouette's origin.
 float coverage(vec2 corner, int first, int vertices) {
     float area = 0.0;
-    vec2 a = texelFetch(silhouettes, first + max(vertices, 1) - 1).xy - corner, low = vec2(1e30), high = vec2(-1e30);
+    vec2 a = texel_at(silhouettes, first + max(vertices, 1) - 1).xy - corner, low = vec2(1e30), high = vec2(-1e30);
     for (int i = 0; i < vertices; ++i) {
-        const vec2 b = texelFetch(silhouettes, first + i).xy - corner;
+        const vec2 b = texel_at(silhouettes, first + i).xy - corner;
         area += area_left_of(a, b);
         low = min(low, b), high = max(high, b);
         a = b;

@@ -12,7 +12,7 @@ vec2 middle;               // the pixel sees along (middle, -1)
 // A corner from the middle of the pixel, px, times its depth; and its depth, m.
 vec3 corner(uint vertex) {
     const int at = int(vertex * kTexelsPerVertex);
-    const vec4 p = vec4(texelFetch(vertices, at).xy, texelFetch(vertices, at + 1).x, 1.0);
+    const vec4 p = vec4(texel_at(vertices, at).xy, texel_at(vertices, at + 1).x, 1.0);
     const float depth = -dot(row_z, p);
     return vec3((vec2(dot(row_x, p), dot(row_y, p)) - middle * depth) / push.ray_scale, depth);
 }
@@ -37,9 +37,9 @@ struct SeenFacet {
 // The facet of the triangle (of GBuffer::triangle) that the middle `there` px away sees.
 SeenFacet facet_of(uvec2 triangle, vec2 there) {
     const int row = int((triangle.r - 1u) * kTexelsPerInstance);
-    row_x = texelFetch(instances, row), row_y = texelFetch(instances, row + 1), row_z = texelFetch(instances, row + 2);
-    const vec4 kind = texelFetch(instances, row + 3);
-    const uvec4 others = texelFetch(facets, int(triangle.g));
+    row_x = texel_at(instances, row), row_y = texel_at(instances, row + 1), row_z = texel_at(instances, row + 2);
+    const vec4 kind = texel_at(instances, row + 3);
+    const uvec4 others = texel_at(facets, int(triangle.g));
     const vec3 a = corner(triangle.g), b = corner(others.x), c = corner(others.y), d = corner(others.z);
     const float front = dot(c, cross(a, b)) + dot(d, cross(a, c)) < 0.0 ? -1.0 : 1.0;
     const vec3 ab = front * line(a, b), bc = front * line(b, c), da = front * line(d, a);

@@ -1,4 +1,4 @@
-// Lamps of any kind: fetched, and evaluated in a direction. Needs `samplerBuffer lamps`, `samplerBuffer tables` and the constants
+// Lamps of any kind: fetched, and evaluated in a direction. Needs TEXELS lamps, TEXELS tables and the constants
 // kPowers and kTables.
 
 #include "tables.glsl"
@@ -21,10 +21,10 @@ struct FetchedLamp {
 // `tables_from`: index of the first measured lamp.
 FetchedLamp fetch(uint index, bool cone, uint tables_from) {
     const int texel = int(index * kTexelsPerLamp);
-    const vec4 a = texelFetch(lamps, texel), c = texelFetch(lamps, texel + 2);
+    const vec4 a = texel_at(lamps, texel), c = texel_at(lamps, texel + 2);
     vec4 b = vec4(0.0), d = vec4(0.0), e = vec4(0.0), f = vec4(0.0);
-    if (cone || kPowers != 0u) b = texelFetch(lamps, texel + 1);
-    if (!cone && kTables != 0u) d = texelFetch(lamps, texel + 3), e = texelFetch(lamps, texel + 4), f = texelFetch(lamps, texel + 5);
+    if (cone || kPowers != 0u) b = texel_at(lamps, texel + 1);
+    if (!cone && kTables != 0u) d = texel_at(lamps, texel + 3), e = texel_at(lamps, texel + 4), f = texel_at(lamps, texel + 5);
     return FetchedLamp(a.xyz, a.w, b.xyz, b.w, c.rgb, c.w, kPowers == 0u || index >= tables_from,
                 d.xyz, turn_of(d.xyz, e.xyz, e.w), e.xyz, d.w, abs(e.w), f);
 }

@@ -1,5 +1,5 @@
 // Whether a lamp may give the threshold somewhere in a volume: what may be said without looking at single points. Needs
-// `samplerBuffer lamps`, `samplerBuffer tables` and the constants kPowers and kTables.
+// TEXELS lamps, TEXELS tables and the constants kPowers and kTables.
 
 #include "tables.glsl"
 #include "shared/cluster.h"
@@ -49,14 +49,14 @@ float largest_table(vec3 to, vec2 cosines, vec4 start_table, vec4 pole_last, flo
     const int first = around ? 0 : int(sector), more = around ? int(kSectors) - 1 : min(int(sector + sectors) - first, int(kSectors) - 1);
     const int ring = window_of(int(rings.x), int(rings.y) - int(rings.x), int(kRings)), column = window_of(first & int(kSectors) - 1, more, int(kSectors));
     const int value = ring * int(3u * kSectors) + column;
-    const vec4 four = texelFetch(tables, int(start_table.w) - int(kWindowTexels) + (value >> 2));
+    const vec4 four = texel_at(tables, int(start_table.w) - int(kWindowTexels) + (value >> 2));
     const float even = (value & 2) == 0 ? four.x : four.z, odd = (value & 2) == 0 ? four.y : four.w;
     return (value & 1) == 0 ? even : odd;
 }
 
 // Largest intensity towards the sphere, cd, of the lamp that begins with texel `at`, which is `a`.
 float largest_intensity(int at, vec4 a, bool cone, bool measured, vec3 centre, float radius) {
-    const vec4 b = texelFetch(lamps, at + (measured ? 3 : 1)), c = texelFetch(lamps, at + (measured ? 4 : 2));
+    const vec4 b = texel_at(lamps, at + (measured ? 3 : 1)), c = texel_at(lamps, at + (measured ? 4 : 2));
     const vec2 cosines = cosines_to(a.xyz, measured ? c.xyz : b.xyz, centre, radius);
     float relative = largest_cone(b.w, c.w, cosines.x);
     if (kPowers != 0u) relative = cone ? relative : largest_power(b.w, cosines.x);

@@ -1,4 +1,4 @@
-// Roads with a table (shared/tables.h). Needs `samplerBuffer tables`.
+// Roads with a table (shared/tables.h). Needs TEXELS tables.
 
 #include "tables.glsl"
 #include "sheen.glsl"
@@ -14,7 +14,7 @@ struct Road {
 // `metallic` of the G-buffer tells the table. `roads`: texel of the first table's head.
 Road road_at(float metallic, vec3 normal, vec3 toward_eye, uint roads) {
     const bool paved = metallic <= kRoadKind;
-    const vec4 head = texelFetch(tables, int(roads) + (paved ? int(-1.0 - metallic) : 0));
+    const vec4 head = texel_at(tables, int(roads) + (paved ? int(-1.0 - metallic) : 0));
     const float sine = dot(normal, toward_eye);
     const vec2 last_cell = round(vec2(head.x * head.y, head.z * kPi)) - 0.5;
     const float plain = 0.5 * kPi * head.z, cell = floor(min(plain, last_cell.y));
@@ -31,7 +31,7 @@ float road_coefficient(Road road, vec3 to, float inverse, float normal_lamp) {
     const vec2 at = vec2(t * road.tan_cells, arccos(cos_beta) * road.beta_cells);
     const vec2 cell = floor(min(at, road.last_cell));
     const float row = road.first_cell + cell.x * (road.last_cell.y + 0.5);
-    const float shown = interpolate(texelFetch(tables, int(row + cell.y)), at.x - cell.x, at.y - cell.y);
-    const float plain = interpolate(texelFetch(tables, int(row + road.plain.x)), at.x - cell.x, road.plain.y);
+    const float shown = interpolate(texel_at(tables, int(row + cell.y)), at.x - cell.x, at.y - cell.y);
+    const float plain = interpolate(texel_at(tables, int(row + road.plain.x)), at.x - cell.x, road.plain.y);
     return mix(plain, shown, road.sheen) * (1.0 + t * t);
 }

@@ -1,4 +1,4 @@
-// Reads measured intensities and road surfaces (shared/tables.h). Needs `samplerBuffer tables`.
+// Reads measured intensities and road surfaces (shared/tables.h). Needs TEXELS tables.
 
 #ifndef VESPER_TABLES_GLSL
 #define VESPER_TABLES_GLSL
@@ -35,7 +35,7 @@ vec3 turn_of(vec3 start, vec3 pole, float last_azimuth) { return last_azimuth < 
 float table_intensity(vec3 d, float inverse, vec4 grid, float first, vec2 last, out vec2 at) {
     at = vec2(azimuth_of(d.xy), arccos(d.z * inverse)) * grid.xz + grid.yw;
     const vec2 cell = floor(clamp(at, vec2(0.0), last));
-    const vec4 corners = texelFetch(tables, int(first + cell.x * (last.y + 1.0) + cell.y));
+    const vec4 corners = texel_at(tables, int(first + cell.x * (last.y + 1.0) + cell.y));
     return interpolate(corners, at.x - cell.x, at.y - cell.y);
 }
 

@@ -1,5 +1,5 @@
-// Whether a lamp sees a point of a surface (shared/distance_map.h). Needs `samplerBuffer maps`, two texels per lamp, and
-// `samplerBuffer distances`.
+// Whether a lamp sees a point of a surface (shared/distance_map.h). Needs TEXELS maps, two texels per lamp, and
+// HALVES distances.
 
 #include "shared/distance_map.h"
 
@@ -20,7 +20,7 @@ mat3 rotation_of(vec4 q) {
 }
 
 FetchedMap fetch_map(uint lamp) {
-    const vec4 q = texelFetch(maps, int(lamp * kMapTexels)), b = texelFetch(maps, int(lamp * kMapTexels) + 1);
+    const vec4 q = texel_at(maps, int(lamp * kMapTexels)), b = texel_at(maps, int(lamp * kMapTexels) + 1);
     return FetchedMap(rotation_of(q), int(b.x) * int(kMapUnit), int(abs(b.y)), abs(b.z), b.z < 0.0, b.y < 0.0 ? 0.0 : 1.0, b.w, 1.0 / max(abs(b.y * b.z), 1.0) + kMapRounding);
 }
 
@@ -58,7 +58,7 @@ MapPoint map_point(FetchedMap map, vec3 from, vec3 normal) {
 // no farther from the point than surfaces bend within a few texels.
 float way_along(FetchedMap map, MapPoint p, ivec2 texel, out bool sees) {
     const ivec2 at = clamp(texel, ivec2(0), ivec2(map.side - 1));
-    const float seen = texelFetch(distances, p.first + at.y * map.side + at.x).r;
+    const float seen = half_at(distances, p.first + at.y * map.side + at.x);
     const float inverse = clamp(dot(p.plane.xy, vec2(at) + 0.5) + p.plane.z, 0.5 / p.norm, 2.0 / p.norm);
     sees = (seen + kMapBias + map.bias * p.norm) * inverse >= 1.0;
     return seen * inverse;

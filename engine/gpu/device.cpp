@@ -159,7 +159,10 @@ std::vector<std::string> list_devices() {
 }
 
 Device::Device(const DeviceOptions& options)
-    : as_gpu_(options.as_gpu), on_message_(options.on_message), presentation_(options.presentation) {
+    : as_gpu_(options.as_gpu),
+      as_least_(options.as_least),
+      on_message_(options.on_message),
+      presentation_(options.presentation) {
     try {
         open_instance(options.validation);
         const char* variable = std::getenv("VESPER_DEVICE");
@@ -191,7 +194,7 @@ Device::Device(const BorrowedDevice& given)
                      [&](const VkDeviceQueueCreateInfo& q) { return q.queueFamilyIndex == queue_family_; }))
         throw Error(name() + ", as it was made, has no queue for graphics and compute of family " +
                     std::to_string(queue_family_));
-    learn(filters_along(*given.created_with));
+    learn(filters_along(*given.created_with), pushes_descriptors(*given.created_with));
 }
 
 Device::~Device() { close(); }
@@ -272,11 +275,15 @@ void Device::choose(const std::string& select) {
     if (!physical_) throw Error("no usable Vulkan device: " + refused);
 }
 
-void Device::learn(bool filters_along) {
+void Device::learn(bool filters_along, bool pushes_descriptors) {
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
-    VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceSubgroupProperties subgroup{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+    VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES,
+                                            .pNext = &subgroup};
     VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
     vkGetPhysicalDeviceProperties2(physical_, &properties);
+    subgroup_size_ = subgroup.subgroupSize;
+    if (as_least_) properties_.limits.maxTexelBufferElements = kLeastTexelBuffer;
     driver_ = std::string(driver.driverName) + " " + driver.driverInfo;
     uint32_t families = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical_, &families, nullptr);
@@ -286,6 +293,7 @@ void Device::learn(bool filters_along) {
     timestamp_mask_ = bits >= 64 ? ~uint64_t{0} : (uint64_t{1} << bits) - 1;
     // Filtering along eight samples costs a CPU device 130 ms a frame; it goes without.
     has_anisotropy_ = filters_along && !is_cpu();
+    if (!pushes_descriptors) return;
     push_descriptors =
         reinterpret_cast<PFN_vkCmdPushDescriptorSetKHR>(vkGetDeviceProcAddr(device_, "vkCmdPushDescriptorSetKHR"));
 }
@@ -301,7 +309,9 @@ void Device::open_device() {
     VkPhysicalDeviceVulkan12Features f12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &f13};
     VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &f12};
     enable_features(physical_, features);
-    std::vector<const char*> extensions(kDeviceExtensions.begin(), kDeviceExtensions.end());
+    std::vector<const char*> extensions;
+    for (const char* extension : kDeviceExtensions)
+        if (!as_least_ && has_extension(physical_, extension)) extensions.push_back(extension);
     if (presentation_) {
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
         has_hdr_metadata_ = has_extension(physical_, VK_EXT_HDR_METADATA_EXTENSION_NAME);
@@ -315,7 +325,13 @@ void Device::open_device() {
                                   .ppEnabledExtensionNames = extensions.data()};
     check(vkCreateDevice(physical_, &info, nullptr, &device_), "opening " + name());
     vkGetDeviceQueue(device_, queue_family_, 0, &queue_);
-    learn(features.features.samplerAnisotropy);
+    learn(features.features.samplerAnisotropy, pushes_descriptors(info));
+}
+
+bool Device::has_long_texel_buffers() const { return limits().maxTexelBufferElements >= kLongTexelBuffer; }
+
+uint64_t Device::most_texels(uint64_t bytes) const {
+    return has_long_texel_buffers() ? limits().maxTexelBufferElements : limits().maxStorageBufferRange / bytes;
 }
 
 uint32_t Device::memory_type(uint32_t allowed, VkMemoryPropertyFlags required, VkMemoryPropertyFlags preferred) const {

@@ -62,6 +62,7 @@ struct Presentation {
 struct DeviceOptions {
     std::string select;       ///< part of a name, "cpu", or an index; empty: VESPER_DEVICE, else the best there is
     bool as_gpu = false;      ///< use a CPU device as a GPU is used: what tests do where there is none
+    bool as_least = false;    ///< use no extension and short texel buffers, as of a device that has no more: for tests
     bool validation = false;  ///< core, synchronization and best-practice-free checks of the Khronos layer
     std::function<void(const std::string&)> on_message;  ///< called for every validation message
     std::optional<Presentation>
@@ -111,6 +112,12 @@ public:
     const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
     bool is_cpu() const { return !as_gpu_ && properties_.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU; }
     bool borrowed() const { return borrowed_; }
+    /// Whether eight invocations of a CPU device are taken side by side (glsl/lanes.glsl).
+    bool has_lockstep() const { return is_cpu() && subgroup_size_ >= 8; }
+    /// Whether buffers of any size can be read as texels; otherwise kernels read storage buffers (gpu/kernel_cache.h).
+    bool has_long_texel_buffers() const;
+    /// How many elements of `bytes` each a buffer that kernels read as texels may have.
+    uint64_t most_texels(uint64_t bytes) const;
     bool has_timestamps() const { return timestamp_mask_ != 0; }
     uint64_t timestamp_mask() const { return timestamp_mask_; }  ///< the bits that its queue counts with
     bool has_anisotropy() const { return has_anisotropy_; }
@@ -132,7 +139,7 @@ public:
     void wait(VkFence fence) const;
     void settle(VkFence fence) const noexcept;  ///< waits too, as well as it can without memory
 
-    PFN_vkCmdPushDescriptorSetKHR push_descriptors = nullptr;
+    PFN_vkCmdPushDescriptorSetKHR push_descriptors = nullptr;  ///< null where the device was made without
 
 private:
     bool borrowed_ = false;
@@ -148,7 +155,8 @@ private:
     VkPhysicalDeviceMemoryProperties memory_{};
     mutable DeviceUse use_;
     std::string driver_;
-    bool as_gpu_ = false;
+    bool as_gpu_ = false, as_least_ = false;
+    uint32_t subgroup_size_ = 0;
     std::function<void(const std::string&)> on_message_;
     std::optional<Presentation> presentation_;
     std::function<void()> lock_, unlock_;
@@ -158,7 +166,7 @@ private:
     void open_instance(bool validation);
     void choose(const std::string& select);
     void open_device();
-    void learn(bool filters_along);
+    void learn(bool filters_along, bool pushes_descriptors);
     void close() noexcept;
 
     mutable std::unique_ptr<CommandBuffer>

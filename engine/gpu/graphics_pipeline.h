@@ -46,6 +46,7 @@ public:
 
     VkPipeline pipeline() const { return pipeline_.get(); }
     VkPipelineLayout layout() const { return layout_.get(); }
+    VkDescriptorSetLayout set_layout() const { return set_.get(); }
 
 private:
     OwnedSetLayout set_;

@@ -16,8 +16,10 @@ OwnedSetLayout make_set_layout(const Device& device, std::span<const VkDescripto
     for (const VkDescriptorType type : types)
         bindings.push_back(
             {.binding = uint32_t(bindings.size()), .descriptorType = type, .descriptorCount = 1, .stageFlags = stages});
+    const VkDescriptorSetLayoutCreateFlags flags =
+        device.push_descriptors ? VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR : 0;
     const VkDescriptorSetLayoutCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
-                                               .flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR,
+                                               .flags = flags,
                                                .bindingCount = uint32_t(bindings.size()),
                                                .pBindings = bindings.data()};
     VkDescriptorSetLayout layout = VK_NULL_HANDLE;

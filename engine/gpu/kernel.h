@@ -31,7 +31,7 @@ private:
 };
 
 OwnedShaderModule make_shader(const Device& device, std::span<const uint32_t> spirv);
-/// A layout of push descriptors, binding i of kind types[i].
+/// The layout of a set, binding i of kind types[i]; of push descriptors where the device has them (gpu/descriptors.h).
 OwnedSetLayout make_set_layout(const Device& device, std::span<const VkDescriptorType> types,
                                VkShaderStageFlags stages);
 OwnedPipelineLayout make_pipeline_layout(const Device& device, VkDescriptorSetLayout set, uint32_t push_bytes,
@@ -58,6 +58,7 @@ public:
 
     VkPipeline pipeline() const { return pipeline_.get(); }
     VkPipelineLayout layout() const { return layout_.get(); }
+    VkDescriptorSetLayout set_layout() const { return set_.get(); }
 
 private:
     OwnedSetLayout set_;

@@ -15,6 +15,9 @@ namespace vesper::gpu {
 struct Shader {
     const char* name;                 ///< of its file, for messages
     std::span<const uint32_t> spirv;  ///< must outlive the caches that know it
+    /// The same where texel buffers are storage buffers (glsl/texels.glsl), which devices with short texel buffers are
+    /// given; empty: there are none, or short ones.
+    std::span<const uint32_t> storage = {};
 };
 
 /// Makes each kernel when it is first asked for, and keeps it. Not thread-safe.

@@ -33,6 +33,8 @@ constexpr FeatureField kAnisotropy = in_core(offsetof(VkPhysicalDeviceFeatures, 
 constexpr VkStructureType k12 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
                           k13 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
 
+constexpr uint32_t kStorageBuffers = 16;  // shade.comp takes 15 where its texels are in storage buffers
+
 constexpr Feature kFeatures[] = {
     {"independentBlend", {kIndependentBlend, kIndependentBlend}},
     {"shaderClipDistance", {kClipDistance, kClipDistance}},
@@ -108,10 +110,12 @@ std::string missing_support(VkPhysicalDevice device) {
     vkGetPhysicalDeviceProperties2(device, &more);
     if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) ||
         !(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_VOTE_BIT) ||
-        !(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) || subgroup.subgroupSize < 8)
-        list(names, "subgroups of at least 8 with votes and arithmetic in compute shaders");
-    for (const char* extension : kDeviceExtensions)
-        if (!has_extension(device, extension)) list(names, extension);
+        !(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT))
+        list(names, "subgroups with votes and arithmetic in compute shaders");
+    if (properties.limits.maxTexelBufferElements < kLongTexelBuffer &&
+        properties.limits.maxPerStageDescriptorStorageBuffers < kStorageBuffers)
+        list(names, "texel buffers of " + std::to_string(kLongTexelBuffer) + " elements or " +
+                        std::to_string(kStorageBuffers) + " storage buffers per shader stage");
     uint32_t families = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(device, &families, nullptr);
     uint32_t family = 0;
@@ -126,11 +130,6 @@ std::string missing_of(const VkDeviceCreateInfo& info, uint32_t version) {
         list(names,
              "Vulkan " + version_text(kVulkanVersion) + " (its instance was made for " + version_text(version) + ")");
     if (const std::string features = missing_features(MadeWith(info).chain()); !features.empty()) list(names, features);
-    const std::span<const char* const> enabled(info.ppEnabledExtensionNames, info.enabledExtensionCount);
-    for (const char* extension : kDeviceExtensions)
-        if (std::none_of(enabled.begin(), enabled.end(),
-                         [&](const char* name) { return std::strcmp(name, extension) == 0; }))
-            list(names, extension);
     return names;
 }
 
@@ -149,6 +148,12 @@ bool filters_along(const VkDeviceCreateInfo& info) {
     const MadeWith made(info);
     const VkBool32* on = find(made.chain(), {&kAnisotropy, 1});
     return on && *on;
+}
+
+bool pushes_descriptors(const VkDeviceCreateInfo& info) {
+    const std::span<const char* const> enabled(info.ppEnabledExtensionNames, info.enabledExtensionCount);
+    return std::ranges::any_of(
+        enabled, [](const char* name) { return std::strcmp(name, VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME) == 0; });
 }
 
 bool has_extension(VkPhysicalDevice device, const char* name) {

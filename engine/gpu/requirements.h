@@ -10,7 +10,10 @@
 namespace vesper::gpu {
 
 constexpr uint32_t kVulkanVersion = VK_API_VERSION_1_3;
+/// What the engine uses where a device has it.
 constexpr std::array<const char*, 1> kDeviceExtensions{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
+/// Elements of a texel buffer: what any device has, and what is taken to be enough for all buffers.
+constexpr uint32_t kLeastTexelBuffer = 1u << 16, kLongTexelBuffer = 1u << 27;
 
 /// Everything that a physical device lacks, with commas; empty: nothing.
 std::string missing_support(VkPhysicalDevice);
@@ -24,6 +27,8 @@ std::string missing_of(const VkDeviceCreateInfo&, uint32_t version);
 void enable_features(VkPhysicalDevice, VkPhysicalDeviceFeatures2& chain);
 /// Whether a device was made with anisotropic filtering.
 bool filters_along(const VkDeviceCreateInfo&);
+/// Whether a device was made with push descriptors.
+bool pushes_descriptors(const VkDeviceCreateInfo&);
 
 bool has_extension(VkPhysicalDevice, const char* name);
 /// Whether a queue family is for graphics and compute.

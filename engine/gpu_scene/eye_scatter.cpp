@@ -60,7 +60,7 @@ GpuScatter::GpuScatter(const gpu::Device& device, const ScatterSettings& setting
     edge_x_ = fit.edge.x, edge_y_ = fit.edge.y;
     const auto upload = [&](const auto& values, gpu::OwnedBuffer& buffer) {
         const auto bytes = std::as_bytes(std::span(values));
-        buffer = upload_buffer(device, arena_, bytes, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+        buffer = upload_buffer(device, arena_, bytes, kTexelUsage);
         return Texels{buffer.get(), bytes.size()};
     };
     taps_texels_ = upload(padded_taps(fit), taps_);

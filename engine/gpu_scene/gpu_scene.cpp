@@ -152,11 +152,9 @@ void GpuScene::upload_geometry(const gpu::Device& device, const scene::Scene& sc
     }
     if (indices.empty()) return;
     vertex_count_ = vertices.size(), index_count_ = indices.size();
-    vertices_ = upload_buffer(device, arena_, bytes_of(vertices),
-                              VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
-    facets_ = upload_buffer(device, arena_, bytes_of(of_triangles), VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
-    indices_ = upload_buffer(device, arena_, bytes_of(indices),
-                             VK_BUFFER_USAGE_INDEX_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+    vertices_ = upload_buffer(device, arena_, bytes_of(vertices), kTexelUsage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    facets_ = upload_buffer(device, arena_, bytes_of(of_triangles), kTexelUsage);
+    indices_ = upload_buffer(device, arena_, bytes_of(indices), kTexelUsage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
 }
 
 void GpuScene::place(const scene::Scene& scene) {

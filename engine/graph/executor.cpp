@@ -133,6 +133,7 @@ void Executor::submit(const FrameGraph& graph, const SubmitSemaphores& semaphore
     Plan before = std::move(plan_);
     try {
         plan_ = graph.compile(measure());
+        check_sizes(graph);
         enter_slot();
         place(graph);
         realize_histories(graph);
@@ -157,6 +158,28 @@ void Executor::submit(const FrameGraph& graph, const SubmitSemaphores& semaphore
     for (Past* past : cleared_) past->is_new = false;
     times.submit = watch.lap(), times.wait = host_times_.wait;
     host_times_ = times;
+}
+
+// What a device allows is not known before. A buffer of texels that is too long for it has no other kernel to read it.
+void Executor::check_sizes(const FrameGraph& graph) const {
+    const VkPhysicalDeviceLimits& limits = device_.limits();
+    for (const Plan::Step& step : plan_.steps) {
+        const FrameGraph::PassInfo& pass = graph.passes()[step.pass];
+        for (size_t i = 0; pass.kernel && i < pass.kernel->bindings.size(); ++i) {
+            const FrameGraph::ResourceInfo& r = graph.resources()[pass.uses[i].resource.index];
+            const VkDescriptorType type = pass.kernel->bindings[i];
+            const auto check = [&](uint64_t size, uint64_t most, const char* of, const char* limit) {
+                if (size > most)
+                    throw Error("pass '" + pass.name + "': '" + r.name + "' has " + std::to_string(size) + of +
+                                device_.name() + " allows " + std::to_string(most) + " (" + limit + ")");
+            };
+            if (type == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER || type == VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER)
+                check(r.shape.bytes / std::max<uint64_t>(texel_bytes(r.shape.format), 1), limits.maxTexelBufferElements,
+                      " texels, ", "maxTexelBufferElements");
+            if (type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)
+                check(r.shape.bytes, limits.maxStorageBufferRange, " bytes, ", "maxStorageBufferRange");
+        }
+    }
 }
 
 void Executor::wait() {

@@ -65,6 +65,7 @@ private:
     class FrameRecording;
     struct Past;  // both halves of a history
 
+    void check_sizes(const FrameGraph& graph) const;
     void enter_slot();
     void place(const FrameGraph& graph);
     void find_turning(const FrameGraph& graph);

@@ -47,12 +47,6 @@ constexpr TexelBytes kTexelBytes[] = {
     {VK_FORMAT_E5B9G9R9_UFLOAT_PACK32, 4},
 };
 
-/// Bytes of one tightly packed texel; 0 for formats the engine does not copy.
-uint64_t texel_bytes(VkFormat format) {
-    const auto found = std::ranges::find(kTexelBytes, format, &TexelBytes::format);
-    return found == std::end(kTexelBytes) ? 0 : found->bytes;
-}
-
 std::string in_quotes(std::string_view name) { return "'" + std::string(name) + "'"; }
 
 [[noreturn]] void fail(const PassInfo& pass, const std::string& reason) {
@@ -148,6 +142,18 @@ std::string mismatch(VkDescriptorType type, Access access, const Shape& shape) {
     return {};
 }
 
+/// Texels that a kernel reads from a storage buffer (glsl/texels.glsl) are loaded, not sampled.
+void load_texels(PassInfo& pass, const std::vector<ResourceInfo>& resources) {
+    const size_t bound = std::min(pass.uses.size(), pass.kernel->bindings.size());
+    for (size_t i = 0; i < bound; ++i) {
+        const Shape& shape = resources[pass.uses[i].resource.index].shape;
+        const bool texels = !shape.is_image() && shape.format != VK_FORMAT_UNDEFINED;
+        if (texels && pass.uses[i].access == Access::Sample &&
+            pass.kernel->bindings[i] == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)
+            pass.uses[i].access = Access::Load;
+    }
+}
+
 void check_kernel(const PassInfo& pass, const std::vector<ResourceInfo>& resources) {
     const gpu::KernelInterface& kernel = *pass.kernel;
     const size_t bound = pass.uses.size() - (pass.is_indirect() ? 1 : 0);
@@ -193,6 +199,11 @@ VkBufferImageCopy whole_image(const Shape& shape, uint64_t offset) {
 }
 
 }  // namespace
+
+uint64_t texel_bytes(VkFormat format) {
+    const auto found = std::ranges::find(kTexelBytes, format, &TexelBytes::format);
+    return found == std::end(kTexelBytes) ? 0 : found->bytes;
+}
 
 uint64_t packed_bytes(const Shape& shape) {
     if (!shape.is_image()) return shape.bytes;
@@ -281,7 +292,10 @@ void FrameGraph::add_pass(PassInfo pass) {
         });
         if (!written) fail(pass, "reads " + in_quotes(r.name) + " before any pass has written it");
     }
-    if (pass.kind == PassKind::Dispatch) check_kernel(pass, resources_);
+    if (pass.kind == PassKind::Dispatch) {
+        load_texels(pass, resources_);
+        check_kernel(pass, resources_);
+    }
     if (pass.kind == PassKind::Raster) check_targets(pass, resources_);
     if (pass.kind != PassKind::Dispatch && !pass.record) fail(pass, "records nothing");
     passes_.push_back(std::move(pass));

@@ -14,6 +14,9 @@
 #include "gpu/kernel_interface.h"
 #include "graph/plan.h"
 
+namespace vesper::gpu {
+class GraphicsPipeline;
+}
 namespace vesper::graph {
 
 /// A handle on a declared resource: copy it, pass it, compare it. Valid for the graph that made it.
@@ -41,6 +44,8 @@ struct Shape {
     }
 };
 
+/// Bytes of one tightly packed texel; 0 for formats the engine does not copy.
+uint64_t texel_bytes(VkFormat format);
 /// Bytes of a buffer, or of an image when tightly packed; 0 for formats the engine does not copy.
 uint64_t packed_bytes(const Shape& shape);
 
@@ -89,6 +94,8 @@ class Recording {
 public:
     virtual ~Recording() = default;
     virtual VkCommandBuffer commands() const = 0;
+    /// Descriptors of the next draws, to all bindings of the pipeline.
+    virtual void bind(const gpu::GraphicsPipeline&, std::span<VkWriteDescriptorSet> writes) const = 0;
     virtual VkImage image(Resource) const = 0;
     virtual VkImageView view(Resource) const = 0;
     virtual VkBuffer buffer(Resource) const = 0;

@@ -2,10 +2,11 @@
 
 namespace vesper::graph {
 
-FrameSlot::FrameSlot(const gpu::Device& d) : device(d), commands(d), fence(gpu::make_fence(d)) {}
+FrameSlot::FrameSlot(const gpu::Device& d) : device(d), commands(d), descriptors(d), fence(gpu::make_fence(d)) {}
 
 void FrameSlot::begin(uint32_t timestamps) {
     commands.begin();
+    descriptors.reset();
     if (query_capacity < timestamps) {
         const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                          .queryType = VK_QUERY_TYPE_TIMESTAMP,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "gpu/commands.h"
+#include "gpu/descriptors.h"
 #include "gpu/memory.h"
 
 namespace vesper::graph {
@@ -43,6 +44,7 @@ struct FrameSlot {
     std::vector<gpu::OwnedBufferView> texels;
     std::vector<gpu::OwnedImageView> views;
     gpu::CommandBuffer commands;
+    gpu::Descriptors descriptors;
     gpu::Owned<VkQueryPool, vkDestroyQueryPool> queries;
     uint32_t query_capacity = 0;
     gpu::OwnedFence fence;

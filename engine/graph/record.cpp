@@ -9,6 +9,9 @@ class Executor::FrameRecording final : public Recording {
 public:
     explicit FrameRecording(const Executor& executor) : executor_(executor) {}
     VkCommandBuffer commands() const override { return executor_.slot_->commands; }
+    void bind(const gpu::GraphicsPipeline& pipeline, std::span<VkWriteDescriptorSet> writes) const override {
+        executor_.slot_->descriptors.bind(commands(), pipeline, writes);
+    }
     VkImage image(Resource r) const override { return executor_.resources_[r.index].image; }
     VkImageView view(Resource r) const override { return executor_.resources_[r.index].view; }
     VkBuffer buffer(Resource r) const override { return executor_.resources_[r.index].buffer; }
@@ -114,8 +117,7 @@ void Executor::record_dispatch(const FrameGraph::PassInfo& pass) const {
                           .pBufferInfo = &buffers[i],
                           .pTexelBufferView = &texels[i]});
     }
-    device_.push_descriptors(slot_->commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0,
-                             uint32_t(writes.size()), writes.data());
+    slot_->descriptors.bind(slot_->commands, kernel, writes);
     if (!pass.push.empty())
         vkCmdPushConstants(slot_->commands, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, uint32_t(pass.push.size()),
                            pass.push.data());

@@ -18,7 +18,7 @@ struct FrameContext {
     gpu_scene::View view;  ///< its extent is that of every image of full size
 
     /// kLockstep of glsl/lanes.glsl.
-    uint32_t lockstep() const { return kernels.device().is_cpu() ? 1 : 0; }
+    uint32_t lockstep() const { return kernels.device().has_lockstep() ? 1 : 0; }
 };
 
 }  // namespace vesper::render

@@ -24,7 +24,7 @@ IndirectCells IndirectLight::cells(graph::FrameGraph& graph, const gpu::Device& 
         lit_.reset(), texels_ = {};
         arena_.emplace(device);
         const auto bytes = std::as_bytes(std::span(table.texels));
-        texels_ = gpu_scene::upload_buffer(device, *arena_, bytes, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+        texels_ = gpu_scene::upload_buffer(device, *arena_, bytes, gpu_scene::kTexelUsage);
         bytes_ = bytes.size(), log2_places_ = table.log2_places;
         lit_ = std::move(lit);
     }
@@ -45,7 +45,7 @@ MovingLight IndirectLight::moving(graph::FrameGraph& graph, const gpu::Device& d
         const std::vector<uint32_t> texels = gpu_scene::volume_texels(bodies);
         const auto bytes = std::as_bytes(std::span(texels));
         volume_arena_.emplace(device);
-        volumes_ = gpu_scene::upload_buffer(device, *volume_arena_, bytes, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT);
+        volumes_ = gpu_scene::upload_buffer(device, *volume_arena_, bytes, gpu_scene::kTexelUsage);
         volume_bytes_ = bytes.size();
     }
     moving.volumes = graph.external("volumes of occlusion", volumes_.get(), volume_bytes_, VK_FORMAT_R32_UINT);

@@ -28,9 +28,8 @@ std::vector<uint32_t> order_by_part(std::span<const uint32_t> parts, const gpu_s
     return order;
 }
 
-void record_map_parts(const graph::Recording& recording, const gpu::Device& device,
-                      const gpu::GraphicsPipelineCache& pipelines, const gpu::GraphicsShaders& shaders,
-                      const gpu_scene::GpuScene& scene, graph::Resource instances,
+void record_map_parts(const graph::Recording& recording, const gpu::GraphicsPipelineCache& pipelines,
+                      const gpu::GraphicsShaders& shaders, const gpu_scene::GpuScene& scene, graph::Resource instances,
                       const std::vector<MapBatch>& batches) {
     if (batches.empty()) return;
     const VkCommandBuffer commands = recording.commands();
@@ -52,12 +51,12 @@ void record_map_parts(const graph::Recording& recording, const gpu::Device& devi
         if (pipeline != last_pipeline)
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline());
         if (part.material != last_material) {
-            const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                             .dstBinding = 0,
-                                             .descriptorCount = 1,
-                                             .descriptorType = kMapTextures[0],
-                                             .pImageInfo = &surface.textures[0]};
-            device.push_descriptors(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->layout(), 0, 1, &write);
+            VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                                       .dstBinding = 0,
+                                       .descriptorCount = 1,
+                                       .descriptorType = kMapTextures[0],
+                                       .pImageInfo = &surface.textures[0]};
+            recording.bind(*pipeline, {&write, 1});
             const MaskPush push{m.base_colour.a, m.alpha_cutoff};
             vkCmdPushConstants(commands, pipeline->layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push, &push);
         }

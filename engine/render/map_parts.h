@@ -35,9 +35,8 @@ inline void add_to_batches(std::vector<MapBatch>& batches, uint32_t part, uint32
 
 /// Draws from both sides. `shaders`: with distance_map.frag, MaskPush and kMapTextures; buffers of vertices and
 /// `instances`.
-void record_map_parts(const graph::Recording& recording, const gpu::Device& device,
-                      const gpu::GraphicsPipelineCache& pipelines, const gpu::GraphicsShaders& shaders,
-                      const gpu_scene::GpuScene& scene, graph::Resource instances,
+void record_map_parts(const graph::Recording& recording, const gpu::GraphicsPipelineCache& pipelines,
+                      const gpu::GraphicsShaders& shaders, const gpu_scene::GpuScene& scene, graph::Resource instances,
                       const std::vector<MapBatch>& batches);
 
 }  // namespace vesper::render

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "shaders/distance_map/cull_triangles.comp.inc"
+#include "shaders/distance_map/cull_triangles.comp.storage.inc"
 #include "shaders/distance_map/map_triangles.frag.inc"
 #include "shaders/distance_map/map_triangles.vert.inc"
 #include "shared/edges.h"
@@ -14,7 +15,7 @@ namespace {
 
 using graph::load, graph::sample, graph::store, graph::update;
 
-constexpr gpu::Shader kCull{"cull_triangles.comp", cull_triangles_comp};
+constexpr gpu::Shader kCull{"cull_triangles.comp", cull_triangles_comp, cull_triangles_comp_storage};
 
 constexpr VkVertexInputBindingDescription kBuffers[]{{0, sizeof(glm::vec3), VK_VERTEX_INPUT_RATE_VERTEX}};
 constexpr VkVertexInputAttributeDescription kAttributes[]{{0, 0, VK_FORMAT_R32G32B32_SFLOAT, 0}};
@@ -29,8 +30,8 @@ constexpr uint32_t kMostTriangles = 1u << 19u;
 }  // namespace
 
 bool has_map_triangles(const gpu::Device& device, const gpu_scene::GpuScene& scene) {
-    return std::max(scene.vertex_count() * shared::kTexelsPerVertex, scene.index_count()) <=
-           device.limits().maxTexelBufferElements;
+    return scene.vertex_count() * shared::kTexelsPerVertex <= device.most_texels(sizeof(glm::vec2)) &&
+           scene.index_count() <= device.most_texels(sizeof(uint32_t));
 }
 
 // What one dispatch culls.

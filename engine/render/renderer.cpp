@@ -39,8 +39,7 @@ Renderer::SceneData::SceneData(const gpu::Device& device, const scene::Scene& sc
 
 Renderer::TexelBuffer Renderer::SceneData::upload(const gpu::Device& device, const std::vector<glm::vec4>& texels) {
     const auto bytes = std::as_bytes(std::span(texels));
-    return {gpu_scene::upload_buffer(device, table_arena, bytes, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT),
-            bytes.size()};
+    return {gpu_scene::upload_buffer(device, table_arena, bytes, gpu_scene::kTexelUsage), bytes.size()};
 }
 
 void Renderer::set_scene(const scene::Scene& scene) {

@@ -7,6 +7,7 @@
 #include "shaders/window/overlay.frag.inc"
 #include "shaders/window/overlay.vert.inc"
 #include "shaders/window/present.frag.inc"
+#include "shaders/window/present.frag.storage.inc"
 #include "shaders/window/present.vert.inc"
 #include "shared/present.h"
 
@@ -17,9 +18,15 @@ constexpr VkFormat kCoverageFormat = VK_FORMAT_R8_UNORM;
 constexpr VkShaderStageFlags kPushStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
 constexpr VkDescriptorType kTexels[]{VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER},
-    kLetters[]{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+    kStorage[]{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER}, kLetters[]{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
 constexpr gpu::GraphicsShaders kPicture{
     "present.frag", present_vert, present_frag, kTexels, sizeof(shared::PresentPush), VK_SHADER_STAGE_FRAGMENT_BIT};
+constexpr gpu::GraphicsShaders kPictureOfStorage{"present.frag",
+                                                 present_vert,
+                                                 present_frag_storage,
+                                                 kStorage,
+                                                 sizeof(shared::PresentPush),
+                                                 VK_SHADER_STAGE_FRAGMENT_BIT};
 
 constexpr VkVertexInputBindingDescription kVertices[]{{0, sizeof(Overlay::Vertex), VK_VERTEX_INPUT_RATE_VERTEX}};
 constexpr VkVertexInputAttributeDescription kAttributes[]{
@@ -107,6 +114,8 @@ void Presenter::draw(VkCommandBuffer commands, const WindowImage& image, const P
     vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
     vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
     Slot& slot = slots_[image.slot];
+    if (!slot.descriptors) slot.descriptors.emplace(device_);
+    slot.descriptors->reset();
     if (!picture.codes.empty()) draw_picture(commands, image, picture, scaling, slot);
     if (!overlay.batches.empty()) draw_overlay(commands, image, overlay, slot);
     vkCmdEndRendering(commands);
@@ -116,13 +125,18 @@ void Presenter::draw_picture(VkCommandBuffer commands, const WindowImage& image,
                              Scaling scaling, Slot& slot) {
     const uint64_t pixels = uint64_t(picture.extent.width) * picture.extent.height;
     if (picture.codes.size() != pixels * 4) throw Error("a picture for a window: not four bytes a pixel");
-    if (pixels > device_.limits().maxTexelBufferElements)
+    if (pixels > device_.most_texels(sizeof(uint32_t)))
         throw Error("a picture of " + std::to_string(picture.extent.width) + "x" +
                     std::to_string(picture.extent.height) + " is too large to be shown by " + device_.name());
+    const bool storage = !device_.has_long_texel_buffers();
     if (slot.words.bytes() != pixels * 4) {
         slot.texels = {};
-        slot.words = gpu::HostBuffer(device_, pixels * 4, VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
-                                     gpu::HostBuffer::Direction::ToDevice);
+        slot.words =
+            gpu::HostBuffer(device_, pixels * 4,
+                            storage ? VK_BUFFER_USAGE_STORAGE_BUFFER_BIT : VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT,
+                            gpu::HostBuffer::Direction::ToDevice);
+    }
+    if (!storage && !slot.texels) {
         const VkBufferViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
                                           .buffer = slot.words.buffer(),
                                           .format = VK_FORMAT_R32_UINT,
@@ -148,15 +162,18 @@ void Presenter::draw_picture(VkCommandBuffer commands, const WindowImage& image,
                               0,
                               1};
     const VkBufferView view = slot.texels.get();
-    const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                     .descriptorCount = 1,
-                                     .descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
-                                     .pTexelBufferView = &view};
-    const gpu::GraphicsPipeline& pipeline = pipelines_.get(kPicture, {.targets = {{image.format}}});
+    const VkDescriptorBufferInfo words{slot.words.buffer(), 0, VK_WHOLE_SIZE};
+    VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                               .descriptorCount = 1,
+                               .descriptorType = storage ? kStorage[0] : kTexels[0],
+                               .pBufferInfo = &words,
+                               .pTexelBufferView = &view};
+    const gpu::GraphicsPipeline& pipeline =
+        pipelines_.get(storage ? kPictureOfStorage : kPicture, {.targets = {{image.format}}});
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.pipeline());
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &at.area);
-    device_.push_descriptors(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout(), 0, 1, &write);
+    slot.descriptors->bind(commands, pipeline, {&write, 1});
     vkCmdPushConstants(commands, pipeline.layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push, &push);
     vkCmdDraw(commands, 3, 1, 0, 0);
 }
@@ -175,16 +192,16 @@ void Presenter::draw_overlay(VkCommandBuffer commands, const WindowImage& image,
                                    .hdr10 = image.hdr10};
     const VkViewport viewport{0, 0, float(image.extent.width), float(image.extent.height), 0, 1};
     const VkDescriptorImageInfo letters{sampler_.get(), coverage_view_.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-    const VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                     .descriptorCount = 1,
-                                     .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                                     .pImageInfo = &letters};
+    VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                               .descriptorCount = 1,
+                               .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                               .pImageInfo = &letters};
     const VkBuffer buffer = slot.vertices.buffer();
     const VkDeviceSize offset = 0;
     const gpu::GraphicsPipeline& pipeline = pipelines_.get(kOverlay, {.targets = {{image.format, true, true}}});
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.pipeline());
     vkCmdSetViewport(commands, 0, 1, &viewport);
-    device_.push_descriptors(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.layout(), 0, 1, &write);
+    slot.descriptors->bind(commands, pipeline, {&write, 1});
     vkCmdPushConstants(commands, pipeline.layout(), kPushStages, 0, sizeof push, &push);
     vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
     vkCmdBindIndexBuffer(commands, slot.indices.buffer(), 0, VK_INDEX_TYPE_UINT32);

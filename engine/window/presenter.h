@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "gpu/descriptors.h"
 #include "gpu/graphics_pipeline.h"
 #include "gpu/memory.h"
 #include "window/swapchain.h"
@@ -68,6 +70,7 @@ private:
     struct Slot {
         gpu::HostBuffer words, vertices, indices;
         gpu::OwnedBufferView texels;
+        std::optional<gpu::Descriptors> descriptors;
     };
     void upload_coverage(VkExtent2D, std::span<const uint8_t>);
     void draw_picture(VkCommandBuffer, const WindowImage&, const Picture&, Scaling, Slot&);

@@ -10,6 +10,7 @@
 
 #include "blocks.glsl"
 #include "normal.glsl"
+#include "texels.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;  // the blocks of a tile, whose lists they share
 
@@ -17,13 +18,13 @@ layout(constant_id = 0) const uint kPowers = 1u;  // there are cosine powers,
 layout(constant_id = 1) const uint kTables = 1u;    // measured distributions
 
 layout(binding = 0, rgba32f) readonly uniform image2D surface_image;
-layout(binding = 1) uniform samplerBuffer lamps;
-layout(binding = 2) uniform usamplerBuffer counts;
-layout(binding = 3) uniform usamplerBuffer indices;
+TEXELS(1, vec4, lamps);
+TEXELS(2, uint, counts);
+TEXELS(3, uint, indices);
 layout(binding = 4, scalar) writeonly buffer BlockCounts { uint block_counts[]; };
-layout(binding = 5, r32ui) writeonly uniform uimageBuffer entries;
-layout(binding = 6) uniform samplerBuffer tables;
-layout(binding = 7) uniform usamplerBuffer block_slices;
+writeonly WRITTEN_TEXELS(5, uint, entries);
+TEXELS(6, vec4, tables);
+TEXELS(7, uint, block_slices);
 layout(push_constant, scalar) uniform Push { CullPush push; };
 
 #include "light_bounds.glsl"
@@ -63,7 +64,7 @@ vec3 largest_product(vec3 a_low, vec3 a_high, vec3 b_low, vec3 b_high) {
 bool lights_block(uint lamp) {
     const bool measured = kTables != 0u && lamp >= push.view.lamps.cones + push.view.lamps.powers;
     const int at = int(lamp * kTexelsPerLamp);
-    const vec4 a = texelFetch(lamps, at);
+    const vec4 a = texel_at(lamps, at);
     const vec3 centre = 0.5 * (position_low + position_high);
     const float radius = kSlack * 0.5 * distance(position_low, position_high);
     const float nearest = distance(a.xyz, clamp(a.xyz, position_low, position_high)) / kSlack;
@@ -80,7 +81,7 @@ bool lights_block(uint lamp) {
 // The ascending lists of several froxels, read as one without repetitions.
 uint next_lamp[kTogether], list_at[kTogether], list_end[kTogether];
 
-uint read_list(uint k) { return list_at[k] < list_end[k] ? texelFetch(indices, int(list_at[k])).r : ~0u; }
+uint read_list(uint k) { return list_at[k] < list_end[k] ? texel_at(indices, int(list_at[k])).r : ~0u; }
 
 // Opens the lists of the first of some slices of a tile, and takes these slices out. Returns their bits; 0 when a list has
 // overflowed.
@@ -92,8 +93,8 @@ uint open_lists(uvec2 tile, inout uint slices) {
         const bool any = slices != 0u;
         const uint slice = any ? uint(findLSB(slices)) : 0u;
         const uint cell = froxel_of(grid, tile, slice);
-        const uint cones = texelFetch(counts, int(2u * cell)).r;
-        const uint others = texelFetch(counts, int(2u * cell + 1u)).r;
+        const uint cones = texel_at(counts, int(2u * cell)).r;
+        const uint others = texel_at(counts, int(2u * cell + 1u)).r;
         const bool overflowed = cones == kAllLamps;
         list_at[k] = cell * grid.capacity;
         list_end[k] = list_at[k] + (any && !overflowed ? cones + others : 0u);
@@ -122,7 +123,7 @@ void main() {
     const uint base = block * push.capacity;
     uint cones = 0u, others = 0u, turns = 0u;
     bool fits = true;
-    uint left = texelFetch(block_slices, int(block)).r;
+    uint left = texel_at(block_slices, int(block)).r;
     while (fits && left != 0u) {
         const uint slices = open_lists(corner / kTileSize, left);
         fits = slices != 0u;
@@ -135,7 +136,7 @@ void main() {
             const bool cone = lamp < push.view.lamps.cones;
             if (!lights_block(lamp)) continue;
             const uint at = cone ? cones : push.capacity - 1u - others;
-            if (cones + others < push.capacity) imageStore(entries, int(base + at), uvec4(entry_of(lamp, first, last)));
+            if (cones + others < push.capacity) write_texel(entries, int(base + at), entry_of(lamp, first, last));
             others += cone ? 0u : 1u;
             cones += cone ? 1u : 0u;
         }

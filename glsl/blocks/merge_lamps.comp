@@ -9,6 +9,7 @@
 
 #include "blocks.glsl"
 #include "normal.glsl"
+#include "texels.glsl"
 #include "shared/blocks.h"
 #include "shared/retro.h"
 
@@ -21,11 +22,11 @@ layout(constant_id = 4) const uint kMaps = 1u;    // distance maps of lamps
 
 layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
-layout(binding = 2) uniform samplerBuffer lamps;
+TEXELS(2, vec4, lamps);
 layout(binding = 3, scalar) buffer BlockCounts { uint block_counts[]; };
-layout(binding = 4, r32ui) uniform uimageBuffer entries;
+WRITTEN_TEXELS(4, uint, entries);
 layout(binding = 5, scalar) writeonly buffer Sums { vec4 sums[]; };
-layout(binding = 6) uniform samplerBuffer tables;
+TEXELS(6, vec4, tables);
 layout(binding = 7, scalar) buffer ClassCounts { uint class_counts[]; };
 layout(binding = 8, scalar) writeonly buffer ClassBlocks { uint class_blocks[]; };
 layout(push_constant, scalar) uniform Push { MergePush push; };
@@ -170,16 +171,16 @@ bool merge_block(uint block) {
     int kept_cones = 0, kept_others = 0;
     if (kCones != 0u)
         for (int i = 0; i < int(cones); ++i) {
-            const uint entry = imageLoad(entries, first + i).r;
+            const uint entry = written_texel_at(entries, first + i).r;
             if (covers(entry) && (entry & kMixedBit) == 0u && !remains(fetch(lamp_of(entry), true, tables_from), share_of(entry), true)) continue;
-            imageStore(entries, first + kept_cones, uvec4(entry));
+            write_texel(entries, first + kept_cones, entry);
             ++kept_cones;
         }
     if (kPowers != 0u || kTables != 0u)
         for (int i = 0; i < int(others); ++i) {
-            const uint entry = imageLoad(entries, last - i).r;
+            const uint entry = written_texel_at(entries, last - i).r;
             if (covers(entry) && (entry & kMixedBit) == 0u && !remains(fetch(lamp_of(entry), false, tables_from), share_of(entry), false)) continue;
-            imageStore(entries, last - kept_others, uvec4(entry));
+            write_texel(entries, last - kept_others, entry);
             ++kept_others;
         }
     block_counts[counts] = uint(kept_cones);

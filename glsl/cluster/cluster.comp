@@ -8,6 +8,7 @@
 // unless its illuminance stays under the threshold all over the sphere around the cell: the largest intensity in the cone
 // of directions that the sphere subtends, over the square of the nearest distance. Lamps are tried in ascending order, so lists are ascending and the same on every run.
 
+#include "texels.glsl"
 #include "shared/cluster.h"
 
 layout(local_size_x = 8) in;  // the corners of a cell
@@ -15,14 +16,14 @@ layout(constant_id = 0) const uint kPowers = 1u;  // there are cosine powers,
 layout(constant_id = 1) const uint kTables = 1u;    // measured distributions
 layout(constant_id = 2) const uint kLockstep = 0u;  // see lanes.glsl
 
-layout(binding = 0) uniform samplerBuffer lamps;
-layout(binding = 1) uniform usamplerBuffer parent_counts;
-layout(binding = 2) uniform usamplerBuffer parent_indices;
+TEXELS(0, vec4, lamps);
+TEXELS(1, uint, parent_counts);
+TEXELS(2, uint, parent_indices);
 layout(binding = 3, scalar) writeonly buffer Counts { uint counts[]; };
 layout(binding = 4, scalar) writeonly buffer Indices { uint indices[]; };
 layout(binding = 5, scalar) buffer Report { ClusterReport report; };
-layout(binding = 6) uniform samplerBuffer tables;
-layout(binding = 7) uniform usamplerBuffer tile_slices;
+TEXELS(6, vec4, tables);
+TEXELS(7, uint, tile_slices);
 layout(push_constant, scalar) uniform Push { ClusterLevelPush push; };
 
 #include "lanes.glsl"
@@ -52,13 +53,13 @@ bool is_active(uvec3 cell) {
     const uvec2 first = cell.xy * push.tiles_per_cell, end = min(first + push.tiles_per_cell, uvec2(grid.tiles_x, grid.tiles_y));
     uint slices = 0u;
     for (uint y = first.y; y < end.y; ++y)
-        for (uint x = first.x; x < end.x; ++x) slices |= texelFetch(tile_slices, int(y * grid.tiles_x + x)).r;
+        for (uint x = first.x; x < end.x; ++x) slices |= texel_at(tile_slices, int(y * grid.tiles_x + x)).r;
     return (slices >> cell.z * push.slices_per_cell & (1u << push.slices_per_cell) - 1u) != 0u;
 }
 
 bool counts_here(uint lamp, bool cone) {
     const int at = int(lamp * kTexelsPerLamp);
-    const vec4 a = texelFetch(lamps, at);
+    const vec4 a = texel_at(lamps, at);
     const bool measured = !cone && kTables != 0u && (kPowers == 0u || lamp >= push.view.lamps.cones + push.view.lamps.powers);
     return gives_threshold(largest_intensity(at, a, cone, measured, centre, radius), distance(centre, a.xyz) - radius, push.view.threshold);
 }
@@ -67,7 +68,7 @@ bool counts_here(uint lamp, bool cone) {
 uint list_lamps(uint from, uint number, bool cone, bool all_of_them, uint base, uint count) {
     for (uint begin = 0u; begin < number; begin += gl_WorkGroupSize.x) {
         const uint i = begin + gl_LocalInvocationID.x;
-        const uint lamp = all_of_them || i >= number ? from + i : texelFetch(parent_indices, int(from + i)).r;
+        const uint lamp = all_of_them || i >= number ? from + i : texel_at(parent_indices, int(from + i)).r;
         const bool listed = i < number && counts_here(lamp, cone);
         const uint at = count + lanes_add_before(listed ? 1u : 0u);
         if (listed && at < push.capacity) indices[base + at] = lamp;
@@ -84,8 +85,8 @@ void main() {
     const uvec3 parent = uvec3(cell.xy * push.tiles_per_cell / push.tiles_per_parent,
                                cell.z * push.slices_per_cell / push.slices_per_parent);
     const uint parent_index = (parent.z * push.parents_y + parent.y) * push.parents_x + parent.x;
-    const uint listed_cones = texelFetch(parent_counts, int(2u * parent_index)).r;
-    const uint listed_others = texelFetch(parent_counts, int(2u * parent_index + 1u)).r;
+    const uint listed_cones = texel_at(parent_counts, int(2u * parent_index)).r;
+    const uint listed_others = texel_at(parent_counts, int(2u * parent_index + 1u)).r;
     const bool all_of_them = listed_cones == kAllLamps;
     const bool drawn = is_active(cell);
     const uint cones = !drawn ? 0u : all_of_them ? push.view.lamps.cones : listed_cones;

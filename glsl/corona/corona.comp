@@ -5,13 +5,14 @@
 // Adds what needles and halo of the brightest lamps have beyond the veil that is there already, by the angle from each lamp and the azimuth about
 // it. Where lamp or pixel are wider than a part of the pattern its means are taken.
 
+#include "texels.glsl"
 #include "shared/corona.h"
 #include "shared/photometry.h"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
 layout(binding = 0, scalar) readonly buffer Lamps { CoronaLamp lamps[]; };
-layout(binding = 1) uniform samplerBuffer pattern;
+TEXELS(1, vec4, pattern);
 layout(binding = 2, rgba32f) uniform image2D seen;
 layout(push_constant, scalar) uniform Push { CoronaPush push; };
 
@@ -26,7 +27,7 @@ vec3 level_at(uint row, uint level, float turn) {
     const uint columns = kPatternColumns >> level, first = row * kPatternStride + 2u * (kPatternColumns - columns);
     const float x = turn * float(columns) + 0.5 * float(2 * int(columns) - 1), left = floor(x);
     const uint x0 = uint(left) & (columns - 1u), x1 = (x0 + 1u) & (columns - 1u);
-    return mix(texelFetch(pattern, int(first + x0)).rgb, texelFetch(pattern, int(first + x1)).rgb, x - left);
+    return mix(texel_at(pattern, int(first + x0)).rgb, texel_at(pattern, int(first + x1)).rgb, x - left);
 }
 
 vec3 added(CoronaLamp lamp, vec3 ray, float pixel) {

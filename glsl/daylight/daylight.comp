@@ -9,6 +9,7 @@
 
 #include "normal.glsl"
 #include "sheen.glsl"
+#include "texels.glsl"
 #include "shared/daylight.h"
 #include "shared/photometry.h"
 #include "shared/shade.h"
@@ -19,7 +20,7 @@ layout(constant_id = 2) const uint kRows = 1u;  // pixels of a column that an in
 layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 2, rgba32f) uniform image2D scene_image;
-layout(binding = 3) uniform samplerBuffer tunnels;
+TEXELS(3, vec4, tunnels);
 layout(push_constant, scalar) uniform Push { DaylightPush push; };
 
 // 2 pi times what an edge adds; both ends are seen from the surface.
@@ -63,8 +64,8 @@ void main() {
         const vec3 n = decode_normal(surface.xy);
         float part = 1.0;
         for (uint k = 0u; k < push.tunnels; ++k) {
-            const vec4 start = texelFetch(tunnels, int(k * kTunnelTexels)), along = texelFetch(tunnels, int(k * kTunnelTexels) + 1),
-                       up = texelFetch(tunnels, int(k * kTunnelTexels) + 2);
+            const vec4 start = texel_at(tunnels, int(k * kTunnelTexels)), along = texel_at(tunnels, int(k * kTunnelTexels) + 1),
+                       up = texel_at(tunnels, int(k * kTunnelTexels) + 2);
             const vec3 across = cross(along.xyz, up.xyz), from = start.xyz - position;
             const float ahead = -dot(from, along.xyz), aside = dot(from, across), above = -dot(from, up.xyz);
             const bool sheltered = drawn && ahead > 0.0 && ahead < start.w && abs(aside) < along.w + kTunnelWall && above > -kTunnelWall && above < up.w + kTunnelWall;

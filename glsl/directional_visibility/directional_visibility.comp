@@ -10,14 +10,15 @@
 
 #include "blocks.glsl"
 #include "normal.glsl"
+#include "texels.glsl"
 #include "shared/directional_map.h"
 
 layout(local_size_x = 8) in;  // kBlockSize
 layout(constant_id = 0) const uint kLockstep = 0u;  // see lanes.glsl
 
 layout(binding = 0, rgba32f) readonly uniform image2D surface_image;
-layout(binding = 1) uniform samplerBuffer maps;       // DirectionalMap
-layout(binding = 2) uniform samplerBuffer distances;  // halves
+TEXELS(1, vec4, maps);  // DirectionalMap
+HALVES(2, distances);
 layout(binding = 3, scalar) writeonly buffer Shares { uint shares[]; };
 layout(push_constant, scalar) uniform Push { DirectionalVisibilityPush push; };
 
@@ -42,8 +43,8 @@ struct DirectionalLamp {
 
 DirectionalLamp fetch_lamp(uint lamp) {
     const int at = int(lamp * kDirectionalTexels);
-    const vec4 b = texelFetch(maps, at + 1);
-    const mat3 turn = rotation_of(texelFetch(maps, at));
+    const vec4 b = texel_at(maps, at + 1);
+    const mat3 turn = rotation_of(texel_at(maps, at));
     return DirectionalLamp(turn, vec3(turn[0].z, turn[1].z, turn[2].z), int(b.x) * int(kMapUnit), b.y, b.y * kDirectionalReach);
 }
 
@@ -61,7 +62,7 @@ LevelPoint level_point(DirectionalLamp lamp, uint number, vec3 p, vec3 n) {
     const vec3 q = lamp.turn * p, m = lamp.turn * n;
     const float wide = kWiden * (max(abs(q.x), abs(q.y)) + lamp.reach);
     const int level = clamp(int(ceil(log2(max(wide / kFirstHalfWidth, 1.0)))), 0, int(push.levels) - 1);
-    const vec3 from = q - texelFetch(maps, int(number * kDirectionalTexels) + 2 + level).xyz;
+    const vec3 from = q - texel_at(maps, int(number * kDirectionalTexels) + 2 + level).xyz;
     const float half_width = kFirstHalfWidth * exp2(float(level)), side = float(push.side), width = 2.0 * half_width / side;
     const vec2 texel = 0.5 * side + from.xy / width;
     const bool inside = all(greaterThanEqual(texel, vec2(1.0))) && all(lessThanEqual(texel, vec2(side - 1.0))) && from.z < kFarthest;
@@ -73,7 +74,7 @@ LevelPoint level_point(DirectionalLamp lamp, uint number, vec3 p, vec3 n) {
 // How much farther the surface is than what the lamp sees along the middle of a texel, m; above 0 it is hidden.
 float depth_below(LevelPoint p, vec2 offset) {
     const ivec2 at = clamp(ivec2(floor(p.texel + offset)), ivec2(0), ivec2(push.side - 1u));
-    const float seen = texelFetch(distances, p.first + at.y * int(push.side) + at.x).r;
+    const float seen = half_at(distances, p.first + at.y * int(push.side) + at.x);
     return dot(p.plane.xy, vec2(at) + 0.5) + p.plane.z - seen - p.bias;
 }
 

@@ -7,13 +7,14 @@
 // quadrant are left out, small ones are drawn here, and the others are kept for rasterizing: what a far lamp sees is mostly of
 // a few texels or less, for which that takes much longer.
 
+#include "texels.glsl"
 #include "shared/distance_map.h"
 #include "shared/edges.h"
 
 layout(local_size_x_id = 0) in;
 
-layout(binding = 0) uniform samplerBuffer vertices;
-layout(binding = 1) uniform usamplerBuffer indices;
+TEXELS(0, vec2, vertices);
+TEXELS(1, uint, indices);
 layout(binding = 2, scalar) readonly buffer Rows { MapRows rows[]; };
 layout(binding = 3, scalar) readonly buffer Runs { TriangleRun runs[]; };
 layout(binding = 4, scalar) readonly buffer Quadrants { MapQuadrant quadrants[]; };
@@ -95,8 +96,8 @@ void main() {
         vec3 q[3];
         InQuadrant at[3];
         [[unroll]] for (uint k = 0u; k < 3u; ++k) {
-            const int first = int((run.first_vertex + texelFetch(indices, int(run.first_index + 3u * triangle + k)).r) * kTexelsPerVertex);
-            const vec4 p = vec4(texelFetch(vertices, first).xy, texelFetch(vertices, first + 1).x, 1.0);
+            const int first = int((run.first_vertex + texel_at(indices, int(run.first_index + 3u * triangle + k)).r) * kTexelsPerVertex);
+            const vec4 p = vec4(texel_at(vertices, first).xy, texel_at(vertices, first + 1).x, 1.0);
             q[k] = vec3(dot(to_map.x, p), dot(to_map.y, p), dot(to_map.z, p) * quadrant.mirror);
             at[k] = to_quadrant(q[k], quadrant.place, quadrant.window, quadrant.y_sign);
         }

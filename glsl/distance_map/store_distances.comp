@@ -6,18 +6,19 @@
 // Distance maps, from what was drawn to texels: one group of texels per invocation, one region per workgroup
 // (shared/distance_map.h). What moves is drawn over what stands still: the nearer of both stays.
 
+#include "texels.glsl"
 #include "shared/distance_map.h"
 
 layout(local_size_x = 16, local_size_y = 16) in;  // kRegion / kGroup
 
 layout(binding = 0) uniform texture2D drawn;  // kMapNear / distance; 0 without a surface
 layout(binding = 3, scalar) readonly buffer Small { uint small[]; };  // the same of small triangles, bits of floats
-layout(binding = 1) uniform usamplerBuffer regions;  // rgba32ui, two texels each
+TEXELS(1, uvec4, regions);  // rgba32ui, two texels each
 layout(binding = 2, scalar) buffer Distances { uint distances[]; };  // two halves, side by side
 
 void main() {
     const int at = int(gl_WorkGroupID.x * 2u);
-    const uvec4 a = texelFetch(regions, at), b = texelFetch(regions, at + 1);
+    const uvec4 a = texel_at(regions, at), b = texel_at(regions, at + 1);
     const ivec2 image = ivec2(a.xy), corner = ivec2(a.zw);
     const int side = int(b.x);
     const ivec2 group = ivec2(gl_LocalInvocationID.xy) * int(kGroup);

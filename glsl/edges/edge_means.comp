@@ -10,6 +10,7 @@
 // many, they keep their area.
 
 #include "normal.glsl"
+#include "texels.glsl"
 #include "shared/edges.h"
 #include "shared/gbuffer.h"
 
@@ -17,12 +18,12 @@ layout(local_size_x = kEdgesPerGroup) in;
 layout(binding = 0, rg32ui) readonly uniform uimage2D triangles;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 2, rgba32f) readonly uniform image2D scene_image;
-layout(binding = 3) uniform usamplerBuffer counts;
-layout(binding = 4) uniform usamplerBuffer edges;
-layout(binding = 5) uniform samplerBuffer instances;
-layout(binding = 6) uniform samplerBuffer vertices;
-layout(binding = 7) uniform usamplerBuffer facets;
-layout(binding = 8, rgba32f) writeonly uniform imageBuffer means;
+TEXELS(3, uint, counts);
+TEXELS(4, uint, edges);
+TEXELS(5, vec4, instances);
+TEXELS(6, vec2, vertices);
+TEXELS(7, uvec4, facets);
+writeonly WRITTEN_TEXELS(8, vec4, means);
 layout(push_constant, scalar) uniform Push { EdgesPush push; };
 
 #include "edges.glsl"
@@ -30,8 +31,8 @@ layout(push_constant, scalar) uniform Push { EdgesPush push; };
 
 void main() {
     const uint number = gl_GlobalInvocationID.x;
-    if (number >= texelFetch(counts, 3).r) return;
-    const uint index = texelFetch(edges, int(number)).r;
+    if (number >= texel_at(counts, 3).r) return;
+    const uint index = texel_at(edges, int(number)).r;
     const ivec2 pixel = ivec2(index % push.size.x, index / push.size.x);
     middle = push.ray_scale * (vec2(pixel) + 0.5) + push.ray_offset;
     const Seen here = seen_at(pixel);
@@ -82,5 +83,5 @@ void main() {
         [[unroll]] for (uint i = 0u; i < kEdgeSamples; ++i) share += which[i] == k ? 1.0 / float(kEdgeSamples) : 0.0;
         if (share > 0.0) sum += share * imageLoad(scene_image, pixel + neighbour(k)).rgb;
     }
-    imageStore(means, int(number), vec4(sum, 1.0));
+    write_texel(means, int(number), vec4(sum, 1.0));
 }

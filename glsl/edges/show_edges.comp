@@ -4,18 +4,19 @@
 
 // Puts the means where they belong.
 
+#include "texels.glsl"
 #include "shared/edges.h"
 
 layout(local_size_x = kEdgesPerGroup) in;
-layout(binding = 0) uniform usamplerBuffer counts;
-layout(binding = 1) uniform usamplerBuffer edges;
-layout(binding = 2) uniform samplerBuffer means;
+TEXELS(0, uint, counts);
+TEXELS(1, uint, edges);
+TEXELS(2, vec4, means);
 layout(binding = 3, rgba32f) uniform image2D scene_image;
 layout(push_constant, scalar) uniform Push { EdgesPush push; };
 
 void main() {
     const uint number = gl_GlobalInvocationID.x;
-    if (number >= texelFetch(counts, 3).r) return;
-    const uint index = texelFetch(edges, int(number)).r;
-    imageStore(scene_image, ivec2(index % push.size.x, index / push.size.x), texelFetch(means, int(number)));
+    if (number >= texel_at(counts, 3).r) return;
+    const uint index = texel_at(edges, int(number)).r;
+    imageStore(scene_image, ivec2(index % push.size.x, index / push.size.x), texel_at(means, int(number)));
 }

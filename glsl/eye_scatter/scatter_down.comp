@@ -7,6 +7,7 @@
 // a kernel of 5 x 5 or 7 x 7 that depends on the place, since pixels at the edge of a picture cover other angles. An invocation goes down a
 // strip, two rows at a time; every row read is added to all that it has a part in, so that it is read once.
 
+#include "texels.glsl"
 #include "shared/eye_scatter.h"
 
 layout(local_size_x = 64) in;
@@ -16,7 +17,7 @@ layout(constant_id = 2) const int kReach = 2;      // texels, of the kernel in e
 
 layout(binding = 0, rgba32f) readonly uniform image2D level;
 layout(binding = 1, rgba32f) readonly uniform image2D above;
-layout(binding = 2) uniform samplerBuffer taps;
+TEXELS(2, vec4, taps);
 layout(binding = 3, rgba32f) writeonly uniform image2D seen;
 layout(push_constant, scalar) uniform Push { ScatterDownPush push; };
 
@@ -47,7 +48,7 @@ Taps taps_at(vec2 at) {
     const int base = node * node_texels + kTapTexels * int(push.level), next = base + node_texels;
     Taps all;
     [[unroll]] for (int i = 0; i < kTapTexels; ++i)
-        all.fours[i] = mix(mix(texelFetch(taps, base + i), texelFetch(taps, next + i), part.x), mix(texelFetch(taps, base + row + i), texelFetch(taps, next + row + i), part.x), part.y);
+        all.fours[i] = mix(mix(texel_at(taps, base + i), texel_at(taps, next + i), part.x), mix(texel_at(taps, base + row + i), texel_at(taps, next + row + i), part.x), part.y);
     return all;
 }
 

@@ -5,12 +5,13 @@
 // Light scattered in the eye, near the border: each pixel keeps some more of its own, or less, so that what all of the picture has
 // of its light is right. One pixel an invocation: first those above and below, then those at the sides.
 
+#include "texels.glsl"
 #include "shared/eye_scatter.h"
 
 layout(local_size_x = 64) in;
 
 layout(binding = 0, rgba32f) readonly uniform image2D scene;
-layout(binding = 1) uniform samplerBuffer kept;  // a part of the light, at places
+TEXELS(1, float, kept);  // a part of the light, at places
 layout(binding = 2, rgba32f) uniform image2D seen;
 layout(push_constant, scalar) uniform Push { ScatterEdgePush push; };
 
@@ -38,8 +39,8 @@ void main() {
     const ivec2 first = min(ivec2(place), ivec2(places) - 1), next = min(first + 1, ivec2(places) - 1);
     const vec2 part = place - vec2(first);
     const int row = first.y * int(places.x), below = next.y * int(places.x);
-    const float part_kept = mix(mix(texelFetch(kept, row + first.x).r, texelFetch(kept, row + next.x).r, part.x),
-                                mix(texelFetch(kept, below + first.x).r, texelFetch(kept, below + next.x).r, part.x), part.y);
+    const float part_kept = mix(mix(texel_at(kept, row + first.x).r, texel_at(kept, row + next.x).r, part.x),
+                                mix(texel_at(kept, below + first.x).r, texel_at(kept, below + next.x).r, part.x), part.y);
     const vec3 light = imageLoad(scene, ivec2(pixel)).rgb;
     if (!(abs(light.r + light.g + light.b) <= 3.4e38)) return;  // what is not finite stays
     const vec4 veiled = imageLoad(seen, ivec2(pixel));

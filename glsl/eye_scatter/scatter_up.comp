@@ -7,6 +7,7 @@
 // finite scatter nothing. Beyond the picture there is no light but that of the lamps given, and what other pictures have. An invocation goes down a strip; every
 // two rows read are added to the three that they have a part in, so that they are read once.
 
+#include "texels.glsl"
 #include "shared/eye_scatter.h"
 
 layout(local_size_x = 64) in;
@@ -15,8 +16,8 @@ layout(constant_id = 1) const uint kRows = 1u;
 layout(constant_id = 2) const uint kFromScene = 0u;  // 1: reads the picture, which has no margin
 
 layout(binding = 0, rgba32f) readonly uniform image2D from;
-layout(binding = 1) uniform samplerBuffer lamps;
-layout(binding = 2) uniform samplerBuffer beyond;  // push.beyond
+TEXELS(1, vec4, lamps);
+TEXELS(2, vec4, beyond);  // push.beyond
 layout(binding = 3, rgba32f) writeonly uniform image2D means;
 layout(push_constant, scalar) uniform Push { ScatterUpPush push; };
 
@@ -60,14 +61,14 @@ void main() {
             one_read[i] = upper + 5.0 * lower;
         }
         for (uint lamp = 0u; lamp < push.lamps; ++lamp) {
-            const vec2 away = vec2(at + ivec2(0, y) - margin) + 0.5 - texelFetch(lamps, int(2u * lamp)).xy;
-            const vec3 light = spline(away.y) * texelFetch(lamps, int(2u * lamp + 1u)).rgb;
+            const vec2 away = vec2(at + ivec2(0, y) - margin) + 0.5 - texel_at(lamps, int(2u * lamp)).xy;
+            const vec3 light = spline(away.y) * texel_at(lamps, int(2u * lamp + 1u)).rgb;
             [[unroll]] for (uint i = 0u; i < kColumns; ++i) mean[i] += spline(away.x + float(i)) * light;
         }
         [[unroll]] for (uint i = 0u; i < kColumns; ++i) {
             const ivec2 texel = at + ivec2(int(i), y);
             if (y < 0 || any(greaterThanEqual(texel, ivec2(push.to_size)))) continue;
-            if (kFromScene == 0u && push.beyond != 0u) mean[i] += texelFetch(beyond, texel.y * int(push.to_size.x) + texel.x).rgb;
+            if (kFromScene == 0u && push.beyond != 0u) mean[i] += texel_at(beyond, texel.y * int(push.to_size.x) + texel.x).rgb;
             imageStore(means, texel, vec4(mean[i], 1.0));
         }
     }

@@ -9,6 +9,7 @@
 
 #include "normal.glsl"
 #include "sheen.glsl"
+#include "texels.glsl"
 #include "shared/indirect.h"
 #include "shared/shade.h"
 
@@ -19,17 +20,17 @@ layout(constant_id = 3) const uint kMoving = 0u;  // whether there is light of w
 layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 2, rgba32f) uniform image2D scene_image;
-layout(binding = 3) uniform usamplerBuffer cells;
+TEXELS(3, uvec4, cells);
 layout(binding = 4, rgba16f) readonly uniform image2D moving_light_image;
 layout(push_constant, scalar) uniform Push { IndirectPush push; };
 
 uvec4 find(uint number) {
     const uint mask = (1u << push.log2_places) - 1u;
     uint place = (number * kCellHash) >> (32u - push.log2_places);
-    uvec4 cell = texelFetch(cells, int(place));
+    uvec4 cell = texel_at(cells, int(place));
     for (uint i = 0u; i < mask && cell.x != number && cell.x != kNoCell; ++i) {
         place = (place + 1u) & mask;
-        cell = texelFetch(cells, int(place));
+        cell = texel_at(cells, int(place));
     }
     return cell;
 }

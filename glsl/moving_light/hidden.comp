@@ -7,6 +7,7 @@
 // One body that moves: what it leaves of the light between surfaces, on the pixels that it may cover.
 
 #include "normal.glsl"
+#include "texels.glsl"
 #include "shared/moving_light.h"
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
@@ -14,7 +15,7 @@ layout(constant_id = 2) const uint kRows = 1u;  // pixels of a column that an in
 
 layout(binding = 0, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 1, rgba16f) uniform image2D moving_light_image;
-layout(binding = 2) uniform usamplerBuffer volumes;
+TEXELS(2, uint, volumes);
 layout(push_constant, scalar) uniform Push { HiddenPush push; };
 
 // Of the light on a surface, in parts of kMostHidden; `place`: before it, in steps from the first place.
@@ -25,7 +26,7 @@ float hidden_at(vec3 place, vec3 normal) {
     float sum = 0.0;
     [[unroll]] for (uint c = 0u; c < 8u; ++c) {
         const uvec3 offset = uvec3(c & 1u, c >> 1u & 1u, c >> 2u), at = corner + offset;
-        const uint hidden = texelFetch(volumes, int(push.volume.w + (at.z * push.volume.y + at.y) * push.volume.x + at.x)).x;
+        const uint hidden = texel_at(volumes, int(push.volume.w + (at.z * push.volume.y + at.y) * push.volume.x + at.x)).x;
         const vec3 linear = mix(1.0 - share, share, vec3(offset));
         sum += linear.x * linear.y * linear.z * dot(parts, vec3(uvec3(hidden) >> shift & kMostHidden));
     }

@@ -5,6 +5,7 @@
 // The illuminance that patches lit by moving lamps give surfaces, RGB lx; of the light between surfaces nothing is hidden yet: a = 1.
 
 #include "normal.glsl"
+#include "texels.glsl"
 #include "shared/moving_light.h"
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
@@ -12,7 +13,7 @@ layout(constant_id = 2) const uint kRows = 1u;  // pixels of a column that an in
 
 layout(binding = 0, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 1, rgba16f) writeonly uniform image2D moving_light_image;
-layout(binding = 2) uniform samplerBuffer patches;
+TEXELS(2, vec4, patches);
 layout(push_constant, scalar) uniform Push { PatchesPush push; };
 
 void main() {
@@ -28,7 +29,7 @@ void main() {
     for (uint r = 0u; r < kRows; ++r) light[r] = vec3(0.0);
     for (uint k = 0u; k < push.patches; ++k) {
         const int texel = int(k * kPatchTexels);
-        const vec4 at = texelFetch(patches, texel), facing = texelFetch(patches, texel + 1), intensity = texelFetch(patches, texel + 2);
+        const vec4 at = texel_at(patches, texel), facing = texel_at(patches, texel + 1), intensity = texel_at(patches, texel + 2);
         for (uint r = 0u; r < kRows; ++r) {
             const vec3 to = at.xyz - positions[r];
             const float distance2 = dot(to, to), cosines = max(dot(normals[r], to), 0.0) * max(-dot(facing.xyz, to), 0.0);

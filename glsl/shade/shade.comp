@@ -11,6 +11,7 @@
 
 #include "blocks.glsl"
 #include "normal.glsl"
+#include "texels.glsl"
 #include "shared/photometry.h"
 #include "shared/blocks.h"
 #include "shared/directional_map.h"
@@ -33,21 +34,21 @@ layout(constant_id = 14) const uint kDirectionalMaps = 1u;  // and of directiona
 layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 2, rgba32f) uniform image2D scene_image;  // emission in, luminance out
-layout(binding = 3) uniform samplerBuffer lamps;
-layout(binding = 4) uniform usamplerBuffer block_counts;
-layout(binding = 5) uniform usamplerBuffer entries;
-layout(binding = 6) uniform samplerBuffer tables;
-layout(binding = 7) uniform samplerBuffer retro_classes;
-layout(binding = 8) uniform samplerBuffer merged;
-layout(binding = 9) uniform usamplerBuffer class_counts;
-layout(binding = 10) uniform usamplerBuffer class_blocks;
-layout(binding = 11) uniform samplerBuffer maps;
-layout(binding = 12) uniform samplerBuffer distances;
-layout(binding = 13) uniform usamplerBuffer shares;
-layout(binding = 14) uniform usamplerBuffer directional_shares;
-layout(binding = 15) uniform usamplerBuffer froxel_counts;
-layout(binding = 16) uniform usamplerBuffer froxel_lamps;
-layout(binding = 17) uniform usamplerBuffer block_slices;
+TEXELS(3, vec4, lamps);
+TEXELS(4, uint, block_counts);
+TEXELS(5, uint, entries);
+TEXELS(6, vec4, tables);
+TEXELS(7, vec4, retro_classes);
+TEXELS(8, vec4, merged);
+TEXELS(9, uint, class_counts);
+TEXELS(10, uint, class_blocks);
+TEXELS(11, vec4, maps);
+HALVES(12, distances);
+TEXELS(13, uint, shares);
+TEXELS(14, uint, directional_shares);
+TEXELS(15, uint, froxel_counts);
+TEXELS(16, uint, froxel_lamps);
+TEXELS(17, uint, block_slices);
 layout(push_constant, scalar) uniform Push { ShadePush push; };
 
 #include "lamp.glsl"
@@ -107,7 +108,7 @@ void look_at(uint index, vec3 position_of_lamp, uint entry, uint block, bool eve
     [[unroll]] for (uint r = 0u; r < kRows; ++r) seen[r] = share;
     for (uint k = 0u; k < (!every_lamp && (entry & kMixedBit) != 0u ? 1u : 0u); ++k) {
         const uint column = gl_LocalInvocationID.x % kBlockSize, row = gl_LocalInvocationID.y * kRows % kBlockSize;
-        const uint word = texelFetch(shares, int((block * kSharePlaces + place_of(entry)) * kBlockSize + column)).r;
+        const uint word = texel_at(shares, int((block * kSharePlaces + place_of(entry)) * kBlockSize + column)).r;
         [[unroll]] for (uint r = 0u; r < kRows; ++r) seen[r] = float(word >> 4u * (row + r) & 15u) / 15.0;
     }
     if (kLookups == 0u) return;
@@ -159,10 +160,10 @@ List list_of(uint block) {
     const uint others = push.lamps.powers + push.lamps.tables;
     const List every_lamp = List(block, push.lamps.cones, others, 0u, push.lamps.cones + others - 1u, true);
     if (kEveryLamp != 0u) return every_lamp;
-    const uint cones = texelFetch(block_counts, int(2u * block)).r;
+    const uint cones = texel_at(block_counts, int(2u * block)).r;
     if (cones == kAllLamps) return every_lamp;
     const uint first = block * push.capacity;
-    return List(block, cones, texelFetch(block_counts, int(2u * block + 1u)).r, first, first + push.capacity - 1u, false);
+    return List(block, cones, texel_at(block_counts, int(2u * block + 1u)).r, first, first + push.capacity - 1u, false);
 }
 
 void add_listed(uint index, uint entry, uint slices, uint block, bool cone, bool every_lamp) {
@@ -172,7 +173,7 @@ void add_listed(uint index, uint entry, uint slices, uint block, bool cone, bool
 }
 
 void add_entry(List list, uint at, uint number, bool cone) {
-    const uint entry = list.all_of_them ? number : texelFetch(entries, int(at)).r;
+    const uint entry = list.all_of_them ? number : texel_at(entries, int(at)).r;
     add_listed(list.all_of_them ? number : lamp_of(entry), entry, list.all_of_them ? ~0u : slices_of(entry), list.block, cone, list.all_of_them);
 }
 
@@ -188,8 +189,8 @@ bool has_froxel_lists(uint slices, uvec2 tile) {
     uint sum = 0u;
     for (uint left = slices; left != 0u; left &= left - 1u) {
         const int froxel = int(froxel_of(push.grid, tile, uint(findLSB(left))));
-        const uint cones = texelFetch(froxel_counts, 2 * froxel).r;
-        sum += cones == kAllLamps ? kAllLamps / 64u : cones + texelFetch(froxel_counts, 2 * froxel + 1).r;
+        const uint cones = texel_at(froxel_counts, 2 * froxel).r;
+        sum += cones == kAllLamps ? kAllLamps / 64u : cones + texel_at(froxel_counts, 2 * froxel + 1).r;
     }
     return sum < push.lamps.cones + push.lamps.powers + push.lamps.tables;
 }
@@ -198,18 +199,18 @@ bool has_froxel_lists(uint slices, uvec2 tile) {
 void add_froxels(uint block, uint slices, uvec2 tile) {
     for (uint left = slices; left != 0u; left &= left - 1u) {
         const uint bit = left & (~left + 1u), froxel = froxel_of(push.grid, tile, uint(findLSB(left)));
-        const uint cones = texelFetch(froxel_counts, int(2u * froxel)).r, others = texelFetch(froxel_counts, int(2u * froxel + 1u)).r;
+        const uint cones = texel_at(froxel_counts, int(2u * froxel)).r, others = texel_at(froxel_counts, int(2u * froxel + 1u)).r;
         const uint first = froxel * push.grid.capacity;
         if (kCones != 0u)
-            for (uint i = 0u; i < cones; ++i) add_listed(texelFetch(froxel_lamps, int(first + i)).r, 0u, bit, block, true, true);
+            for (uint i = 0u; i < cones; ++i) add_listed(texel_at(froxel_lamps, int(first + i)).r, 0u, bit, block, true, true);
         if (kPowers != 0u || kTables != 0u)
-            for (uint i = cones; i < cones + others; ++i) add_listed(texelFetch(froxel_lamps, int(first + i)).r, 0u, bit, block, false, true);
+            for (uint i = cones; i < cones + others; ++i) add_listed(texel_at(froxel_lamps, int(first + i)).r, 0u, bit, block, false, true);
     }
 }
 
 void add_lamps_of(uint block, uvec2 corner) {
     List list = list_of(block);
-    const uint slices = kEveryLamp == 0u && list.all_of_them ? texelFetch(block_slices, int(block)).r : 0u;
+    const uint slices = kEveryLamp == 0u && list.all_of_them ? texel_at(block_slices, int(block)).r : 0u;
     const uvec2 tile = corner / kTileSize;
     if (slices != 0u && has_froxel_lists(slices, tile)) {
         add_froxels(block, slices, tile);
@@ -228,7 +229,7 @@ void add_directional(uint block) {
         [[unroll]] for (uint r = 0u; r < kRows; ++r) {
             if (kDirectionalMaps != 0u) {
                 const uint word = (block * words + i / kSharesPerWord) * kBlockSize * kBlockSize + pixel + r * kBlockSize;
-                const uint share = texelFetch(directional_shares, int(word)).r >> 8u * (i % kSharesPerWord) & 255u;
+                const uint share = texel_at(directional_shares, int(word)).r >> 8u * (i % kSharesPerWord) & 255u;
                 lamp.intensity = facing * (float(share) / 255.0);
             }
             const float normal_lamp = max(dot(normal[r], -lamp.axis), 0.0);
@@ -257,7 +258,7 @@ void prepare_lobe(uint r, vec3 base, float metallic, float roughness) {
 // Starts from what has been added up over the block.
 void add_merged(uint block, uvec2 first) {
     vec4 t[kMergedTexels];
-    [[unroll]] for (uint k = 0u; k < kMergedTexels; ++k) t[k] = texelFetch(merged, int(block * kMergedTexels + k));
+    [[unroll]] for (uint k = 0u; k < kMergedTexels; ++k) t[k] = texel_at(merged, int(block * kMergedTexels + k));
     const vec3 node[9] = vec3[](t[0].rgb, vec3(t[0].a, t[1].rg), vec3(t[1].ba, t[2].r), t[2].gba, t[3].rgb, vec3(t[3].a, t[4].rg),
                                 vec3(t[4].ba, t[5].r), t[5].gba, t[6].rgb);
     const float step_ = 2.0 / float(kBlockSize - 1u);
@@ -273,8 +274,8 @@ void add_merged(uint block, uvec2 first) {
 
 void main() {
     const uint place = gl_WorkGroupID.x * kBlocksPerGroup + gl_LocalInvocationID.x / kBlockSize;
-    const bool there = place < texelFetch(class_counts, int(push.block_class * kClassWords + 3u)).r;
-    const uint block = there ? texelFetch(class_blocks, int(push.block_class * push.blocks + place)).r : 0u;
+    const bool there = place < texel_at(class_counts, int(push.block_class * kClassWords + 3u)).r;
+    const uint block = there ? texel_at(class_blocks, int(push.block_class * push.blocks + place)).r : 0u;
     const uvec2 corner = uvec2(block % push.blocks_x, block / push.blocks_x) * kBlockSize;
     const uvec2 first = corner + uvec2(gl_LocalInvocationID.x % kBlockSize, gl_LocalInvocationID.y * kRows);
 

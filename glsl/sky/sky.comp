@@ -10,6 +10,7 @@
 
 #include "normal.glsl"
 #include "sheen.glsl"
+#include "texels.glsl"
 #include "shared/shade.h"
 #include "shared/sky.h"
 
@@ -19,15 +20,15 @@ layout(constant_id = 2) const uint kRows = 1u;  // pixels of a column that an in
 layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 2, rgba32f) uniform image2D scene_image;
-layout(binding = 3) uniform samplerBuffer sky;
+TEXELS(3, vec4, sky);
 layout(push_constant, scalar) uniform Push { SkyPush push; };
 
 vec3 bilinear(vec2 place, uint first, uint side) {
     const ivec2 corner = clamp(ivec2(floor(place)), ivec2(0), ivec2(side));
     const vec2 t = clamp(place - vec2(corner), 0.0, 1.0);
     const int pitch = int(side + 2u), at = int(first) + corner.y * pitch + corner.x;
-    return mix(mix(texelFetch(sky, at).rgb, texelFetch(sky, at + 1).rgb, t.x),
-               mix(texelFetch(sky, at + pitch).rgb, texelFetch(sky, at + pitch + 1).rgb, t.x), t.y);
+    return mix(mix(texel_at(sky, at).rgb, texel_at(sky, at + 1).rgb, t.x),
+               mix(texel_at(sky, at + pitch).rgb, texel_at(sky, at + pitch + 1).rgb, t.x), t.y);
 }
 
 vec3 look_up(vec2 octahedral, uint first, uint side) {
@@ -53,13 +54,13 @@ vec2 reflected(float normal_eye, float roughness) {
     const ivec2 corner = clamp(ivec2(place), ivec2(0), ivec2(kSpecularSide - 2u));
     const vec2 t = place - vec2(corner);
     const int at = int(kSkyPolynomial) + corner.y * int(kSpecularSide) + corner.x;
-    return mix(mix(texelFetch(sky, at).xy, texelFetch(sky, at + 1).xy, t.x),
-               mix(texelFetch(sky, at + int(kSpecularSide)).xy, texelFetch(sky, at + int(kSpecularSide) + 1).xy, t.x), t.y);
+    return mix(mix(texel_at(sky, at).xy, texel_at(sky, at + 1).xy, t.x),
+               mix(texel_at(sky, at + int(kSpecularSide)).xy, texel_at(sky, at + int(kSpecularSide) + 1).xy, t.x), t.y);
 }
 
 void main() {
     vec3 c[kSkyPolynomial];
-    for (uint i = 0u; i < kSkyPolynomial; ++i) c[i] = texelFetch(sky, int(i)).rgb;
+    for (uint i = 0u; i < kSkyPolynomial; ++i) c[i] = texel_at(sky, int(i)).rgb;
     const uvec2 first = gl_GlobalInvocationID.xy * uvec2(1u, kRows);
     for (uint r = 0u; r < kRows; ++r) {
         const uvec2 pixel = first + uvec2(0u, r);

@@ -8,6 +8,7 @@
 // its neighbours see in their middles, among those of its own mesh that are near it, and among the emitters that are a pixel wide.
 // Of other meshes a facet that is narrower than a pixel, or has holes, hides the pixel whose middle sees it and no other.
 
+#include "texels.glsl"
 #include "shared/edges.h"
 #include "shared/gbuffer.h"
 #include "shared/luminaire.h"
@@ -18,13 +19,13 @@ layout(local_size_x = kLuminaireTile, local_size_y = kLuminaireTile) in;
 layout(binding = 0, rg32ui) readonly uniform uimage2D triangles;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 2, rgba32f) uniform image2D scene_image;
-layout(binding = 3) uniform samplerBuffer emitters;
-layout(binding = 4) uniform samplerBuffer silhouettes;
-layout(binding = 5) uniform usamplerBuffer tiles;
-layout(binding = 6) uniform usamplerBuffer entries;
-layout(binding = 7) uniform samplerBuffer instances;
-layout(binding = 8) uniform samplerBuffer vertices;
-layout(binding = 9) uniform usamplerBuffer facets;
+TEXELS(3, vec4, emitters);
+TEXELS(4, vec2, silhouettes);
+TEXELS(5, uvec4, tiles);
+TEXELS(6, uint, entries);
+TEXELS(7, vec4, instances);
+TEXELS(8, vec2, vertices);
+TEXELS(9, uvec4, facets);
 layout(push_constant, scalar) uniform Push { SmallEmittersPush push; };
 
 #include "coverage.glsl"
@@ -65,8 +66,8 @@ struct Piece {
 
 Piece piece_of(uint entry, ivec2 pixel) {
     const int at = int((entry & ~kCoversTile) * kTexelsPerSmallEmitter);
-    const vec4 a = texelFetch(emitters, at), b = texelFetch(emitters, at + 1), c = texelFetch(emitters, at + 2);
-    return Piece(a.rgb, b.xyz, vec2(pixel) - c.xy, int(a.w), int(b.w), c.z, c.w, texelFetch(emitters, at + 3).x);
+    const vec4 a = texel_at(emitters, at), b = texel_at(emitters, at + 1), c = texel_at(emitters, at + 2);
+    return Piece(a.rgb, b.xyz, vec2(pixel) - c.xy, int(a.w), int(b.w), c.z, c.w, texel_at(emitters, at + 3).x);
 }
 
 float depth_at(Piece piece, uint i) { return dot(piece.inverse_depth, vec3(piece.corner + 0.5 + place_of(i), 1.0)); }
@@ -75,9 +76,9 @@ float within[kEdgeSamples];  // px by which points are within the silhouette las
 
 void find_within(Piece piece) {
     [[unroll]] for (uint i = 0u; i < kEdgeSamples; ++i) within[i] = 1e30;
-    vec2 a = texelFetch(silhouettes, piece.first + piece.count - 1).xy;
+    vec2 a = texel_at(silhouettes, piece.first + piece.count - 1).xy;
     for (int v = 0; v < piece.count; ++v) {
-        const vec2 b = texelFetch(silhouettes, piece.first + v).xy, along = (b - a) / max(distance(a, b), 1e-30);
+        const vec2 b = texel_at(silhouettes, piece.first + v).xy, along = (b - a) / max(distance(a, b), 1e-30);
         [[unroll]] for (uint i = 0u; i < kEdgeSamples; ++i) {
             const vec2 p = piece.corner + 0.5 + place_of(i) - a;
             within[i] = min(within[i], along.x * p.y - along.y * p.x);
@@ -106,19 +107,19 @@ float seen_part(Piece piece) {
 void main() {
     const uint number = gl_WorkGroupID.y * kTilesPerRow + gl_WorkGroupID.x;
     if (number >= push.tiles) return;
-    const uvec4 tile = texelFetch(tiles, int(number));
+    const uvec4 tile = texel_at(tiles, int(number));
     const ivec2 pixel = ivec2(tile.xy * kLuminaireTile + gl_LocalInvocationID.xy);
     if (any(greaterThanEqual(pixel, ivec2(push.size)))) return;
 
     bool is_covered = false;
     for (uint i = 0u; i < tile.w && !is_covered; ++i) {
-        const Piece piece = piece_of(texelFetch(entries, int(tile.z + i)).r, pixel);
+        const Piece piece = piece_of(texel_at(entries, int(tile.z + i)).r, pixel);
         is_covered = piece.widening > 0.0 && coverage(piece.corner, piece.first, piece.count) > 0.0;
     }
     if (!is_covered) return;
     find_nearest(pixel);
     for (uint i = 0u; i < tile.w; ++i) {
-        const Piece piece = piece_of(texelFetch(entries, int(tile.z + i)).r, pixel);
+        const Piece piece = piece_of(texel_at(entries, int(tile.z + i)).r, pixel);
         if (piece.widening > 1.0) continue;  // others hide what is behind them
         find_within(piece);
         [[unroll]] for (uint k = 0u; k < kEdgeSamples; ++k) nearest[k] = within[k] >= 0.0 ? max(nearest[k], depth_at(piece, k)) : nearest[k];
@@ -126,7 +127,7 @@ void main() {
     vec3 sum = vec3(0.0);
     float share = 0.0;  // of the pixel
     for (uint i = 0u; i < tile.w; ++i) {
-        const Piece piece = piece_of(texelFetch(entries, int(tile.z + i)).r, pixel);
+        const Piece piece = piece_of(texel_at(entries, int(tile.z + i)).r, pixel);
         const float covered = piece.widening > 0.0 ? coverage(piece.corner, piece.first, piece.count) : 0.0;
         if (covered == 0.0) continue;
         const float seen = covered / piece.widening * seen_part(piece);

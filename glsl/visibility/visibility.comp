@@ -12,6 +12,7 @@
 
 #include "blocks.glsl"
 #include "normal.glsl"
+#include "texels.glsl"
 #include "shared/visibility.h"
 
 layout(local_size_x = 8) in;  // kBlockSize
@@ -20,13 +21,13 @@ layout(constant_id = 1) const uint kTables = 1u;  // measured distributions
 layout(constant_id = 2) const uint kLockstep = 0u;  // see lanes.glsl
 
 layout(binding = 0, rgba32f) readonly uniform image2D surface_image;
-layout(binding = 1) uniform samplerBuffer lamps;
+TEXELS(1, vec4, lamps);
 layout(binding = 2, scalar) buffer BlockCounts { uint block_counts[]; };
-layout(binding = 3, r32ui) uniform uimageBuffer entries;
-layout(binding = 4) uniform samplerBuffer maps;
-layout(binding = 5) uniform samplerBuffer distances;
-layout(binding = 6) uniform samplerBuffer tables;
-layout(binding = 7, r32ui) writeonly uniform uimageBuffer shares;
+WRITTEN_TEXELS(3, uint, entries);
+TEXELS(4, vec4, maps);
+HALVES(5, distances);
+TEXELS(6, vec4, tables);
+writeonly WRITTEN_TEXELS(7, uint, shares);
 layout(binding = 8, scalar) buffer Report { uint report[]; };
 layout(push_constant, scalar) uniform Push { VisibilityPush push; };
 
@@ -149,7 +150,7 @@ float probe(uint number, uint index, bool cone) {
 // So do the others, half of them from where the light of an edge of the lamp's disc ends.
 void probe_more(uint number, uint index) {
     const FetchedMap map = fetch_map(index);
-    const vec3 lamp = texelFetch(lamps, int(index * kTexelsPerLamp)).xyz;
+    const vec3 lamp = texel_at(lamps, int(index * kTexelsPerLamp)).xyz;
     const vec3 to_lamp = lamp - probe_position[0];
     const float away = length(to_lamp);
     const vec3 l = to_lamp / max(away, 1e-6), n = probe_normal[0];
@@ -175,7 +176,7 @@ void probe_more(uint number, uint index) {
 // the way from the lamp its light gets, where something stops it.
 uint look(uint index, float stops, out uint word) {
     const FetchedMap map = fetch_map(index);
-    const vec3 lamp = texelFetch(lamps, int(index * kTexelsPerLamp)).xyz;
+    const vec3 lamp = texel_at(lamps, int(index * kTexelsPerLamp)).xyz;
     const uint lane = gl_LocalInvocationID.x;
     // The radius of the penumbra, m across the way of the light.
     const float away = distance(lamp, probe_position[0]);
@@ -243,7 +244,7 @@ uvec4 see(uint x, uint y) {
 
     float light = 0.0;  // the mean of the block is the sum of all invocations, lx
     for (uint i = lane; i < all_; i += kBlockSize) {
-        const uint entry = imageLoad(entries, i < cones ? first + int(i) : last - int(i - cones)).r;
+        const uint entry = written_texel_at(entries, i < cones ? first + int(i) : last - int(i - cones)).r;
         listed[i] = entry;
         light += probe(i, lamp_of(entry), i < cones);
     }
@@ -291,7 +292,7 @@ uvec4 see(uint x, uint y) {
             const float stops = lanes_max(mine ? way[i] : 0.0);
             const uint sees_it = look(lamp, stops, word);
             if (sees_it == kMixed)
-                imageStore(shares, int((block * kSharePlaces + mixed) * kBlockSize + lane), uvec4(word));
+                write_texel(shares, int((block * kSharePlaces + mixed) * kBlockSize + lane), word);
             visible = mine ? sees_it : visible;
             mark = mine && sees_it == kMixed ? kMixedBit | mixed << kShareShift : mark;
             mixed += sees_it == kMixed ? 1u : 0u;
@@ -300,7 +301,7 @@ uvec4 see(uint x, uint y) {
         mark = visible < kShares ? visible << kShareShift : mark;
         const bool stays = visible != kDark;
         const uint one = stays ? (cone ? 1u : 1u << 16u) : 0u, before = kept + lanes_add_before(one);
-        if (stays) imageStore(entries, cone ? first + int(before & 0xffffu) : last - int(before >> 16u), uvec4(entry | mark));
+        if (stays) write_texel(entries, cone ? first + int(before & 0xffffu) : last - int(before >> 16u), entry | mark);
         kept += lanes_add(one);
         lit += visible == kLit ? 1u : 0u;
         dark += there && visible == kDark ? 1u : 0u;

@@ -5,15 +5,16 @@
 // Display codes to a window, unchanged where its pixels are those of the picture. Other sizes get means of codes, as a screen's own
 // scaler does.
 
+#include "texels.glsl"
 #include "shared/present.h"
 
-layout(binding = 0) uniform usamplerBuffer words;
+TEXELS(0, uint, words);
 layout(push_constant, scalar) uniform Push { PresentPush push; };
 layout(location = 0) out vec4 shown;
 
 vec3 codes(ivec2 pixel) {
     pixel = clamp(pixel, ivec2(0), ivec2(push.size) - 1);
-    const uint word = texelFetch(words, pixel.y * int(push.size.x) + pixel.x).r;
+    const uint word = texel_at(words, pixel.y * int(push.size.x) + pixel.x).r;
     if (push.bits == 8u) return unpackUnorm4x8(word).rgb;
     return vec3(word & 1023u, word >> 10 & 1023u, word >> 20 & 1023u) / 1023.0;
 }

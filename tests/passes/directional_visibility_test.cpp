@@ -185,6 +185,32 @@ TEST(DirectionalVisibility, SharesAreThoseOfTheReference) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+TEST(DirectionalVisibility, MapsThatNoDeviceCanReadAreRefused) {
+    PassRig rig;
+    const gpu_scene::View view = gpu_scene::View::symmetric({8, 8}, 0.7f, glm::dmat4(1));
+    Surfaces s{view.extent, {}, {}, {}};
+    s.reflectance.resize(64), s.surface.resize(64), s.emission.resize(64);
+    gpu_scene::LampList list;
+    list.counts.directional = 1, list.lamps.resize(1), list.indices.resize(1);
+    graph::FrameGraph graph;
+    const LitBlocks lit =
+        light(rig.frame(graph, view), upload(graph, s), list,
+              upload(graph, gpu_scene::IntensityTables{.texels = {glm::vec4(0)}}), {}, {},
+              {graph.upload("maps", std::vector<shared::DirectionalMap>(1), VK_FORMAT_R32G32B32A32_SFLOAT),
+               graph.external("distances", VK_NULL_HANDLE, uint64_t{1} << 40, VK_FORMAT_R16_SFLOAT), 1, 64});
+    keep<glm::vec4>(graph, lit.scene);
+    try {
+        rig.run(graph);
+        FAIL() << "not refused";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("'distances' has "), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what())
+                      .find(rig.device().has_long_texel_buffers() ? "maxTexelBufferElements" : "maxStorageBufferRange"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
 // Against rays through boxes and plates at random, away from edges.
 TEST(DirectionalVisibility, AgreesWithRays) {
     PassRig rig;

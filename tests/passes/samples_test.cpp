@@ -64,6 +64,28 @@ TEST(Samples, MatchTheReference) {
 }
 
 // 1e8 cd/m^2 once, 0.1 two thousand times: floats alone would forget all of these.
+// More passes than a pool has sets of descriptors.
+TEST(Samples, AFrameOfTheLeastDeviceMayTakeManyOfThem) {
+    constexpr size_t kMany = 150;
+    PassRig rig(true);
+    render::SampleBuffers buffers;
+    buffers.resize(rig.device(), 1);
+    for (int again = 0; again < 5; ++again) {
+        graph::FrameGraph graph;
+        const render::FrameContext frame = rig.frame(graph, VkExtent2D{1, 1});
+        const render::SampleSums sums = buffers.declare(graph);
+        for (size_t i = 0; i < kMany; ++i)
+            render::add_sample(frame,
+                               rig.image(graph, "scene " + std::to_string(i), render::kSceneFormat, {1, 1},
+                                         Pixels{glm::vec4(float(i))}),
+                               sums, i == 0);
+        const graph::Resource kept = keep<glm::vec4>(graph, render::add_mean_of_samples(frame, sums, kMany));
+        rig.run(graph);
+        EXPECT_NEAR(rig.got<glm::vec4>(kept)[0].x, (kMany - 1) / 2.0, kRounding * kMany);
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
 TEST(Samples, ManyFaintOnesAreNotLostBesideABrightOne) {
     PassRig rig;
     const VkExtent2D extent{3, 2};

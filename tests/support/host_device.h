@@ -33,7 +33,11 @@ public:
         queue_info_.queueCount = 1, queue_info_.pQueuePriorities = &priority_;
         info_.pNext = &asked_.features;
         info_.queueCreateInfoCount = 1, info_.pQueueCreateInfos = &queue_info_;
-        info_.ppEnabledExtensionNames = vesper_device_extensions(&info_.enabledExtensionCount);
+        uint32_t used = 0;
+        const char* const* names = vesper_device_extensions(&used);
+        extensions_ = extensions_of(physical_, names, used);
+        info_.enabledExtensionCount = uint32_t(extensions_.size());
+        info_.ppEnabledExtensionNames = extensions_.data();
         if (change) change(asked_, info_);
         check(vkCreateDevice(physical_, &info_, nullptr, &device_), "opening a device");
         vkGetDeviceQueue(device_, 0, 0, &queue_);
@@ -63,6 +67,7 @@ private:
     Instance instance_;
     VkPhysicalDevice physical_;
     float priority_ = 1;
+    std::vector<const char*> extensions_;
     HostFeatures asked_;
     VkDeviceQueueCreateInfo queue_info_{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     VkDeviceCreateInfo info_{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};

@@ -18,9 +18,11 @@ namespace vesper::test {
 /// A device, its kernels and an executor. Make one per test: `complaints()` must be empty at its end.
 class PassRig {
 public:
-    PassRig()
+    /// `as_least`: see gpu::DeviceOptions.
+    explicit PassRig(bool as_least = std::getenv("VESPER_TEST_AS_LEAST") != nullptr)
         : device_({.select = "",
                    .as_gpu = std::getenv("VESPER_TEST_AS_GPU") != nullptr,
+                   .as_least = as_least,
                    .validation = true,
                    .on_message = [this](const std::string& message) { complaints_.push_back(message); }}),
           kernels_(device_),

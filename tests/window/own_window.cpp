@@ -89,8 +89,8 @@ void run(const Instance& instance, GLFWwindow* window) {
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &f12, {}};
     call(vesper_device_features, physical, &features);
     uint32_t count = 0;
-    const char* const* needed = vesper_device_extensions(&count);
-    std::vector<const char*> extensions(needed, needed + count);
+    const char* const* used = vesper_device_extensions(&count);
+    std::vector<const char*> extensions = extensions_of(physical, used, count);
     extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, 0, 1, &priority};

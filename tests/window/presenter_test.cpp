@@ -3,6 +3,7 @@
 #include "window/presenter.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 
@@ -18,9 +19,10 @@ using window::Scaling;
 class PresenterTest : public testing::Test {
 protected:
     std::string complaints;
-    gpu::Device device{{.select = "", .validation = true, .on_message = [this](const std::string& message) {
-                            complaints += message + "\n";
-                        }}};
+    gpu::Device device{{.select = "",
+                        .as_least = std::getenv("VESPER_TEST_AS_LEAST") != nullptr,
+                        .validation = true,
+                        .on_message = [this](const std::string& message) { complaints += message + "\n"; }}};
     std::vector<uint8_t> letters = std::vector<uint8_t>(4, 255);
     window::Presenter presenter{device, {2, 2}, letters};
 

@@ -26,6 +26,18 @@ bool has_layer() {
 
 }  // namespace
 
+std::vector<const char*> extensions_of(VkPhysicalDevice device, const char* const* names, uint32_t count) {
+    uint32_t found = 0;
+    vkEnumerateDeviceExtensionProperties(device, nullptr, &found, nullptr);
+    std::vector<VkExtensionProperties> extensions(found);
+    vkEnumerateDeviceExtensionProperties(device, nullptr, &found, extensions.data());
+    std::vector<const char*> had;
+    for (uint32_t i = 0; i < count; ++i)
+        for (const VkExtensionProperties& extension : extensions)
+            if (!std::strcmp(extension.extensionName, names[i])) had.push_back(names[i]);
+    return had;
+}
+
 Instance::Instance(std::vector<const char*> extensions) {
     VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     application.apiVersion = VK_API_VERSION_1_3;

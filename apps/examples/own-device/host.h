@@ -30,6 +30,9 @@ private:
     unsigned messages_ = 0;
 };
 
+/// Of these device extensions, those that a device has.
+std::vector<const char*> extensions_of(VkPhysicalDevice device, const char* const* names, uint32_t count);
+
 struct Image {
     VkImage image = VK_NULL_HANDLE;
     VkDeviceMemory memory = VK_NULL_HANDLE;

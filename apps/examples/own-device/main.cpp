@@ -82,7 +82,10 @@ void run(const Instance& instance, const char* out) {
         VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, family, 1, &priority};
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features};
     info.queueCreateInfoCount = 1, info.pQueueCreateInfos = &queue_info;
-    info.ppEnabledExtensionNames = vesper_device_extensions(&info.enabledExtensionCount);
+    uint32_t used = 0;
+    const char* const* names = vesper_device_extensions(&used);
+    const std::vector<const char*> extensions = extensions_of(physical, names, used);
+    info.enabledExtensionCount = uint32_t(extensions.size()), info.ppEnabledExtensionNames = extensions.data();
     VkDevice device = VK_NULL_HANDLE;
     check(vkCreateDevice(physical, &info, nullptr, &device), "opening the device");
     VkQueue queue = VK_NULL_HANDLE;

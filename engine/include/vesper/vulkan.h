@@ -1,9 +1,9 @@
 /** @file
  * Vesper on a Vulkan device of its host, with images of the host.
  *
- * The host makes the device with the extensions of vesper_device_extensions and the features of vesper_device_features,
- * and passes it to vesper_device_borrow. Vesper calls the Vulkan loader of the process (libvulkan.so.1); the host may
- * link or load it.
+ * The host makes the device with the features of vesper_device_features and, where it has them, the extensions of
+ * vesper_device_extensions, and passes it to vesper_device_borrow. Vesper calls the Vulkan loader of the process
+ * (libvulkan.so.1); the host may link or load it.
  *
  * Ownership. The host owns the borrowed objects. It keeps images and semaphores alive until the work that uses them is
  * done, and the device until the VesperDevice is closed.
@@ -34,7 +34,8 @@ extern "C" {
 /** @name Devices of the host
  * @{ */
 
-/** Names of the required device extensions, valid for ever. The instance must be made for Vulkan 1.3. */
+/** Names of the device extensions that are used where the device has them, valid for ever. None is required: leave out
+ * those that the device lacks. The instance must be made for Vulkan 1.3. */
 const char* const* vesper_device_extensions(uint32_t* count);
 /** Sets the required features and leaves other features unchanged. The chain of `features` must hold the structures of
  * Vulkan 1.2 and 1.3, or those of the extensions that they include. Fails if the device lacks a feature, and names all
@@ -57,7 +58,7 @@ typedef struct VesperHostDevice {
     void* user;                             /**< passed to both */
 } VesperHostDevice;
 
-/** Borrows a device. Fails if the device lacks a required extension or feature, and names all missing ones. */
+/** Borrows a device. Fails if the device lacks a required feature, and names all missing ones. */
 VesperResult vesper_device_borrow(const VesperHostDevice* host, VesperDevice** device, VesperError* error);
 
 /** @} */

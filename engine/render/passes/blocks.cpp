@@ -1,7 +1,9 @@
 #include "render/passes/blocks.h"
 
 #include "shaders/blocks/cull_lamps.comp.inc"
+#include "shaders/blocks/cull_lamps.comp.storage.inc"
 #include "shaders/blocks/merge_lamps.comp.inc"
+#include "shaders/blocks/merge_lamps.comp.storage.inc"
 #include "shared/blocks.h"
 
 namespace vesper::render {
@@ -9,7 +11,8 @@ namespace {
 
 using graph::load, graph::sample, graph::store, graph::update;
 
-constexpr gpu::Shader kCullLamps{"cull_lamps.comp", cull_lamps_comp}, kMergeLamps{"merge_lamps.comp", merge_lamps_comp};
+constexpr gpu::Shader kCullLamps{"cull_lamps.comp", cull_lamps_comp, cull_lamps_comp_storage},
+    kMergeLamps{"merge_lamps.comp", merge_lamps_comp, merge_lamps_comp_storage};
 
 constexpr uint64_t kWord = sizeof(uint32_t);
 constexpr VkFormat kWords = VK_FORMAT_R32_UINT;

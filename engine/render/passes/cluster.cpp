@@ -6,6 +6,7 @@
 
 #include "shaders/cluster/active_clusters.comp.inc"
 #include "shaders/cluster/cluster.comp.inc"
+#include "shaders/cluster/cluster.comp.storage.inc"
 #include "shared/shade.h"
 
 namespace vesper::render {
@@ -14,7 +15,7 @@ namespace {
 using graph::load, graph::sample, graph::store, graph::update;
 
 constexpr gpu::Shader kActiveClusters{"active_clusters.comp", active_clusters_comp},
-    kCluster{"cluster.comp", cluster_comp};
+    kCluster{"cluster.comp", cluster_comp, cluster_comp_storage};
 
 constexpr float kNear = 1;  // m, where slice 1 begins
 constexpr uint32_t kMaxSlices = 32, kMaxCapacity = 4096;

@@ -1,6 +1,7 @@
 #include "render/passes/corona.h"
 
 #include "shaders/corona/corona.comp.inc"
+#include "shaders/corona/corona.comp.storage.inc"
 #include "shaders/corona/corona_pick.comp.inc"
 #include "shaders/corona/corona_tiles.comp.inc"
 #include "shared/corona.h"
@@ -11,7 +12,7 @@ namespace {
 using graph::load, graph::sample, graph::store, graph::update;
 
 constexpr gpu::Shader kCoronaTiles{"corona_tiles.comp", corona_tiles_comp},
-    kCoronaPick{"corona_pick.comp", corona_pick_comp}, kCorona{"corona.comp", corona_comp};
+    kCoronaPick{"corona_pick.comp", corona_pick_comp}, kCorona{"corona.comp", corona_comp, corona_comp_storage};
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 
 #include "render/pixel_groups.h"
 #include "shaders/daylight/daylight.comp.inc"
+#include "shaders/daylight/daylight.comp.storage.inc"
 #include "shared/daylight.h"
 
 namespace vesper::render {
@@ -9,7 +10,7 @@ namespace {
 
 using graph::load, graph::sample, graph::update;
 
-constexpr gpu::Shader kDaylight{"daylight.comp", daylight_comp};
+constexpr gpu::Shader kDaylight{"daylight.comp", daylight_comp, daylight_comp_storage};
 
 }  // namespace
 

@@ -96,9 +96,9 @@ void add_directional_maps(const FrameContext& frame, const GpuScene& scene, cons
             graph.transient("drawn level" + which, graph::image_shape(kDepthFormat, {side, side}));
         graph.raster("directional maps" + which,
                      {{placed, graph::Access::Vertices}, {depth, graph::Access::DepthTarget}},
-                     [&device = frame.kernels.device(), &pipelines = frame.pipelines, &scene, placed,
+                     [&pipelines = frame.pipelines, &scene, placed,
                       batches = std::move(batches)](const graph::Recording& recording) {
-                         record_map_parts(recording, device, pipelines, kLevelShaders, scene, placed, batches);
+                         record_map_parts(recording, pipelines, kLevelShaders, scene, placed, batches);
                      });
         const shared::StoreDirectionalPush push{.first = uint32_t(level.first),
                                                 .side = side,

@@ -4,13 +4,15 @@
 
 #include "base/error.h"
 #include "shaders/directional_visibility/directional_visibility.comp.inc"
+#include "shaders/directional_visibility/directional_visibility.comp.storage.inc"
 
 namespace vesper::render {
 namespace {
 
 using graph::load, graph::sample, graph::store;
 
-constexpr gpu::Shader kDirectionalVisibility{"directional_visibility.comp", directional_visibility_comp};
+constexpr gpu::Shader kDirectionalVisibility{"directional_visibility.comp", directional_visibility_comp,
+                                             directional_visibility_comp_storage};
 
 }  // namespace
 
@@ -21,7 +23,7 @@ Blocks add_directional_visibility(const FrameContext& frame, const GBuffer& surf
     const uint64_t words = (lamps + shared::kSharesPerWord - 1) / shared::kSharesPerWord;
     const uint64_t elements = blocks.count * words * shared::kBlockSize * shared::kBlockSize;
     const VkExtent2D extent = frame.view.extent;
-    if (elements > frame.kernels.device().limits().maxTexelBufferElements)
+    if (elements > frame.kernels.device().most_texels(sizeof(uint32_t)))
         throw Error("an image of " + std::to_string(extent.width) + " x " + std::to_string(extent.height) + " with " +
                     std::to_string(lamps) +
                     " directional lights has more shares than the device can hold; without shadows it can be rendered");

@@ -11,6 +11,7 @@
 #include "shaders/distance_map/distance_map.frag.inc"
 #include "shaders/distance_map/distance_map.vert.inc"
 #include "shaders/distance_map/store_distances.comp.inc"
+#include "shaders/distance_map/store_distances.comp.storage.inc"
 
 namespace vesper::render {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 using gpu_scene::GpuScene;
 using graph::load, graph::sample, graph::update;
 
-constexpr gpu::Shader kStore{"store_distances.comp", store_distances_comp};
+constexpr gpu::Shader kStore{"store_distances.comp", store_distances_comp, store_distances_comp_storage};
 
 constexpr VkVertexInputBindingDescription kMapBuffers[]{
     {0, sizeof(scene::Vertex), VK_VERTEX_INPUT_RATE_VERTEX},
@@ -282,9 +283,9 @@ void add_distance_maps(const FrameContext& frame, const GpuScene& scene, const g
         const graph::Resource depth =
             graph.transient("drawn maps" + which, graph::image_shape(kDepthFormat, {image.side, image.side}));
         graph.raster("distance maps" + which, {{placed, graph::Access::Vertices}, {depth, graph::Access::DepthTarget}},
-                     [&device = frame.kernels.device(), &pipelines = frame.pipelines, &scene, placed,
+                     [&pipelines = frame.pipelines, &scene, placed,
                       batches = std::move(parts.batches)](const graph::Recording& recording) {
-                         record_map_parts(recording, device, pipelines, kMapShaders, scene, placed, batches);
+                         record_map_parts(recording, pipelines, kMapShaders, scene, placed, batches);
                      });
         const graph::Resource small = graph.transient(
             "small triangles" + which, graph::buffer_shape(uint64_t(image.side) * image.side * sizeof(float)));

@@ -4,8 +4,10 @@
 
 #include "render/pixel_groups.h"
 #include "shaders/edges/edge_means.comp.inc"
+#include "shaders/edges/edge_means.comp.storage.inc"
 #include "shaders/edges/find_edges.comp.inc"
 #include "shaders/edges/show_edges.comp.inc"
+#include "shaders/edges/show_edges.comp.storage.inc"
 #include "shared/edges.h"
 
 namespace vesper::render {
@@ -13,8 +15,9 @@ namespace {
 
 using graph::load, graph::sample, graph::store, graph::update;
 
-constexpr gpu::Shader kFindEdges{"find_edges.comp", find_edges_comp}, kEdgeMeans{"edge_means.comp", edge_means_comp},
-    kShowEdges{"show_edges.comp", show_edges_comp};
+constexpr gpu::Shader kFindEdges{"find_edges.comp", find_edges_comp},
+    kEdgeMeans{"edge_means.comp", edge_means_comp, edge_means_comp_storage},
+    kShowEdges{"show_edges.comp", show_edges_comp, show_edges_comp_storage};
 
 }  // namespace
 
@@ -23,7 +26,7 @@ void add_edges(const FrameContext& frame, const GBuffer& surfaces, graph::Resour
     graph::FrameGraph& graph = frame.graph;
     const gpu_scene::View& view = frame.view;
     const uint64_t pixels = uint64_t(view.extent.width) * view.extent.height;
-    if (pixels > frame.kernels.device().limits().maxTexelBufferElements) return;
+    if (pixels > frame.kernels.device().most_texels(sizeof(glm::vec4))) return;
     const graph::Resource counts =
         graph.transient("edge counts", graph::buffer_shape(shared::kEdgeCounts * sizeof(uint32_t), VK_FORMAT_R32_UINT));
     const graph::Resource edges =

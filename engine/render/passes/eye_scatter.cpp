@@ -4,9 +4,13 @@
 #include <functional>
 
 #include "shaders/eye_scatter/scatter_down.comp.inc"
+#include "shaders/eye_scatter/scatter_down.comp.storage.inc"
 #include "shaders/eye_scatter/scatter_edge.comp.inc"
+#include "shaders/eye_scatter/scatter_edge.comp.storage.inc"
 #include "shaders/eye_scatter/scatter_top.comp.inc"
+#include "shaders/eye_scatter/scatter_top.comp.storage.inc"
 #include "shaders/eye_scatter/scatter_up.comp.inc"
+#include "shaders/eye_scatter/scatter_up.comp.storage.inc"
 #include "shared/eye_scatter.h"
 
 namespace vesper::render {
@@ -14,8 +18,10 @@ namespace {
 
 using graph::Resource, graph::load, graph::sample, graph::store, graph::update;
 
-constexpr gpu::Shader kScatterUp{"scatter_up.comp", scatter_up_comp}, kScatterTop{"scatter_top.comp", scatter_top_comp},
-    kScatterDown{"scatter_down.comp", scatter_down_comp}, kScatterEdge{"scatter_edge.comp", scatter_edge_comp};
+constexpr gpu::Shader kScatterUp{"scatter_up.comp", scatter_up_comp, scatter_up_comp_storage},
+    kScatterTop{"scatter_top.comp", scatter_top_comp, scatter_top_comp_storage},
+    kScatterDown{"scatter_down.comp", scatter_down_comp, scatter_down_comp_storage},
+    kScatterEdge{"scatter_edge.comp", scatter_edge_comp, scatter_edge_comp_storage};
 
 // Texels that one invocation of scatter_up.comp does.
 VkExtent2D scatter_up_strip(const gpu::Device& device) {

@@ -138,8 +138,8 @@ std::vector<DrawnPart> cull(const GpuScene& scene, const gpu_scene::SceneFrame& 
     return drawn;
 }
 
-void record_batches(const graph::Recording& recording, const gpu::Device& device, const GpuScene& scene,
-                    const gpu_scene::View& view, graph::Resource instances, const std::vector<Batch>& batches) {
+void record_batches(const graph::Recording& recording, const GpuScene& scene, const gpu_scene::View& view,
+                    graph::Resource instances, const std::vector<Batch>& batches) {
     const VkCommandBuffer commands = recording.commands();
     const VkBuffer buffers[] = {scene.vertices(), recording.buffer(instances)};
     const VkDeviceSize offsets[] = {0, recording.offset(instances)};
@@ -164,7 +164,7 @@ void record_batches(const graph::Recording& recording, const gpu::Device& device
                              .descriptorCount = 1,
                              .descriptorType = kTexture,
                              .pImageInfo = &surface.textures[i]};
-            device.push_descriptors(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 3, writes);
+            recording.bind(*batch.pipeline, writes);
             // Clip space has y down: view y goes in with its sign turned.
             const shared::GBufferPush push{m.base_colour, m.emission,          m.alpha_cutoff,        m.metallic,
                                            m.roughness,   {scale.x, -scale.y}, {offset.x, -offset.y}, view.near};
@@ -185,8 +185,8 @@ static_assert(sizeof(scene::Vertex) == shared::kTexelsPerVertex * sizeof(glm::ve
 
 bool has_facets(const gpu::Device& device, const GpuScene& scene) {
     return scene.vertex_count() > 0 &&
-           std::max(scene.vertex_count() * shared::kTexelsPerVertex, uint64_t(gpu_scene::kMostEntries)) <=
-               device.limits().maxTexelBufferElements;
+           scene.vertex_count() * shared::kTexelsPerVertex <= device.most_texels(sizeof(glm::vec2)) &&
+           scene.vertex_count() <= device.most_texels(sizeof(shared::Facet));
 }
 
 GBuffer add_gbuffer(const FrameContext& frame, const GpuScene& scene, const gpu_scene::SceneFrame& poses,
@@ -236,9 +236,8 @@ GBuffer add_gbuffer(const FrameContext& frame, const GpuScene& scene, const gpu_
                   {g.emission, graph::Access::ColorTarget},
                   {g.triangle, graph::Access::ColorTarget},
                   {g.depth, graph::Access::DepthTarget}},
-                 [&device = frame.kernels.device(), &scene, view, placed,
-                  batches = std::move(batches)](const graph::Recording& recording) {
-                     if (!batches.empty()) record_batches(recording, device, scene, view, placed, batches);
+                 [&scene, view, placed, batches = std::move(batches)](const graph::Recording& recording) {
+                     if (!batches.empty()) record_batches(recording, scene, view, placed, batches);
                  });
     return g;
 }

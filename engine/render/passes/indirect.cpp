@@ -3,6 +3,7 @@
 #include "render/pixel_groups.h"
 #include "shaders/indirect/illuminance.comp.inc"
 #include "shaders/indirect/indirect.comp.inc"
+#include "shaders/indirect/indirect.comp.storage.inc"
 #include "shared/indirect.h"
 
 namespace vesper::render {
@@ -10,7 +11,7 @@ namespace {
 
 using graph::load, graph::sample, graph::update;
 
-constexpr gpu::Shader kIndirect{"indirect.comp", indirect_comp};
+constexpr gpu::Shader kIndirect{"indirect.comp", indirect_comp, indirect_comp_storage};
 constexpr gpu::Shader kIlluminance{"illuminance.comp", illuminance_comp};
 
 }  // namespace

@@ -2,13 +2,14 @@
 
 #include "render/silhouettes.h"
 #include "shaders/luminaires/luminaires.comp.inc"
+#include "shaders/luminaires/luminaires.comp.storage.inc"
 
 namespace vesper::render {
 namespace {
 
 using graph::load, graph::sample, graph::update;
 
-constexpr gpu::Shader kLuminaires{"luminaires.comp", luminaires_comp};
+constexpr gpu::Shader kLuminaires{"luminaires.comp", luminaires_comp, luminaires_comp_storage};
 
 }  // namespace
 

@@ -2,14 +2,17 @@
 
 #include "render/pixel_groups.h"
 #include "shaders/moving_light/hidden.comp.inc"
+#include "shaders/moving_light/hidden.comp.storage.inc"
 #include "shaders/moving_light/patches.comp.inc"
+#include "shaders/moving_light/patches.comp.storage.inc"
 
 namespace vesper::render {
 namespace {
 
 using graph::load, graph::sample, graph::store, graph::update;
 
-constexpr gpu::Shader kHidden{"hidden.comp", hidden_comp}, kPatches{"patches.comp", patches_comp};
+constexpr gpu::Shader kHidden{"hidden.comp", hidden_comp, hidden_comp_storage},
+    kPatches{"patches.comp", patches_comp, patches_comp_storage};
 
 }  // namespace
 

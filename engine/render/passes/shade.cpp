@@ -4,13 +4,14 @@
 
 #include "render/pixel_groups.h"
 #include "shaders/shade/shade.comp.inc"
+#include "shaders/shade/shade.comp.storage.inc"
 
 namespace vesper::render {
 namespace {
 
 using graph::load, graph::sample, graph::update;
 
-constexpr gpu::Shader kShade{"shade.comp", shade_comp};
+constexpr gpu::Shader kShade{"shade.comp", shade_comp, shade_comp_storage};
 
 // What a kernel has code for, as bits.
 enum ShadeVariant : uint32_t {

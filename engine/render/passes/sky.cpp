@@ -2,6 +2,7 @@
 
 #include "render/pixel_groups.h"
 #include "shaders/sky/sky.comp.inc"
+#include "shaders/sky/sky.comp.storage.inc"
 #include "shared/sky.h"
 
 namespace vesper::render {
@@ -9,7 +10,7 @@ namespace {
 
 using graph::load, graph::sample, graph::update;
 
-constexpr gpu::Shader kSky{"sky.comp", sky_comp};
+constexpr gpu::Shader kSky{"sky.comp", sky_comp, sky_comp_storage};
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 
 #include "render/silhouettes.h"
 #include "shaders/small_emitters/small_emitters.comp.inc"
+#include "shaders/small_emitters/small_emitters.comp.storage.inc"
 #include "shared/edges.h"
 
 namespace vesper::render {
@@ -9,7 +10,7 @@ namespace {
 
 using graph::load, graph::sample, graph::update;
 
-constexpr gpu::Shader kSmallEmitters{"small_emitters.comp", small_emitters_comp};
+constexpr gpu::Shader kSmallEmitters{"small_emitters.comp", small_emitters_comp, small_emitters_comp_storage};
 
 }  // namespace
 

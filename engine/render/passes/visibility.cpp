@@ -1,13 +1,14 @@
 #include "render/passes/visibility.h"
 
 #include "shaders/visibility/visibility.comp.inc"
+#include "shaders/visibility/visibility.comp.storage.inc"
 
 namespace vesper::render {
 namespace {
 
 using graph::load, graph::sample, graph::store, graph::update;
 
-constexpr gpu::Shader kVisibility{"visibility.comp", visibility_comp};
+constexpr gpu::Shader kVisibility{"visibility.comp", visibility_comp, visibility_comp_storage};
 
 }  // namespace
 

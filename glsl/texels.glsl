@@ -5,6 +5,8 @@
 
 #ifdef STORAGE_TEXELS
 
+#define unroll dont_unroll  // SwiftShader, which needs this variant, compiles unrolled loops for minutes
+
 #define TEXELS(slot, type, name) layout(binding = slot, std430) readonly buffer Block_##name { type name[]; }
 #define HALVES(slot, name) layout(binding = slot, std430) readonly buffer Block_##name { uint name[]; }
 #define WRITTEN_TEXELS(slot, type, name) layout(binding = slot, std430) buffer Block_##name { type name[]; }

@@ -1,6 +1,7 @@
 // The rasterized G-buffer against rays cast at every triangle. SPDX-License-Identifier: MIT
 #include "passes/gbuffer_reference.h"
 
+#include <algorithm>
 #include <random>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -10,6 +11,7 @@
 #include "render/passes/gbuffer.h"
 #include "support/compare.h"
 #include "support/scene_geometry.h"
+#include "support/snapping.h"
 #include "support/texels.h"
 
 namespace vesper::test::gbuffer_test {
@@ -43,6 +45,7 @@ struct Nearness {
     reference::Filter filter = reference::Filter::Bilinear;
     double emission_floor = 1e-6;  ///< cd/m^2: of what is darker this counts, not itself
     gpu_scene::PictureFormat pictures = gpu_scene::PictureFormat::Float;
+    double snap = 1.0 / 256;  ///< px, see snapped()
 };
 
 reference::Rays rays_of(const View& view) {
@@ -57,7 +60,7 @@ size_t expect_reference(const Layers& got, const reference::Geometry& g, const V
     for (uint32_t y = 0; y < h; ++y)
         for (uint32_t x = 0; x < w; ++x) {
             const glm::dvec2 pixel(x + 0.5, y + 0.5);
-            if (!reference::certain(g, rays, pixel)) continue;
+            if (!reference::certain(g, rays, pixel, 4 * near.snap)) continue;
             ++compared;
             const reference::Seen want = reference::cast(g, rays, pixel, near.filter);
             const size_t i = size_t(y) * w + x;
@@ -68,7 +71,7 @@ size_t expect_reference(const Layers& got, const reference::Geometry& g, const V
             } else {
                 // Where the surface is steep or bent, the snapping of vertices moves what is seen.
                 double slack = near.depth * want.depth, turned = near.normal, coloured = near.reflectance;
-                for (glm::dvec2 shift : {glm::dvec2(1.0 / 256, 0), glm::dvec2(0, 1.0 / 256)}) {
+                for (glm::dvec2 shift : {glm::dvec2(near.snap, 0), glm::dvec2(0, near.snap)}) {
                     const reference::Seen other = reference::cast(g, rays, pixel + shift, near.filter);
                     slack += std::abs(other.depth - want.depth);
                     turned += glm::length(other.normal - want.normal);
@@ -100,6 +103,7 @@ size_t expect_reference(const Layers& got, const reference::Geometry& g, const V
 }
 
 size_t expect_scene(PassRig& rig, const Scene& scene, const View& view, Nearness near = {}) {
+    near.snap = snapped(rig.device());
     return expect_reference(draw(rig, scene, view, near.pictures),
                             geometry_of(scene, scene::world_transforms(scene, 0), view.world_to_view), view, near);
 }
@@ -182,7 +186,7 @@ TEST(Gbuffer, AFloorReachesTheHorizon) {
     floor.planes = {{{0, -1.2, 0}, {0, 1, 0}, 0}}, floor.surfaces.resize(1),
     floor.surfaces[0].base = {0.3, 0.3, 0.3, 1};
     // Depth is interpolated as 1 / z over a triangle 2e5 m long that the near plane cuts.
-    expect_reference(got, floor, view, {.depth = 2e-4});
+    expect_reference(got, floor, view, {.depth = 2e-4, .snap = snapped(rig.device())});
     EXPECT_EQ(rig.complaints(), "");
 }
 
@@ -218,9 +222,11 @@ TEST(Gbuffer, ASphereIsRound) {
         const double facing = want.depth > 0 ? -glm::dot(ray, want.normal) : 0;
         if (facing < 0.3) continue;  // facets cut the silhouette
         ++inside;
-        // Facets lie up to r (1 - cos(pi / 96)) and as much again across: 2 mm below the sphere, seen at an angle.
-        EXPECT_NEAR(got.surface[i].z, want.depth, 0.003 / facing);
-        EXPECT_LT(glm::length(reference::octahedral_decode(glm::dvec2(got.surface[i])) - want.normal), 0.003 / facing);
+        // Facets lie up to r (1 - cos(pi / 96)) and as much again across: 2 mm below the sphere, seen at an angle. A
+        // pixel is 0.11 m wide there.
+        const double off = std::max(0.003, 0.16 * snapped(rig.device()));
+        EXPECT_NEAR(got.surface[i].z, want.depth, off / facing);
+        EXPECT_LT(glm::length(reference::octahedral_decode(glm::dvec2(got.surface[i])) - want.normal), off / facing);
     }
     EXPECT_GT(inside, 500u);
     EXPECT_EQ(rig.complaints(), "");

@@ -155,7 +155,7 @@ TEST(DirectionalVisibility, SharesAreThoseOfTheReference) {
     rig.run(graph);
     const std::vector<uint32_t> got = rig.got<uint32_t>(words);
     const std::vector<glm::vec4> pixels = rig.got<glm::vec4>(scene);
-    size_t compared = 0, partly = 0, exact = 0;
+    size_t compared = 0, partly = 0, exact = 0, astray = 0;
     for (size_t i = 0; i < s.surface.size(); ++i) {
         const glm::uvec2 pixel = s.pixel(i), in_block = pixel % 8u;
         const uint32_t block = pixel.y / 8 * ((view.extent.width + 7) / 8) + pixel.x / 8;
@@ -174,11 +174,15 @@ TEST(DirectionalVisibility, SharesAreThoseOfTheReference) {
             ++compared, partly += want.share > 0 && want.share < 1 ? 1 : 0;
             // Where a row or a block of pixels finds all or nothing, some of the 32 looks may still differ.
             const double missed = share == 0 || share == 1 ? 8 : 0.1;
-            EXPECT_NEAR(share, want.share, (want.uncertain + missed) / 32) << i << " lamp " << k;
+            // Vulkan promises cosines within 2^-11 only: rarely one of the looks lands in the next texel.
+            const double off = std::abs(share - want.share), allowed = (want.uncertain + missed) / 32;
+            EXPECT_LE(off, allowed + 1.0 / 32) << i << " lamp " << k;
+            astray += off > allowed ? 1 : 0;
             exact += std::abs(share - want.share) < 0.002 ? 1 : 0;
         }
         EXPECT_NEAR(double(pixels[i].y), light * 0.5 / kPi, 1e-4 * light + 1e-9) << "shading takes other shares";
     }
+    EXPECT_LE(astray, compared / 1000);
     EXPECT_GT(compared, 8000u);
     EXPECT_GT(partly, 4000u);
     EXPECT_GT(double(exact), 0.9 * double(compared));

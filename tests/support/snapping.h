@@ -13,4 +13,8 @@ inline double snapped(const gpu::Device& device) {
     return std::ldexp(1.0, -int(device.limits().subPixelPrecisionBits));
 }
 
+/// Whether the grid is that coarse. SwiftShader, which has such a grid, also clips with its step: triangles of
+/// kilometres that reach behind the eye are lost.
+inline bool snaps_coarsely(const gpu::Device& device) { return snapped(device) > 1.0 / 256; }
+
 }  // namespace vesper::test

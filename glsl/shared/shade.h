@@ -11,7 +11,7 @@ SHARED_BEGIN
 const float kRoadKind = -1.0;
 
 const uint kBlockSize = 8u;        // px, side of a block; a tile is a whole number of blocks
-const uint kBlockCapacity = 256u;  // lamps of a block; more, and its pixels evaluate all lamps
+const uint kBlockCapacity = 512u;  // lamps of a block; more, and its pixels evaluate all lamps
 
 // A block of pixels has a list of its own: the lamps of its froxels that can light what is drawn
 // in it. An entry is a lamp's index and, above it, the share of the lamp that the block sees on average, in sixteenths (0:

@@ -48,7 +48,7 @@ vision::EyeScatter eye_scatter(const ScatterSettings& settings) {
 }
 
 glm::ivec2 scatter_down_strip(const gpu::Device& device) {
-    return device.is_cpu() ? glm::ivec2(4, 32) : glm::ivec2(1, 2);
+    return device.is_cpu() ? glm::ivec2(8, 32) : glm::ivec2(1, 2);
 }
 
 GpuScatter::GpuScatter(const gpu::Device& device, const ScatterSettings& settings, const vision::ImageAngles& image)

@@ -25,7 +25,7 @@ constexpr gpu::Shader kScatterUp{"scatter_up.comp", scatter_up_comp, scatter_up_
 
 // Texels that one invocation of scatter_up.comp does.
 VkExtent2D scatter_up_strip(const gpu::Device& device) {
-    return device.is_cpu() ? VkExtent2D{4, 32} : VkExtent2D{1, 1};
+    return device.is_cpu() ? VkExtent2D{8, 32} : VkExtent2D{1, 1};
 }
 
 graph::Groups cover_strips(VkExtent2D size, const gpu::Kernel& kernel, VkExtent2D strip) {

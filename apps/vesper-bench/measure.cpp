@@ -5,10 +5,12 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/error.h"
 #include "base/stopwatch.h"
 #include "graph/times.h"
 #include "indirect_arguments.h"
 #include "machine.h"
+#include "print.h"
 #include "render/seen_triangles.h"
 #include "scene/placement.h"
 #include "shadow_arguments.h"
@@ -89,11 +91,11 @@ public:
         if (samples) samples->add(whole.milliseconds(), host, timings);
     }
     /// What all channels draw and see at a part of the path.
-    void count_triangles(gpu::Device& device, double part, double weight, RunResult& result) {
+    void count_triangles(const render::TriangleCounter& counter, double part, double weight, RunResult& result) {
         const gpu_scene::SceneFrame moment{scene::world_transforms(scene_, part * seconds_)};
         const gpu_scene::View camera = gpu_scene::camera_view(scene_, moment, plan_.camera, plan_.extent());
         for (const gpu_scene::View& view : channel_views(camera, plan_.settings.channels)) {
-            const render::SeenTriangles counts = render::seen_triangles(device, renderer_.scene(), moment, view);
+            const render::SeenTriangles counts = counter.count(renderer_.scene(), moment, view);
             result.parts.in_view += weight * double(counts.parts),
                 result.parts.seen += weight * double(counts.seen_parts);
             result.triangles.in_view += weight * double(counts.triangles);
@@ -133,6 +135,18 @@ void summarize(const RunSamples& samples, RunResult& result) {
     for (const PassSamples& pass : samples.passes)
         result.passes.push_back(
             {pass.name, pass.ms.spread(), pass.bytes_read.spread().median, pass.bytes_written.spread().median});
+}
+
+// What was measured is kept should this fail.
+void count_triangles(gpu::Device& device, Drive& drive, RunResult& result) {
+    constexpr int kMoments = 4;  // along the path
+    try {
+        const render::TriangleCounter counter(device);
+        for (int i = 0; i < kMoments; ++i) drive.count_triangles(counter, double(i) / kMoments, 1.0 / kMoments, result);
+    } catch (const Error& error) {
+        result.parts = result.triangles = {};
+        apps::print_note(std::string("triangles are not counted: ") + error.what());
+    }
 }
 
 }  // namespace
@@ -177,8 +191,7 @@ RunResult measure(const RunPlan& plan, const scene::Scene& scene, const std::fun
     settings.triangles = drive.renderer().scene().triangles();
     result.host_bytes = double(peak_host_bytes()), result.device_bytes = double(device.use().peak_bytes);
     result.pipelines = device.use().pipelines, result.pipelines_ms = device.use().pipeline_ms;
-    constexpr int kMoments = 4;  // along the path
-    for (int i = 0; i < kMoments; ++i) drive.count_triangles(device, double(i) / kMoments, 1.0 / kMoments, result);
+    count_triangles(device, drive, result);
     if (last) *last = std::move(drive.last());
     return result;
 }

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint32_t kGeneratedLamps = 256;
+constexpr uint32_t kStreetLamps = 256, kTownLamps = 4096;
 
 }  // namespace
 
@@ -56,9 +56,8 @@ void Scenes::prepare(const std::string& name) {
 
 scene::Scene Scenes::load(const std::string& name, uint32_t lamps, uint64_t triangles, const std::string& luminaire,
                           const std::string& camera) const {
-    if (is_generated(name))
-        return (name == "town" ? lamp_town : lamp_street)(lamps != kOwnLamps ? lamps : kGeneratedLamps, triangles,
-                                                          luminaire);
+    if (name == "town") return lamp_town(lamps != kOwnLamps ? lamps : kTownLamps, triangles, luminaire);
+    if (name == "street") return lamp_street(lamps != kOwnLamps ? lamps : kStreetLamps, triangles, luminaire);
     scene::Scene scene = scene::read_gltf(files_.at(name)).scene;
     const gpu_scene::View view = gpu_scene::camera_view(scene, {scene::world_transforms(scene, 0)}, camera, {1, 1});
     if (lamps != kOwnLamps) keep_nearest_lamps(scene, glm::vec3(gpu_scene::eye_of(view)), lamps);

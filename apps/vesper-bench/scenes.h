@@ -22,9 +22,9 @@ public:
 
     /// Converts what has to be. Throws Error.
     void prepare(const std::string& name);
-    /// Reads or generates one that was prepared, from its file on. `lamps`: of generated ones, how many, 256 if
-    /// kOwnLamps; of others, those nearest the camera at the start of its path, all if kOwnLamps. `triangles`: of
-    /// generated ones, at least; `luminaire`: likewise (street.h). Throws Error.
+    /// Reads or generates one that was prepared, from its file on. `lamps`: of generated ones, how many, if
+    /// kOwnLamps 256 of the street and 4,096 of the town; of others, those nearest the camera at the start of its path,
+    /// all if kOwnLamps. `triangles`: of generated ones, at least; `luminaire`: likewise (street.h). Throws Error.
     scene::Scene load(const std::string& name, uint32_t lamps, uint64_t triangles, const std::string& luminaire,
                       const std::string& camera) const;
 

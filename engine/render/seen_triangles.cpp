@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <vector>
 
-#include "gpu/graphics_pipeline.h"
-#include "gpu/kernel_cache.h"
 #include "graph/executor.h"
 #include "render/passes/gbuffer.h"
 
 namespace vesper::render {
 
-SeenTriangles seen_triangles(gpu::Device& device, const gpu_scene::GpuScene& scene, const gpu_scene::SceneFrame& poses,
-                             const gpu_scene::View& view) {
+SeenTriangles TriangleCounter::count(const gpu_scene::GpuScene& scene, const gpu_scene::SceneFrame& poses,
+                                     const gpu_scene::View& view) const {
     SeenTriangles counts;
     for (const gpu_scene::GpuScene::Placement& placement : scene.placements()) {
         const glm::mat4 to_view = view.from(poses.world[placement.node]);
@@ -21,14 +19,12 @@ SeenTriangles seen_triangles(gpu::Device& device, const gpu_scene::GpuScene& sce
             ++counts.parts, counts.triangles += part.index_count / 3;
         }
     }
-    const gpu::KernelCache kernels(device);
-    const gpu::GraphicsPipelineCache pipelines(device);
     graph::FrameGraph graph;
-    const GBuffer surfaces = add_gbuffer({graph, kernels, pipelines, view}, scene, poses);
+    const GBuffer surfaces = add_gbuffer({graph, kernels_, pipelines_, view}, scene, poses);
     const graph::Resource wanted =
         graph.readback("read triangles", uint64_t(view.extent.width) * view.extent.height * sizeof(glm::uvec2));
     graph.copy("fetch triangles", surfaces.triangle, wanted);
-    graph::Executor executor(device);
+    graph::Executor executor(device_);
     executor.run(graph);
     std::vector<uint64_t> seen;  // an instance, 0: none, and a triangle of it
     for (const glm::uvec2& pixel : executor.read_as<glm::uvec2>(wanted))

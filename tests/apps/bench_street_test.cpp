@@ -141,6 +141,13 @@ TEST(BenchTown, TheEyeStaysInItsStreet) {
     }
 }
 
+TEST(BenchScenes, GeneratedOnesHaveLampsOfTheirOwnNumber) {
+    const bench::Scenes scenes;
+    EXPECT_EQ(lamps_of(scenes.load("street", bench::kOwnLamps, 0, "", "")), 256u);
+    EXPECT_EQ(lamps_of(scenes.load("town", bench::kOwnLamps, 0, "", "")), 4096u);
+    EXPECT_EQ(lamps_of(scenes.load("town", 5, 0, "", "")), 5u);
+}
+
 TEST(BenchScenes, TheNearestLampsStay) {
     scene::Scene scene = lamp_street(64, 0);
     bench::keep_nearest_lamps(scene, {0, 6.5f, -120}, 6);

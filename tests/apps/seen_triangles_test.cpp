@@ -38,7 +38,8 @@ TEST(SeenTriangles, AreThoseInFrontAtSomePixel) {
     const gpu_scene::GpuScene resident(rig.device(), scene);
     const gpu_scene::SceneFrame rest{scene::world_transforms(scene, 0)};
     const gpu_scene::View view = gpu_scene::View::symmetric({512, 512}, 1.2f, glm::dmat4(1));
-    const render::SeenTriangles all = render::seen_triangles(rig.device(), resident, rest, view);
+    const render::TriangleCounter counter(rig.device());
+    const render::SeenTriangles all = counter.count(resident, rest, view);
     EXPECT_EQ(all.parts, 2u);
     EXPECT_EQ(all.triangles, 128u + 32);
     EXPECT_EQ(all.seen_parts, 2u);
@@ -46,7 +47,7 @@ TEST(SeenTriangles, AreThoseInFrontAtSomePixel) {
     EXPECT_EQ(all.seen_triangles, 128u - 32 + 32);
     // One pixel sees one triangle.
     const render::SeenTriangles one =
-        render::seen_triangles(rig.device(), resident, rest, gpu_scene::View::symmetric({1, 1}, 0.1f, glm::dmat4(1)));
+        counter.count(resident, rest, gpu_scene::View::symmetric({1, 1}, 0.1f, glm::dmat4(1)));
     EXPECT_EQ(one.seen_triangles, 1u);
     EXPECT_EQ(one.seen_parts, 1u);
 }

@@ -232,7 +232,7 @@ std::string common_arguments(int argc, char** argv) {
     for (int i = 1; i < argc; ++i)
         if (const std::string_view word(argv[i]); word == "--device" || word == "--threads")
             ++i;
-        else
+        else if (!word.starts_with("--device=") && !word.starts_with("--threads="))
             words += std::string(argv[i]) + '\n';
     return words;
 }

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <mutex>
+#include <sstream>
 #include <thread>
 
 #include "base/digest.h"
@@ -170,8 +172,23 @@ std::string Ranks::fail(const std::string& text) {
                                                                       : started->name(started->rank()) + ": " + text;
 }
 
-int Ranks::on_this_machine() {
-    return several() ? number_in({"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", "SLURM_NTASKS_PER_NODE"}, 1) : 1;
+unsigned Ranks::on_this_machine() {
+    if (!several()) return 1;
+    const int count = number_in({"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS"}, 0);
+    const char* list = std::getenv("SLURM_STEP_TASKS_PER_NODE");
+    return count <= 0 && list ? tasks_of_node(list, unsigned(number_in({"SLURM_NODEID"}, 0)))
+                              : unsigned(std::max(count, 0));
+}
+
+unsigned Ranks::tasks_of_node(const std::string& list, unsigned node) {
+    std::istringstream parts(list);
+    for (std::string part; std::getline(parts, part, ',');) {
+        unsigned count = 0, machines = 1;
+        if (std::sscanf(part.c_str(), "%u(x%u)", &count, &machines) < 1) return 0;
+        if (node < machines) return count;
+        node -= machines;
+    }
+    return 0;
 }
 
 bool Ranks::several() { return number_in({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}, 1) > 1; }

@@ -35,8 +35,11 @@ public:
     static bool several();
     /// Number of this process, as the environment says; 0 without others.
     static int own_number();
-    /// How many of them are on this machine, as the environment says; 1 where it does not.
-    static int on_this_machine();
+    /// How many of them are on this machine, as the environment says; 0 where it does not.
+    static unsigned on_this_machine();
+    /// Of a list as Slurm writes them, "2(x3),1" for 2 on each of three machines and 1 on another: how many machine
+    /// `node` has, from 0; 0 where that is not said.
+    static unsigned tasks_of_node(const std::string& list, unsigned node);
     /// At the end of a run, waits until all have come so far. Does nothing where all() was never called.
     static void finish();
     /// This process cannot go on, and so none can. During the start every rank comes to know; returns what this one is

@@ -2,18 +2,27 @@
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <cstdlib>
 #include <exception>
 #include <mutex>
+#include <string_view>
 #include <thread>
 #include <vector>
 
 namespace vesper {
 
+unsigned threads_in(const char* text) {
+    const std::string_view digits(text ? text : "");
+    unsigned threads = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), threads);
+    const bool whole = error == std::errc() && end == digits.data() + digits.size();
+    return whole && threads <= kMostThreads ? threads : 0;
+}
+
 unsigned parallel_threads() {
-    const char* variable = std::getenv(kThreadsVariable);
-    const unsigned long asked = variable ? std::strtoul(variable, nullptr, 10) : 0;
-    return asked >= 1 && asked <= kMostThreads ? unsigned(asked) : std::max(std::thread::hardware_concurrency(), 1u);
+    static const unsigned asked = threads_in(std::getenv(kThreadsVariable));  // once: a host may set others meanwhile
+    return asked > 0 ? asked : std::max(std::thread::hardware_concurrency(), 1u);
 }
 
 bool in_parallel(size_t count, size_t part, const std::function<void(size_t, size_t)>& work,

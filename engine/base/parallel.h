@@ -9,7 +9,9 @@ namespace vesper {
 constexpr const char* kThreadsVariable = "VESPER_THREADS";  ///< of the environment
 constexpr unsigned kMostThreads = 1024;
 
-/// Threads that a loop uses: as VESPER_THREADS says, 1 to kMostThreads, or one for each processor.
+/// A whole number from 1 to kMostThreads; 0: the text, or null, is none.
+unsigned threads_in(const char* text);
+/// Threads that loops use: as VESPER_THREADS says at the first call, or one for each processor.
 unsigned parallel_threads();
 
 /// Calls work(begin, end) for parts of `count` things, of `part` each but for the last, in any order and in several

@@ -40,7 +40,7 @@ TEST(Parallel, NothingIsDoneOfNothing) {
 
 // Several threads at a time, if there are processors: two parts wait for each other.
 TEST(Parallel, UsesOtherThreads) {
-    if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one processor";
+    if (parallel_threads() < 2) GTEST_SKIP() << "one processor";
     std::atomic<int> here{0};
     std::set<std::thread::id> threads;
     std::mutex one;
@@ -53,18 +53,13 @@ TEST(Parallel, UsesOtherThreads) {
     EXPECT_EQ(threads.size(), 2u);
 }
 
-// Of the environment; what is no number of threads counts as nothing.
-TEST(Parallel, UsesAsManyThreadsAsItIsTold) {
-    const unsigned all = parallel_threads();
-    EXPECT_GE(all, 1u);
-    for (const auto& [told, threads] : {std::pair("1", 1u), {"3", 3u}, {"0", all}, {"many", all}, {"1025", all}}) {
-        setenv(kThreadsVariable, told, 1);
-        EXPECT_EQ(parallel_threads(), threads) << told;
-    }
-    setenv(kThreadsVariable, "1", 1);
-    const std::thread::id here = std::this_thread::get_id();
-    in_parallel(64, 1, [&](size_t, size_t) { EXPECT_EQ(std::this_thread::get_id(), here); });
-    unsetenv(kThreadsVariable);
+TEST(Parallel, NumbersOfThreadsAreWholeAndAtMost1024) {
+    for (const auto& [text, threads] : {std::pair("1", 1u), {"3", 3u}, {"1024", 1024u}})
+        EXPECT_EQ(threads_in(text), threads) << text;
+    for (const char* text : {"", "0", "1025", "-1", "+2", " 2", "2 ", "2x", "1.5", "many", "4294967297"})
+        EXPECT_EQ(threads_in(text), 0u) << text;
+    EXPECT_EQ(threads_in(nullptr), 0u);
+    EXPECT_GE(parallel_threads(), 1u);
 }
 
 TEST(Parallel, ProgressIsToldHereWhatIsDone) {

@@ -26,7 +26,8 @@ namespace {
 constexpr const char* kThreads = "4";  // of its own, or films would depend on how many processors there are
 constexpr int kFilm = 3;               // the descriptor of the film in ffmpeg
 
-std::vector<std::string> command_line(uint32_t width, uint32_t height, double fps, const vision::Display& display) {
+std::vector<std::string> command_line(uint32_t width, uint32_t height, double fps, const vision::Display& display,
+                                      const std::string& comment) {
     const bool wide = display.bits == 10, pq = display.eotf == vision::Eotf::Pq;
     std::vector<std::string> words{"ffmpeg",
                                    "-hide_banner",
@@ -59,13 +60,15 @@ std::vector<std::string> command_line(uint32_t width, uint32_t height, double fp
     add({"-color_trc", pq ? "smpte2084" : "iec61966-2-1", "-colorspace", pq ? "bt2020nc" : "bt709", "-color_range",
          "tv"});
     const std::string film = "file:/proc/self/fd/" + std::to_string(kFilm);  // it is opened twice, for +faststart
+    if (!comment.empty()) add({"-metadata", ("comment=" + comment).c_str()});
     add({"-movflags", "+faststart", "-f", "mp4", film.c_str()});
     return words;
 }
 
 }  // namespace
 
-Video::Video(std::string file, uint32_t width, uint32_t height, double fps, const vision::Display& display)
+Video::Video(std::string file, uint32_t width, uint32_t height, double fps, const vision::Display& display,
+             const std::string& comment)
     : file_(std::move(file)),
       film_(file_),
       log_(::memfd_create("ffmpeg", MFD_CLOEXEC)),
@@ -87,7 +90,7 @@ Video::Video(std::string file, uint32_t width, uint32_t height, double fps, cons
     posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, log.number(), STDERR_FILENO);
     posix_spawn_file_actions_adddup2(&actions, out.number(), kFilm);
-    std::vector<std::string> words = command_line(width, height, fps, display);
+    std::vector<std::string> words = command_line(width, height, fps, display, comment);
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);

@@ -17,7 +17,9 @@ namespace vesper::apps {
 class Video {
 public:
     /// Throws Error if there is no ffmpeg, or the size cannot be a film's.
-    Video(std::string file, uint32_t width, uint32_t height, double frames_per_second, const vision::Display& display);
+    /// `comment`: what the film says of itself.
+    Video(std::string file, uint32_t width, uint32_t height, double frames_per_second, const vision::Display& display,
+          const std::string& comment = {});
     ~Video();
     Video(const Video&) = delete;
     Video& operator=(const Video&) = delete;

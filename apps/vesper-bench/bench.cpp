@@ -86,7 +86,7 @@ std::vector<Planned> planned_runs(const BenchArguments& a) {
         s.tone_operator = apps::name_of(run.plan.render.tone_operator), s.glare = glare, s.channels = channels;
         s.width = apps::parse_size(size).width, s.height = apps::parse_size(size).height;
         apps::set_quality(a.quality, run.plan.render);
-        s.quality = a.quality.quality, s.threshold = double(run.plan.render.clusters.threshold);
+        s.quality = apps::recorded_quality(a.quality, run.plan.render);
         apps::set_shadows(a.shadows, run.plan.render);
         s.shadows = run.plan.render.shadows;
         apps::set_indirect(a.indirect, run.plan.render);
@@ -191,7 +191,9 @@ void run(BenchArguments& a) {
     }
     for (const RunResult& measured : result.runs)
         apps::print_text("\n" + (planned.size() > 1 ? title(measured) + "\n" : "") + text_of(result, measured));
-    if (!a.picture.empty()) apps::write_codes(a.picture, last, planned.back().plan.render.display);
+    if (!a.picture.empty())
+        apps::write_codes(a.picture, last, planned.back().plan.render.display,
+                          apps::describe_quality(planned.back().plan.settings.quality));
     if (!a.growth.empty())
         for (const std::string& file : save_growth(a.growth, result)) apps::print("%s\n", file.c_str());
 }
@@ -222,7 +224,8 @@ void add_bench(apps::Command program) {
     program.add_option("--size,-s", a->sizes, "WIDTHxHEIGHT of a channel, px").separated_by(',').shows_default();
     program
         .add_option("--lamps", a->lamps,
-                    "Of generated scenes: how many (default 256); of others: those nearest the camera at the start "
+                    "Of generated scenes: how many (default: street 256, town 4096); of others: those nearest the "
+                    "camera at the start "
                     "(default: all)")
         .separated_by(',')
         .check(apps::range(0u, scene::kMaxLamps));

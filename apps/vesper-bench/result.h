@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "quality_arguments.h"
 #include "samples.h"
 
 namespace vesper::bench {
@@ -17,10 +18,9 @@ struct RunSettings {
     uint32_t channels = 1;           ///< views in every frame, side by side
     uint32_t lamps = 0;              ///< that shine
     uint64_t triangles = 0;
-    std::string quality = "standard";  ///< of what frames leave out
-    double threshold = 0;              ///< lx: lamps count where they give more
-    bool shadows = false;              ///< lamps light only what they see
-    bool indirect = false;             ///< light between surfaces, which is gathered before
+    apps::RecordedQuality quality;  ///< of what frames leave out
+    bool shadows = false;           ///< lamps light only what they see
+    bool indirect = false;          ///< light between surfaces, which is gathered before
     bool anti_aliasing = false;
     uint32_t samples = 1;  ///< of each pixel
     uint32_t frames = 0, laps = 0, warm_up = 0;

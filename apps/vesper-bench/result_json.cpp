@@ -31,8 +31,11 @@ Json of(const RunSettings& s) {
             {"glare", s.glare},
             {"lamps", s.lamps},
             {"triangles", s.triangles},
-            {"quality", s.quality},
-            {"threshold_lx", s.threshold},
+            {"quality", s.quality.name},
+            {"threshold_lx", s.quality.threshold},
+            {"merge_error", s.quality.merge_error},
+            {"shadow_error", s.quality.shadow_error},
+            {"reflections_left_out", s.quality.reflections_left_out},
             {"shadows", s.shadows},
             {"indirect", s.indirect},
             {"anti_aliasing", s.anti_aliasing},
@@ -78,6 +81,18 @@ Spread read_spread(const JsonValue& value) {
     return s;
 }
 
+// Older files, without bounds, are of the standard.
+apps::RecordedQuality read_quality(const JsonValue& value) {
+    apps::RecordedQuality quality = apps::recorded_standard();
+    if (value.find("quality")) quality.name = words(value.at("quality"));
+    quality.threshold = amount(value.at("threshold_lx"));
+    for (const auto& [name, bound] : {std::pair("merge_error", &quality.merge_error),
+                                      {"shadow_error", &quality.shadow_error},
+                                      {"reflections_left_out", &quality.reflections_left_out}})
+        if (value.find(name)) *bound = amount(value.at(name));
+    return quality;
+}
+
 RunSettings read_settings(const JsonValue& value) {
     return {.scene = words(value.at("scene")),
             .tone_operator = words(value.at("operator")),
@@ -87,8 +102,7 @@ RunSettings read_settings(const JsonValue& value) {
             .channels = count(value.at("channels")),
             .lamps = count(value.at("lamps")),
             .triangles = value.at("triangles").integer(),
-            .quality = value.find("quality") ? words(value.at("quality")) : "standard",
-            .threshold = amount(value.at("threshold_lx")),
+            .quality = read_quality(value),
             .shadows = value.boolean_or("shadows", false),
             .indirect = value.boolean_or("indirect", false),
             .anti_aliasing = value.boolean_or("anti_aliasing", false),

@@ -37,6 +37,7 @@ std::string RunSettings::title() const {
 
 std::string RunSettings::details() const {
     std::string text = ", " + std::to_string(lamps) + " lamps, glare " + glare;
+    if (!quality.bounds_equal(apps::recorded_standard())) text += ", quality " + apps::quality_words(quality);
     if (channels != 1) text += ", " + std::to_string(channels) + " channels";
     return text;
 }
@@ -58,15 +59,16 @@ std::string headline(const BenchResult& result, const RunResult& run) {
 std::string text_of(const BenchResult& result, const RunResult& run) {
     const RunSettings& s = run.settings;
     std::string text = format(
-        "quality %s, %u lamps, counted where they give %g lx, %llu triangles, shadows %s, indirect light %s, "
+        "quality %s, %u lamps, %llu triangles, shadows %s, indirect light %s, "
         "anti-aliasing %s, %u "
         "sample%s, glare %s, %u "
         "channel%s; %u lap%s of %u "
         "frames, after "
         "%u\n",
-        s.quality.c_str(), s.lamps, s.threshold, static_cast<unsigned long long>(s.triangles), s.shadows ? "on" : "off",
-        s.indirect ? "on" : "off", s.anti_aliasing ? "on" : "off", s.samples, s.samples == 1 ? "" : "s",
-        s.glare.c_str(), s.channels, s.channels == 1 ? "" : "s", s.laps, s.laps == 1 ? "" : "s", s.frames, s.warm_up);
+        apps::quality_words(s.quality).c_str(), s.lamps, static_cast<unsigned long long>(s.triangles),
+        s.shadows ? "on" : "off", s.indirect ? "on" : "off", s.anti_aliasing ? "on" : "off", s.samples,
+        s.samples == 1 ? "" : "s", s.glare.c_str(), s.channels, s.channels == 1 ? "" : "s", s.laps,
+        s.laps == 1 ? "" : "s", s.frames, s.warm_up);
     text += "vesper " + result.version + ", " + result.driver + ", " + std::to_string(result.threads) + " threads of " +
             result.host + "\n\n";
     text += "frame     median " + with_spread(run.frame, " ms") +

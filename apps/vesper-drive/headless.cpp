@@ -99,7 +99,11 @@ public:
     /// Throws Error if pictures with these settings cannot go there, in a film that began with those it was asked of
     /// first.
     void check(const DriveSettings& settings) {
-        if (!first_) first_ = settings.render().display;
+        if (!first_) {
+            first_ = settings.render().display;
+            for (const auto& [name, text] : rendering(settings))
+                comment_ += (comment_.empty() ? "" : " ") + name + "=" + text;
+        }
         const vision::Display &display = settings.render().display, &before = *first_;
         if (exr_ && settings.render().tone_operator == render::Operator::Ldr)
             throw Error("--video " + one_line(arguments_.video) + ": the ldr operator has no luminances to write");
@@ -128,9 +132,10 @@ public:
     apps::Bytes take(unsigned index, const Session& session, const render::ToneMapped& shown, uint32_t lamps,
                      const std::string& row) {
         const vision::Display& display = session.settings().render().display;
-        if (names_ && !exr_) apps::write_codes(names_->at(index), shown, display);
+        if (names_ && !exr_) apps::write_codes(names_->at(index), shown, display, rendering(session.settings()));
         if (names_ && exr_)
-            io::write_exr(names_->at(index), extent_.width, extent_.height, shown.scene, header(session, shown, lamps));
+            io::write_exr(names_->at(index), shown.extent.width, shown.extent.height, shown.scene,
+                          header(session, shown, lamps));
         apps::PacketWriter packet;
         packet.list(film_ ? std::span(shown.display) : std::span<const uint8_t>());
         packet.list(row);
@@ -140,7 +145,8 @@ public:
         apps::PacketReader packet(taken);
         const std::vector<uint8_t> codes = packet.list<uint8_t>();
         if (film_ && !video_)
-            video_ = std::make_unique<apps::Video>(arguments_.video, extent_.width, extent_.height, fps, *first_);
+            video_ =
+                std::make_unique<apps::Video>(arguments_.video, extent_.width, extent_.height, fps, *first_, comment_);
         if (video_) video_->add(codes);
         if (log_) log_->append(packet.text());
     }
@@ -163,6 +169,12 @@ private:
         for (const unsigned number : numbers)
             if (number > 0 && number < frames) io::announce_write("--video", names_->at(number));
     }
+    // How its frames are rendered, for every kind of picture.
+    io::Header rendering(const DriveSettings& settings) const {
+        io::Header made = apps::describe_quality(settings.recorded_quality());
+        for (const auto& [name, text] : apps::describe_scale(arguments_.scale)) made.emplace_back(name, text);
+        return made;
+    }
     io::Header header(const Session& session, const render::ToneMapped& frame, uint32_t lamps) const {
         std::string options;  // settings other than the defaults
         for (const auto& [name, value] : session.settings().values())
@@ -176,8 +188,7 @@ private:
                         {"vesper:lights", std::to_string(lamps)}};
         const render::RenderSettings& settings = session.settings().render();
         for (const io::Header& part :
-             {apps::describe_quality(session.settings().quality()), apps::describe_scale(arguments_.scale),
-              apps::describe_edges(settings), apps::describe_tone(settings, frame)})
+             {rendering(session.settings()), apps::describe_edges(settings), apps::describe_tone(settings, frame)})
             made.insert(made.end(), part.begin(), part.end());
         return made;
     }
@@ -188,6 +199,7 @@ private:
     std::vector<LogProbe> probes_;
     bool film_ = false, exr_ = false;
     std::optional<vision::Display> first_;
+    std::string comment_;  // of a film
     std::optional<apps::NumberedName> names_;
     std::unique_ptr<apps::Video> video_;
     std::optional<DriveLog> log_;

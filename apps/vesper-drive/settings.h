@@ -50,6 +50,7 @@ public:
     const std::map<std::string, double>& lamps() const { return lamps_; }
     /// "quality": of what frames may leave out; recorded with pictures.
     const apps::QualityArguments& quality() const { return quality_; }
+    apps::RecordedQuality recorded_quality() const { return apps::recorded_quality(quality_, render_); }
 
     /// Adds them all as options to a command, and takes over those that were given.
     static void add_options(apps::Command);

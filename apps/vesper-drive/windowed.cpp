@@ -193,6 +193,8 @@ VkExtent2D WindowedDrive::picture_extent(double scale) const {
     return {apps::scaled(whole.width, scale), apps::scaled(whole.height, scale)};
 }
 
+double WindowedDrive::picture_scale() const { return channels_ ? 1 : arguments_.scale / kCoarser[coarser_]; }
+
 std::optional<glm::uvec2> WindowedDrive::recorded_size() const {
     const VkExtent2D extent = picture_extent(1);
     return channels_ ? std::nullopt : std::optional(glm::uvec2(extent.width, extent.height));

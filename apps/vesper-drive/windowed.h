@@ -71,6 +71,7 @@ private:
     void say(const std::string& text, bool alarm = false);
     std::string title() const;
     VkExtent2D picture_extent(double scale) const;
+    double picture_scale() const;  // of the side asked for
     std::optional<glm::uvec2> recorded_size() const;
 
     DriveArguments arguments_;

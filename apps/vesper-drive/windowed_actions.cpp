@@ -83,7 +83,10 @@ void WindowedDrive::record() {
 void WindowedDrive::save_picture() {
     try {
         const std::string name = free_name("picture-", ".png");
-        apps::write_codes(name, frame_, session_->settings().render().display, apps::describe_scale(arguments_.scale));
+        const DriveSettings& settings = session_->settings();
+        io::Header texts = apps::describe_quality(settings.recorded_quality());
+        for (const auto& [key, text] : apps::describe_scale(picture_scale())) texts.emplace_back(key, text);
+        apps::write_codes(name, frame_, settings.render().display, texts);
         say("saved " + name);
     } catch (const Error& error) {
         say(error.what(), true);

@@ -70,6 +70,10 @@ std::string file_of_frame(const std::string& pattern, unsigned index, unsigned f
     return pattern.substr(0, dot) + format(".%04u", index) + pattern.substr(dot);
 }
 
+apps::RecordedQuality quality_of(const RenderArguments& arguments) {
+    return apps::recorded_quality(arguments.quality, arguments.settings);
+}
+
 io::Header describe_frame(const RenderArguments& arguments, const gpu::Device& device, const gpu_scene::View& view,
                           const render::Frame& frame, const vision::GlareReport& glare, double seconds) {
     std::string pose;
@@ -86,13 +90,11 @@ io::Header describe_frame(const RenderArguments& arguments, const gpu::Device& d
                            apps::digits(double(view.tangent_high.x)) + " " + apps::digits(double(view.tangent_high.y))},
                       {"vesper:seconds", apps::digits(seconds)},
                       {"vesper:lights", std::to_string(frame.lamps)},
-                      {"vesper:illuminanceThreshold", apps::digits(double(arguments.settings.clusters.threshold))},
                       {"vesper:lambert", arguments.lambert},
-                      {"vesper:device", device.name() + ", " + device.driver()},
-                      {"vesper:threads", std::to_string(parallel_threads())}};
+                      {"vesper:device", device.name() + ", " + device.driver()}};
     render::RenderSettings luminance = arguments.settings;
     luminance.display_average = false;  // of codes
-    for (const io::Header& part : {apps::describe_quality(arguments.quality), apps::describe_scale(arguments.scale),
+    for (const io::Header& part : {apps::describe_quality(quality_of(arguments)), apps::describe_scale(arguments.scale),
                                    apps::describe_edges(luminance), apps::describe_tone(arguments.settings, frame)})
         header.insert(header.end(), part.begin(), part.end());
     const io::Header dazzled = apps::describe_glare(arguments.settings, glare);
@@ -101,14 +103,15 @@ io::Header describe_frame(const RenderArguments& arguments, const gpu::Device& d
 }
 
 std::string statistics_json(const RenderArguments& arguments, const render::Frame& frame) {
-    return "{\"quality\": \"" + arguments.quality.quality + "\", \"scale\": " + apps::digits(arguments.scale) + ", " +
+    return "{" + apps::quality_json(quality_of(arguments)) + ", \"scale\": " + apps::digits(arguments.scale) +
+           ", \"threads\": " + std::to_string(parallel_threads()) + ", " +
            apps::json_of(apps::luminance_statistics(frame.scene)).substr(1);
 }
 
 // The same of a picture of codes.
 io::Header describe_codes(const RenderArguments& arguments) {
     io::Header header;
-    for (const io::Header& part : {apps::describe_quality(arguments.quality), apps::describe_scale(arguments.scale),
+    for (const io::Header& part : {apps::describe_quality(quality_of(arguments)), apps::describe_scale(arguments.scale),
                                    apps::describe_edges(arguments.settings)})
         header.insert(header.end(), part.begin(), part.end());
     return header;
@@ -120,7 +123,8 @@ void print_statistics(const RenderArguments& arguments, const gpu::Device& devic
           device.driver().c_str(), parallel_threads());
     print("%ux%u, scale %g, %s, quality %s, %llu triangles, %u lamps, %.0f MiB on the device\n", frame.extent.width,
           frame.extent.height, arguments.scale, apps::name_of(arguments.settings.tone_operator).c_str(),
-          arguments.quality.quality.c_str(), static_cast<unsigned long long>(renderer.scene().triangles()), frame.lamps,
+          apps::quality_words(quality_of(arguments)).c_str(),
+          static_cast<unsigned long long>(renderer.scene().triangles()), frame.lamps,
           double(renderer.device_bytes()) / (1 << 20));
     print("clusters: to %.0f m, at most %u lamps in a froxel, %u froxels overflowed (and looked at every lamp)\n",
           double(frame.far), frame.clusters.longest, frame.clusters.overflowed);

@@ -8,7 +8,6 @@
 
 #include "base/error.h"
 #include "base/one_line.h"
-#include "base/parallel.h"
 #include "commands.h"
 #include "glare_arguments.h"
 #include "io/file_gate.h"
@@ -181,8 +180,7 @@ void write_outputs(const TonemapArguments& arguments, const render::ToneChainSet
                           {"vesper:source", one_line(job.input)},
                           {"vesper:options", arguments.options},
                           {"vesper:unit", "cd/m^2 on the display, linear Rec. 709 RGB"},
-                          {"vesper:device", device.name() + ", " + device.driver()},
-                          {"vesper:threads", std::to_string(parallel_threads())}};
+                          {"vesper:device", device.name() + ", " + device.driver()}};
         header.insert(header.end(), scale.begin(), scale.end());
         const io::Header tone = apps::describe_tone(settings, picture);
         header.insert(header.end(), tone.begin(), tone.end());

@@ -35,7 +35,7 @@ bench::RunResult made_up_run(uint32_t lamps, double scale) {
                     .channels = 2,
                     .lamps = lamps,
                     .triangles = 1ull << 40,
-                    .threshold = 0.001,
+                    .quality = apps::recorded_standard(),
                     .shadows = true,
                     .frames = 3,
                     .laps = 2,
@@ -83,8 +83,13 @@ TEST_F(BenchProgram, ReadsWhatItWrites) {
     // Older files have neither.
     nlohmann::json old = json;
     for (const char* member : {"parts", "triangles"}) old["runs"][0].erase(member);
-    old["runs"][0]["settings"].erase("quality");
-    EXPECT_EQ(bench::read_result(put("old.json", old.dump())).runs[0].triangles.seen, 0);
+    for (const char* member : {"quality", "merge_error", "shadow_error", "reflections_left_out"})
+        old["runs"][0]["settings"].erase(member);
+    old["runs"][0]["settings"]["threshold_lx"] = double(0.001f);  // as they were written
+    const bench::RunResult run = bench::read_result(put("old.json", old.dump())).runs[0];
+    EXPECT_EQ(run.triangles.seen, 0);
+    EXPECT_EQ(run.settings.quality.name, "standard");
+    EXPECT_TRUE(run.settings.quality.bounds_equal(result.runs[0].settings.quality)) << "it is compared with new ones";
 }
 
 TEST_F(BenchProgram, ComparesTwoFiles) {
@@ -121,6 +126,17 @@ TEST_F(BenchProgram, ComparesRunsThatAreAlike) {
     EXPECT_EQ(printed.find("1024 lamps"), std::string::npos) << printed;
     EXPECT_NE(printed.find(" 2.000  (1.500 to 2.667)"), std::string::npos) << printed;
     expect_refused("--compare a.json c.json", {"no run"});
+}
+
+TEST_F(BenchProgram, RunsWithOtherBoundsAreNotAlike) {
+    BenchResult b = made_up({64, 256});
+    for (bench::RunResult& run : b.runs) run.settings.quality.merge_error = 1;
+    put("a.json", made_up({64, 256})), put("b.json", b);
+    expect_refused("--compare a.json b.json", {"no run"});
+    b.runs[0].settings.quality.merge_error = 0.001;
+    put("b.json", b);
+    ASSERT_EQ(run("--compare a.json b.json"), 0) << said;
+    EXPECT_EQ(printed.find("256 lamps"), std::string::npos) << printed;
 }
 
 TEST_F(BenchProgram, PassesThatOneAloneHasAreNamed) {

@@ -126,6 +126,27 @@ TEST_F(QualityProgram, DisplayImagesSayIt) {
     EXPECT_EQ(png.substr(at + std::string("vesper:quality").size() + 1, 5), "draft");
 }
 
+// The name says what was chosen, and numbers what held.
+TEST_F(QualityProgram, BoundsAreRecordedBesideTheName) {
+    const std::string options = "--quality standard --merge-error 1 --shadow-error 0.5 --threshold 10 ";
+    const io::HdrImage image = picture(options + "-o a.png --stats-json a.json");
+    const std::string png = read_text(folder / "a.png"), json = read_text(folder / "a.json");
+    for (const auto& [key, text] : {std::pair("quality", "standard"),
+                                    {"illuminanceThreshold", "10"},
+                                    {"mergeError", "1"},
+                                    {"shadowError", "0.5"},
+                                    {"reflectionsLeftOut", "0.01"}}) {
+        EXPECT_EQ(value(image, std::string("vesper:") + key), text);
+        EXPECT_NE(png.find(std::string("vesper:") + key + '\0' + text), png.npos) << key;
+    }
+    EXPECT_TRUE(
+        json.starts_with(R"({"quality": "standard", "threshold_lx": 10, "merge_error": 1, "shadow_error": 0.5, )"
+                         R"("reflections_left_out": 0.01, )"))
+        << json;
+    EXPECT_EQ(value(picture("--quality exact"), "vesper:mergeError"), "0");
+    EXPECT_EQ(value(picture(""), "vesper:illuminanceThreshold"), "0.001");
+}
+
 TEST_F(QualityProgram, RefusesOthers) {
     expect_refused("render a.gltf -o a.png --quality best", {"--quality", "standard"});
     expect_refused("render a.gltf -o a.png --merge-error -1", {"--merge-error"});

@@ -129,6 +129,27 @@ TEST_F(RanksProgram, FilmsAreThoseOfOneProcess) {
     }
 }
 
+// Pictures that are enlarged, and the light that was rendered of them.
+TEST_F(RanksProgram, ScaledFilmsAreThoseOfOneProcess) {
+    for (const std::string& command :
+         std::vector{std::string(VESPER_PROGRAM) + " render yard.gltf --size 61x37 --scale 0.5 --frames 3 --indirect " +
+                         "off --glare temporal -o %/%d.png -o %/%d.exr",
+                     drive() + "yard.gltf --headless --autopilot --seconds 0.1 --indirect off --size 61x37 --scale " +
+                         "0.5 --glare temporal --video %/%d.png",
+                     drive() + "yard.gltf --headless --autopilot --seconds 0.1 --indirect off --size 61x37 --scale " +
+                         "0.5 --quality draft --video %/%d.exr"}) {
+        for (const int ranks : {1, 2}) {
+            const std::string to = std::to_string(ranks);
+            std::string own = command;
+            for (size_t at = 0; (at = own.find("%/")) != own.npos;) own.replace(at, 1, to);
+            fs::remove_all(folder / to);
+            fs::create_directory(folder / to);
+            ASSERT_EQ(run_ranks(ranks, own), 0) << own << ": " << said;
+        }
+        expect_same("1", "2", command.starts_with(drive()) ? 4 : 6);
+    }
+}
+
 // A run that goes on where another one ended.
 TEST_F(RanksProgram, EyesGoOnFromFiles) {
     const std::string render = VESPER_PROGRAM " render yard.gltf --size 48x30 --indirect off ";

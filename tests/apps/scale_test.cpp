@@ -72,13 +72,12 @@ TEST_F(Scale, RefusesOthers) {
         expect_refused(render + "-o a.png --scale " + scale, {"--scale"});
 }
 
-TEST_F(Scale, ThreadsAreRecordedAndChangeNothing) {
-    ASSERT_EQ(run(render + "--size 61x40 --threads 1 -o a.exr"), 0) << said;
-    ASSERT_EQ(run(render + "--size 61x40 --threads 3 -o b.exr"), 0) << said;
-    const io::HdrImage one = io::read_exr(folder / "a.exr"), three = io::read_exr(folder / "b.exr");
-    EXPECT_EQ(value(one, "vesper:threads"), "1");
-    EXPECT_EQ(value(three, "vesper:threads"), "3");
-    EXPECT_EQ(one.rgb, three.rgb);
+TEST_F(Scale, ThreadsChangeNothing) {
+    ASSERT_EQ(run(render + "--size 61x40 --threads 1 -o a.exr --stats-json a.json"), 0) << said;
+    ASSERT_EQ(run(render + "--size 61x40 --threads 3 -o b.exr --stats-json b.json"), 0) << said;
+    EXPECT_EQ(read_text(folder / "a.exr"), read_text(folder / "b.exr")) << "files of ranks are those of one process";
+    EXPECT_NE(read_text(folder / "a.json").find("\"threads\": 1,"), std::string::npos);
+    EXPECT_NE(read_text(folder / "b.json").find("\"threads\": 3,"), std::string::npos);
     for (const char* number : {"0", "-1", "1025", "all"})
         expect_refused(render + "-o a.png --threads " + number, {"--threads"});
 }
@@ -94,8 +93,22 @@ TEST_F(DriveScale, IsInPicturesAndInTheLog) {
     EXPECT_NE(said.find("64x40 are rendered as 16x10"), said.npos) << said;
     EXPECT_EQ(io::decode_image(io::read_file(folder / "a0.png", 1u << 20), 64).width, 64u);
     EXPECT_NE(read_text(folder / "a.csv").find(",16,10,"), std::string::npos);
+    const std::string png = read_text(folder / "a0.png");
+    EXPECT_NE(png.find(std::string("vesper:scale\0000.25", 17)), png.npos);
+    EXPECT_NE(png.find(std::string("vesper:quality\0standard", 23)), png.npos);
+    ASSERT_EQ(run(drive + "--scale 0.25 --quality draft --video b%d.exr"), 0) << said;
+    const io::HdrImage light = io::read_exr(folder / "b0.exr");
+    EXPECT_EQ(light.width, 16u);
+    EXPECT_EQ(light.height, 10u);
+    EXPECT_EQ(value(light, "vesper:scale"), "0.25");
+    EXPECT_EQ(value(light, "vesper:quality"), "draft");
+    EXPECT_EQ(value(light, "vesper:mergeError"), "0.01");
     ASSERT_EQ(run("--headless --replay a.json --video b%d.exr"), 0) << said;
     EXPECT_EQ(io::read_exr(folder / "b0.exr").width, 64u) << "a recording is of whole pictures";
+    if (std::system("command -v ffmpeg >/dev/null") == 0) {
+        ASSERT_EQ(run(drive + "--scale 0.5 --video a.mp4"), 0) << said;
+        EXPECT_NE(read_text(folder / "a.mp4").find("vesper:scale=0.5"), std::string::npos);
+    }
     folder.write("c.json", R"({"channels":[{"name":"a","size_px":[8,8]}]})");
     expect_refused(drive + "--scale 0.5 --channels c.json --log a.csv", {"--s", "channels"});
 }

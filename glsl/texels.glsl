@@ -1,11 +1,10 @@
 // Buffers whose length depends on the scene or the image. They are texel buffers, which CPU drivers read fastest; compiled
 // once more with STORAGE_TEXELS they are storage buffers, for devices with short texel buffers (gpu/kernel_cache.h).
 // TEXELS(binding, type of an element, name) is read with texel_at(name, index), which has four components as texelFetch;
-// HALVES with half_at; WRITTEN_TEXELS with written_texel_at and write_texel.
+// HALVES with half_at; WRITTEN_TEXELS with written_texel_at and write_texel. What is read beyond the end of a buffer is not used,
+// but must not be a read beyond the end of memory either, as it may be of storage buffers.
 
 #ifdef STORAGE_TEXELS
-
-#define unroll dont_unroll  // SwiftShader, which needs this variant, compiles unrolled loops for minutes
 
 #define TEXELS(slot, type, name) layout(binding = slot, std430) readonly buffer Block_##name { type name[]; }
 #define HALVES(slot, name) layout(binding = slot, std430) readonly buffer Block_##name { uint name[]; }
@@ -21,9 +20,10 @@ float half_of(uint word, int index) {
     return (index & 1) == 0 ? both.x : both.y;
 }
 
-#define texel_at(name, index) as_texel(name[index])
-#define half_at(name, index) half_of(name[(index) >> 1], index)
-#define written_texel_at(name, index) as_texel(name[index])
+#define WITHIN(name, index) min(uint(index), uint(name.length()) - 1u)
+#define texel_at(name, index) as_texel(name[WITHIN(name, index)])
+#define half_at(name, index) half_of(name[WITHIN(name, (index) >> 1)], index)
+#define written_texel_at(name, index) as_texel(name[WITHIN(name, index)])
 #define write_texel(name, index, value) name[index] = value
 
 #else

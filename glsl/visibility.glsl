@@ -41,7 +41,7 @@ MapPoint map_point(FetchedMap map, vec3 from, vec3 normal) {
     n.z = behind ? -n.z : n.z;
     const float norm = max(map.fold * (abs(q.x) + abs(q.y)) + q.z, 1e-6);
     const vec2 square = map.zoom / norm * vec2(q.x + q.y, q.x - q.y);
-    const int hemisphere = behind ? map.side * map.side : 0;
+    const int hemisphere = behind && map.both ? map.side * map.side : 0;
     const bool inside = map.side > 0 && (map.both || !behind) && max(abs(square.x), abs(square.y)) <= 1.0 && norm < 0.8 * kMapFar;
     // n . o / (n . q), o = (x, y, 1 - fold (|x| + |y|)) with x, y = (u + v, u - v) / 2 zoom, u = 2 texel / side - 1.
     const float folded = map.fold * n.z;
@@ -57,7 +57,7 @@ MapPoint map_point(FetchedMap map, vec3 from, vec3 normal) {
 // How far light of the lamp gets along the middle of a texel, in lengths of the way to the plane of the surface; the plane is
 // no farther from the point than surfaces bend within a few texels.
 float way_along(FetchedMap map, MapPoint p, ivec2 texel, out bool sees) {
-    const ivec2 at = clamp(texel, ivec2(0), ivec2(map.side - 1));
+    const ivec2 at = clamp(texel, ivec2(0), ivec2(max(map.side, 1) - 1));
     const float seen = half_at(distances, p.first + at.y * map.side + at.x);
     const float inverse = clamp(dot(p.plane.xy, vec2(at) + 0.5) + p.plane.z, 0.5 / p.norm, 2.0 / p.norm);
     sees = (seen + kMapBias + map.bias * p.norm) * inverse >= 1.0;

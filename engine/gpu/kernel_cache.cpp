@@ -1,6 +1,19 @@
 #include "gpu/kernel_cache.h"
 
 namespace vesper::gpu {
+namespace {
+
+/// The same, but that no loop is unrolled. SwiftShader, which needs storage variants, compiles unrolled loops for
+/// minutes.
+std::vector<uint32_t> rolled(std::span<const uint32_t> spirv) {
+    constexpr uint32_t kHeader = 5, kLoopMerge = 246, kUnroll = 1, kDontUnroll = 2;
+    std::vector<uint32_t> code(spirv.begin(), spirv.end());
+    for (size_t at = kHeader; at < code.size(); at += code[at] >> 16)
+        if ((code[at] & 0xffff) == kLoopMerge && (code[at + 3] & kUnroll) != 0) code[at + 3] ^= kUnroll | kDontUnroll;
+    return code;
+}
+
+}  // namespace
 
 const Kernel& KernelCache::get(const Shader& shader, std::initializer_list<uint32_t> constants) const {
     const bool storage = !shader.storage.empty() && !device_.has_long_texel_buffers();
@@ -8,7 +21,10 @@ const Kernel& KernelCache::get(const Shader& shader, std::initializer_list<uint3
     Key key{spirv.data(), constants};
     const auto found = kernels_.find(key);
     if (found != kernels_.end()) return found->second;
-    return kernels_.emplace(std::move(key), Kernel(device_, shader.name, spirv, constants)).first->second;
+    const std::vector<uint32_t> code = storage && device_.is_cpu() ? rolled(spirv) : std::vector<uint32_t>();
+    Kernel kernel(device_, shader.name, code.empty() ? spirv : code, constants);
+    kernel.texels_in_storage = storage;
+    return kernels_.emplace(std::move(key), std::move(kernel)).first->second;
 }
 
 }  // namespace vesper::gpu

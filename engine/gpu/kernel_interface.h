@@ -17,6 +17,7 @@ struct KernelInterface {
     std::vector<VkDescriptorType> bindings;  ///< of set 0; binding i is the i-th, without gaps
     uint32_t push_bytes = 0;                 ///< size of the push-constant block, bytes; 0 without one
     std::array<uint32_t, 3> group{1, 1, 1};  ///< invocations per workgroup, before specialization
+    bool texels_in_storage = false;          ///< it is Shader::storage (gpu/kernel_cache.h)
 };
 
 /// Reads the interface of a SPIR-V module. Throws Error naming the shader when bindings have gaps, lie outside set 0,

@@ -33,7 +33,9 @@ constexpr FeatureField kAnisotropy = in_core(offsetof(VkPhysicalDeviceFeatures, 
 constexpr VkStructureType k12 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
                           k13 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
 
-constexpr uint32_t kStorageBuffers = 16;  // shade.comp takes 15 where its texels are in storage buffers
+// Of a shader stage: shade.comp takes 15 storage buffers where its texels are in them, cull_triangles.comp 6 where they
+// are not; acuity.comp takes 8 images. Histograms are made by workgroups of a thread for each bin.
+constexpr uint32_t kStorageBuffers = 16, kFewStorageBuffers = 6, kStorageImages = 8, kInvocations = 256;
 
 constexpr Feature kFeatures[] = {
     {"independentBlend", {kIndependentBlend, kIndependentBlend}},
@@ -112,10 +114,17 @@ std::string missing_support(VkPhysicalDevice device) {
         !(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_VOTE_BIT) ||
         !(subgroup.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT))
         list(names, "subgroups with votes and arithmetic in compute shaders");
-    if (properties.limits.maxTexelBufferElements < kLongTexelBuffer &&
-        properties.limits.maxPerStageDescriptorStorageBuffers < kStorageBuffers)
+    const VkPhysicalDeviceLimits& limits = properties.limits;
+    if (limits.maxPerStageDescriptorStorageBuffers < kFewStorageBuffers)
+        list(names, std::to_string(kFewStorageBuffers) + " storage buffers per shader stage");
+    else if (limits.maxTexelBufferElements < kLongTexelBuffer &&
+             limits.maxPerStageDescriptorStorageBuffers < kStorageBuffers)
         list(names, "texel buffers of " + std::to_string(kLongTexelBuffer) + " elements or " +
                         std::to_string(kStorageBuffers) + " storage buffers per shader stage");
+    if (limits.maxPerStageDescriptorStorageImages < kStorageImages)
+        list(names, std::to_string(kStorageImages) + " storage images per shader stage");
+    if (limits.maxComputeWorkGroupInvocations < kInvocations || limits.maxComputeWorkGroupSize[0] < kInvocations)
+        list(names, "workgroups of " + std::to_string(kInvocations) + " invocations");
     uint32_t families = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(device, &families, nullptr);
     uint32_t family = 0;

@@ -144,6 +144,7 @@ std::string mismatch(VkDescriptorType type, Access access, const Shape& shape) {
 
 /// Texels that a kernel reads from a storage buffer (glsl/texels.glsl) are loaded, not sampled.
 void load_texels(PassInfo& pass, const std::vector<ResourceInfo>& resources) {
+    if (!pass.kernel->texels_in_storage) return;
     const size_t bound = std::min(pass.uses.size(), pass.kernel->bindings.size());
     for (size_t i = 0; i < bound; ++i) {
         const Shape& shape = resources[pass.uses[i].resource.index].shape;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <utility>
 
 #include "shaders/distance_map/cull_triangles.comp.inc"
@@ -32,6 +33,10 @@ constexpr uint32_t kMostTriangles = 1u << 19u;
 bool has_map_triangles(const gpu::Device& device, const gpu_scene::GpuScene& scene) {
     return scene.vertex_count() * shared::kTexelsPerVertex <= device.most_texels(sizeof(glm::vec2)) &&
            scene.index_count() <= device.most_texels(sizeof(uint32_t));
+}
+
+float map_snap(const gpu::Device& device) {
+    return std::ldexp(1.0f, -int(std::min(device.limits().subPixelPrecisionBits, 8u)));
 }
 
 // What one dispatch culls.
@@ -105,7 +110,9 @@ void MapTriangles::draw(const Chunk& chunk, const FrameContext& frame, const gpu
     const graph::Resource kept =
         graph.transient("map triangles" + name, graph::buffer_shape(room * 3 * sizeof(glm::vec3)));
     graph.dispatch(
-        "cull triangles" + name, frame.kernels.get(kCull, {frame.lockstep() ? 8u : 64u}),
+        "cull triangles" + name,
+        frame.kernels.get(kCull,
+                          {frame.lockstep() ? 8u : 64u, std::bit_cast<uint32_t>(map_snap(frame.kernels.device()))}),
         {sample(vertices), sample(indices), load(graph.upload("map rows" + name, chunk.rows)),
          load(graph.upload("map runs" + name, chunk.runs)), load(graph.upload("map quadrants" + name, chunk.quadrants)),
          update(draws), store(kept), update(image.small)},

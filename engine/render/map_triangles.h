@@ -14,6 +14,9 @@ namespace vesper::render {
 /// Whether the device has room for texel buffers of all vertices and indices of the scene.
 bool has_map_triangles(const gpu::Device& device, const gpu_scene::GpuScene& scene);
 
+/// The step to which vertices are snapped in maps, texels: at most 1/16. 1/256 where it is finer.
+float map_snap(const gpu::Device& device);
+
 /// What is drawn into an image: runs of triangles, quadrant by quadrant.
 class MapTriangles {
 public:

@@ -24,9 +24,9 @@ layout(binding = 7, scalar) buffer Small { uint small[]; };                // kM
 
 #include "quadrant.glsl"
 
-// Texels: vertices are snapped to 1/256 when they are rasterized, and rounded before. What is drawn here is wider by that, so
+// Texels: vertices are snapped to that when they are rasterized, and rounded before. What is drawn here is wider by that, so
 // that no gap is left beside what is rasterized.
-const float kSnap = 1.0 / 256.0;
+layout(constant_id = 1) const float kSnap = 1.0 / 256.0;
 
 // Corners in the image, texels, and the texels whose middles they may cover, within the hemisphere or tile.
 struct InImage {
@@ -99,7 +99,7 @@ void main() {
             const int first = int((run.first_vertex + texel_at(indices, int(run.first_index + 3u * triangle + k)).r) * kTexelsPerVertex);
             const vec4 p = vec4(texel_at(vertices, first).xy, texel_at(vertices, first + 1).x, 1.0);
             q[k] = vec3(dot(to_map.x, p), dot(to_map.y, p), dot(to_map.z, p) * quadrant.mirror);
-            at[k] = to_quadrant(q[k], quadrant.place, quadrant.window, quadrant.y_sign);
+            at[k] = to_quadrant(q[k], quadrant.place, quadrant.window, quadrant.y_sign, quadrant.hair);
         }
         bool out_of_sight = max(at[0].position.w, max(at[1].position.w, at[2].position.w)) < kMapNear;
         [[unroll]] for (int i = 0; i < 7; ++i)

@@ -16,6 +16,7 @@ layout(location = 5) in vec4 row_z;
 layout(location = 6) in vec4 place;
 layout(location = 7) in vec4 window;
 layout(location = 8) in float y_sign;
+layout(location = 9) in float hair;
 
 layout(location = 0) out vec2 texture_uv;
 layout(location = 1) out float opacity;
@@ -26,7 +27,7 @@ out float gl_ClipDistance[7];
 
 void main() {
     const vec4 p = vec4(position, 1.0);
-    const InQuadrant at = to_quadrant(vec3(dot(row_x, p), dot(row_y, p), dot(row_z, p)), place, window, y_sign);
+    const InQuadrant at = to_quadrant(vec3(dot(row_x, p), dot(row_y, p), dot(row_z, p)), place, window, y_sign, hair);
     gl_Position = at.position;
     for (int i = 0; i < 7; ++i) gl_ClipDistance[i] = at.outside[i];
     texture_uv = uv;

@@ -14,7 +14,7 @@ out float gl_ClipDistance[7];
 #include "quadrant.glsl"
 
 void main() {
-    const InQuadrant at = to_quadrant(position, quadrant.place, quadrant.window, quadrant.y_sign);
+    const InQuadrant at = to_quadrant(position, quadrant.place, quadrant.window, quadrant.y_sign, quadrant.hair);
     gl_Position = at.position;
     for (int i = 0; i < 7; ++i) gl_ClipDistance[i] = at.outside[i];
 }

@@ -53,8 +53,9 @@ struct MapInstance {
     vec4 place;        // clip space: scale of (u, v); middle of the square (2); zoom, negative in quadrants of x < 0
     vec4 window;       // least and greatest (u, v) of what is drawn of the square
     float y_sign;      // of the quadrant; 0: the map is flat and has no quadrants
+    float hair;        // part of the norm by which quadrants overlap, so that no texel on their borders is left to neither side
 };
-SHARED_SIZE(MapInstance, 84)
+SHARED_SIZE(MapInstance, 88)
 
 // Opaque parts are drawn by their triangles. A quadrant of a hemisphere, or of a tile of it, in the image:
 struct MapQuadrant {
@@ -66,8 +67,9 @@ struct MapQuadrant {
     float side;        // of the image, texels
     vec2 corner;       // of the hemisphere or tile in the image, texels
     float width;       // its own side, texels
+    float hair;        // as in MapInstance
 };
-SHARED_SIZE(MapQuadrant, 60)
+SHARED_SIZE(MapQuadrant, 64)
 
 // Triangles of one part, for one quadrant; at most kTrianglesOfRun.
 struct TriangleRun {

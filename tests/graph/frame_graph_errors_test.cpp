@@ -128,6 +128,7 @@ TEST(FrameGraphErrors, UsesThatDoNotFitTheKernel) {
     expect_error([&] { give(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, store(image)); }, to + "a storage buffer");
     expect_error([&] { give(VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, update(bytes)); }, to + "a storage image");
     expect_error([&] { give(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, sample(bytes)); }, to + "a storage buffer");
+    expect_error([&] { give(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, sample(texels)); }, to + "a storage buffer");
     expect_error([&] { give(VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, load(bytes)); }, to + "a uniform buffer");
     expect_error([&] { give(VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, sample(bytes)); }, "which needs a texel format");
     expect_error([&] { give(VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, load(bytes)); }, "which needs a texel format");

@@ -13,6 +13,7 @@
 #include "support/noise.h"
 #include "support/occluders.h"
 #include "support/ray_caster.h"
+#include "support/snapping.h"
 
 namespace vesper::test::directional_visibility_test {
 namespace {
@@ -155,6 +156,9 @@ TEST(DirectionalVisibility, SharesAreThoseOfTheReference) {
     rig.run(graph);
     const std::vector<uint32_t> got = rig.got<uint32_t>(words);
     const std::vector<glm::vec4> pixels = rig.got<glm::vec4>(scene);
+    // Vulkan promises cosines within 2^-11 only. On a device that keeps to no more in other things either one of the
+    // looks rarely lands in the next texel.
+    const bool rough = snaps_coarsely(rig.device());
     size_t compared = 0, partly = 0, exact = 0, astray = 0;
     for (size_t i = 0; i < s.surface.size(); ++i) {
         const glm::uvec2 pixel = s.pixel(i), in_block = pixel % 8u;
@@ -174,15 +178,14 @@ TEST(DirectionalVisibility, SharesAreThoseOfTheReference) {
             ++compared, partly += want.share > 0 && want.share < 1 ? 1 : 0;
             // Where a row or a block of pixels finds all or nothing, some of the 32 looks may still differ.
             const double missed = share == 0 || share == 1 ? 8 : 0.1;
-            // Vulkan promises cosines within 2^-11 only: rarely one of the looks lands in the next texel.
             const double off = std::abs(share - want.share), allowed = (want.uncertain + missed) / 32;
-            EXPECT_LE(off, allowed + 1.0 / 32) << i << " lamp " << k;
+            EXPECT_LE(off, allowed + (rough ? 1.0 / 32 : 0)) << i << " lamp " << k;
             astray += off > allowed ? 1 : 0;
             exact += std::abs(share - want.share) < 0.002 ? 1 : 0;
         }
         EXPECT_NEAR(double(pixels[i].y), light * 0.5 / kPi, 1e-4 * light + 1e-9) << "shading takes other shares";
     }
-    EXPECT_LE(astray, compared / 1000);
+    EXPECT_LE(astray, rough ? compared / 1000 : 0);
     EXPECT_GT(compared, 8000u);
     EXPECT_GT(partly, 4000u);
     EXPECT_GT(double(exact), 0.9 * double(compared));

@@ -33,9 +33,6 @@ std::vector<float> draw(PassRig& rig, const scene::Scene& scene, std::span<const
     });
 }
 
-// Quadrants overlap by kHair (glsl/distance_map/quadrant.glsl), which is less than such a device moves their borders.
-constexpr const char* kHoles = "between the quadrants of a map texels are left out";
-
 OccluderScene room() {
     OccluderScene s;
     s.plate({0, -4, 0}, {30, 0, 0}, {0, 0, 30});
@@ -50,8 +47,10 @@ OccluderScene room() {
     return s;
 }
 
-// Texels agree with rays but for those where a ray a hair beside meets something else.
-void expect_rays(const RayCaster& rays, const render::MapToDraw& map, bool second, const float* texels, double snap) {
+// Texels agree with rays but for those where a ray a hair beside meets something else. `coarse`: see snaps_coarsely();
+// no texel may be left out there either.
+void expect_rays(const RayCaster& rays, const render::MapToDraw& map, bool second, const float* texels, double snap,
+                 bool coarse) {
     const gpu_scene::MapLayout& layout = map.layout;
     const gpu_scene::MapFrame& frame = map.frame;
     const std::span<const uint32_t> fixture = map.fixture;
@@ -63,7 +62,7 @@ void expect_rays(const RayCaster& rays, const render::MapToDraw& map, bool secon
             return std::find(fixture.begin(), fixture.end(), node) == fixture.end();
         });
     };
-    size_t compared = 0;
+    size_t compared = 0, covered = 0;
     for (uint32_t y = 0; y < layout.side; ++y)
         for (uint32_t x = 0; x < layout.side; ++x) {
             const glm::dvec2 middle(x + 0.5, y + 0.5);
@@ -80,17 +79,20 @@ void expect_rays(const RayCaster& rays, const render::MapToDraw& map, bool secon
             const double got = double(texels[size_t(y) * layout.side + x]);
             // A half has 11 bits; snapping of vertices moves steep surfaces.
             if (std::isinf(norm) || norm > 5e4) {
-                EXPECT_GE(got, 5e4) << x << " " << y;
+                EXPECT_TRUE(got >= 5e4 || coarse) << x << " " << y;
+                covered += got >= 5e4 ? 0 : 1;
             } else {
-                EXPECT_NEAR(got, norm, 2e-3 * norm + steep) << x << " " << y << (second ? " second" : "");
+                // All corners of a surface are moved on a coarse grid, and those that clipping makes once more.
+                EXPECT_NEAR(got, norm, coarse ? 0.02 * norm + 4 * steep : 2e-3 * norm + steep)
+                    << x << " " << y << (second ? " second" : "");
             }
         }
+    EXPECT_LE(covered, 3u);
     EXPECT_GT(compared, size_t(layout.side) * layout.side * 9 / 10);
 }
 
 TEST(DistanceMap, HoldsTheFirstSurfaceAlongEachRay) {
     PassRig rig;
-    if (snaps_coarsely(rig.device())) GTEST_SKIP() << kHoles;
     OccluderScene s = room();
     const RayCaster rays(s.scene(), scene::world_transforms(s.scene(), 0));
     const glm::dmat4 tilted = glm::translate(glm::dmat4(1), glm::dvec3(0.2, 1, -0.3)) *
@@ -120,7 +122,8 @@ TEST(DistanceMap, HoldsTheFirstSurfaceAlongEachRay) {
         for (uint32_t h = 0; h < map.layout.hemispheres; ++h) {
             const uint32_t side = map.layout.side, first = map.layout.first + h * side * side;
             SCOPED_TRACE("map from " + std::to_string(first));
-            expect_rays(rays, map, h == 1, &drawn[first], std::max(2.5 * snapped(rig.device()), 0.01));
+            expect_rays(rays, map, h == 1, &drawn[first], std::max(2.5 * snapped(rig.device()), 0.01),
+                        snaps_coarsely(rig.device()));
         }
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -128,7 +131,6 @@ TEST(DistanceMap, HoldsTheFirstSurfaceAlongEachRay) {
 // 40 maps of 512 texels need three images.
 TEST(DistanceMap, ManyMapsTakeSeveralImages) {
     PassRig rig;
-    if (snaps_coarsely(rig.device())) GTEST_SKIP() << kHoles;
     OccluderScene s;
     s.box({0, 0, 0}, glm::vec3(10));  // all around, at 10 m along the axes
     std::vector<render::MapToDraw> maps;

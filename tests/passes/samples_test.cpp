@@ -63,7 +63,6 @@ TEST(Samples, MatchTheReference) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// 1e8 cd/m^2 once, 0.1 two thousand times: floats alone would forget all of these.
 // More passes than a pool has sets of descriptors.
 TEST(Samples, AFrameOfTheLeastDeviceMayTakeManyOfThem) {
     constexpr size_t kMany = 150;
@@ -86,6 +85,7 @@ TEST(Samples, AFrameOfTheLeastDeviceMayTakeManyOfThem) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+// 1e8 cd/m^2 once, 0.1 two thousand times: floats alone would forget all of these.
 TEST(Samples, ManyFaintOnesAreNotLostBesideABrightOne) {
     PassRig rig;
     const VkExtent2D extent{3, 2};

@@ -1,5 +1,6 @@
 #include "render/passes/directional_visibility.h"
 
+#include <algorithm>
 #include <string>
 
 #include "base/error.h"
@@ -23,7 +24,9 @@ Blocks add_directional_visibility(const FrameContext& frame, const GBuffer& surf
     const uint64_t words = (lamps + shared::kSharesPerWord - 1) / shared::kSharesPerWord;
     const uint64_t elements = blocks.count * words * shared::kBlockSize * shared::kBlockSize;
     const VkExtent2D extent = frame.view.extent;
-    if (elements > frame.kernels.device().most_texels(sizeof(uint32_t)))
+    const gpu::Device& device = frame.kernels.device();
+    const uint64_t written = device.limits().maxStorageBufferRange / sizeof(uint32_t);
+    if (elements > std::min(device.most_texels(sizeof(uint32_t)), written))
         throw Error("an image of " + std::to_string(extent.width) + " x " + std::to_string(extent.height) + " with " +
                     std::to_string(lamps) +
                     " directional lights has more shares than the device can hold; without shadows it can be rendered");

@@ -33,7 +33,8 @@ constexpr VkVertexInputAttributeDescription kMapAttributes[]{
     {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, row_z)},
     {6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, place)},
     {7, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, window)},
-    {8, 1, VK_FORMAT_R32_SFLOAT, offsetof(shared::MapInstance, y_sign)}};
+    {8, 1, VK_FORMAT_R32_SFLOAT, offsetof(shared::MapInstance, y_sign)},
+    {9, 1, VK_FORMAT_R32_SFLOAT, offsetof(shared::MapInstance, hair)}};
 constexpr gpu::GraphicsShaders kMapShaders{"distance_map.frag", distance_map_vert, distance_map_frag,
                                            kMapTextures,        sizeof(MaskPush),  VK_SHADER_STAGE_FRAGMENT_BIT,
                                            kMapBuffers,         kMapAttributes};
@@ -104,8 +105,12 @@ struct Drawn {
 // What stands where a square sees it.
 class Collector {
 public:
-    Collector(const GpuScene& scene, const gpu_scene::SceneFrame& poses, bool triangles)
-        : scene_(scene), poses_(poses), triangles_(triangles), bounds_(scene.placements().size()) {}
+    Collector(const GpuScene& scene, const gpu_scene::SceneFrame& poses, const gpu::Device& device)
+        : scene_(scene),
+          poses_(poses),
+          triangles_(has_map_triangles(device, scene)),
+          snap_(map_snap(device)),
+          bounds_(scene.placements().size()) {}
 
     void collect(const Square& square, uint32_t image_side, Drawn& drawn) {
         const gpu_scene::MapLayout& layout = square.map->layout;
@@ -183,7 +188,7 @@ private:
         std::optional<uint32_t> number{};  // among those of opaque triangles
     };
 
-    static std::vector<Quadrant> add_quadrants(const Square& square, uint32_t image_side, Drawn& drawn) {
+    std::vector<Quadrant> add_quadrants(const Square& square, uint32_t image_side, Drawn& drawn) const {
         const gpu_scene::MapLayout& layout = square.map->layout;
         const double zoom = double(layout.zoom), per_texel = 2.0 / double(layout.side);
         const glm::dvec2 low = per_texel * glm::dvec2(square.corner) - 1.0;
@@ -191,6 +196,8 @@ private:
         const float image = float(image_side), scale = float(layout.side) / image;
         const glm::vec2 corner = glm::vec2(square.place) - glm::vec2(square.corner);
         const glm::vec2 middle = (corner + 0.5f * float(layout.side)) * (2.0f / image) - 1.0f;
+        // Both sides of a border may be off by half a step; less than half a texel, so that no middle is drawn twice.
+        const float hair = snap_ > 1.0f / 256 ? 4 * snap_ / (layout.zoom * float(layout.side)) : 1e-5f;
         std::vector<Quadrant> quadrants;
         for (const glm::dvec2 signs : gpu_scene::quadrants_of(layout)) {
             const shared::MapQuadrant quadrant{.place = glm::vec4(scale, middle, float(signs.x < 0 ? -zoom : zoom)),
@@ -200,7 +207,8 @@ private:
                                                .mirror = square.second ? -1.0f : 1.0f,
                                                .side = image,
                                                .corner = glm::vec2(square.place),
-                                               .width = float(square.side)};
+                                               .width = float(square.side),
+                                               .hair = hair};
             quadrants.push_back({window, signs, drawn.opaque.quadrants(), quadrant});
             drawn.opaque.add_quadrant(quadrant);
         }
@@ -217,7 +225,8 @@ private:
                                        .row_z = to.mirror * rows.rows[2],
                                        .place = to.place,
                                        .window = to.window,
-                                       .y_sign = to.y_sign});
+                                       .y_sign = to.y_sign,
+                                       .hair = to.hair});
             return;
         }
         if (!rows.number) rows.number = drawn.opaque.add_rows(rows.rows);
@@ -227,6 +236,7 @@ private:
     const GpuScene& scene_;
     const gpu_scene::SceneFrame& poses_;
     bool triangles_;              // opaque parts are drawn by them
+    float snap_;                  // texels, see map_snap
     std::vector<Bounds> bounds_;  // of placements
 };
 
@@ -269,7 +279,7 @@ MaskedParts masked_parts(const Drawn& drawn, const GpuScene& scene) {
 void add_distance_maps(const FrameContext& frame, const GpuScene& scene, const gpu_scene::SceneFrame& poses,
                        std::span<const MapToDraw> maps, graph::Resource distances) {
     graph::FrameGraph& graph = frame.graph;
-    Collector collector(scene, poses, has_map_triangles(frame.kernels.device(), scene));
+    Collector collector(scene, poses, frame.kernels.device());
     uint32_t number = 0;
     for (DrawnImage& image : fill_images(maps)) {
         std::erase_if(image.squares, [](const Square& square) { return square.map->there; });

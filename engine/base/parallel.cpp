@@ -21,7 +21,7 @@ unsigned threads_in(const char* text) {
 }
 
 unsigned parallel_threads() {
-    static const unsigned asked = threads_in(std::getenv(kThreadsVariable));  // once: a host may set others meanwhile
+    const unsigned asked = threads_in(std::getenv(kThreadsVariable));
     return asked > 0 ? asked : std::max(std::thread::hardware_concurrency(), 1u);
 }
 

@@ -11,7 +11,7 @@ constexpr unsigned kMostThreads = 1024;
 
 /// A whole number from 1 to kMostThreads; 0: the text, or null, is none.
 unsigned threads_in(const char* text);
-/// Threads that loops use: as VESPER_THREADS says at the first call, or one for each processor.
+/// Threads that a loop uses: as VESPER_THREADS says, or one for each processor.
 unsigned parallel_threads();
 
 /// Calls work(begin, end) for parts of `count` things, of `part` each but for the last, in any order and in several

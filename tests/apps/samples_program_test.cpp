@@ -2,27 +2,13 @@
 #include <numeric>
 
 #include "io/hdr_image.h"
-#include "support/program.h"
+#include "support/luminous_square.h"
 
 namespace vesper::test::samples_program_test {
 namespace {
 
 /// A square of 1 m and 100 cd/m^2 at 2 m, a third of a pixel beside the middle of the picture.
-std::string square() {
-    GltfFile file;
-    file.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0}}},
-                               {"emissiveFactor", {1, 1, 1}},
-                               {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 100}}}}}}};
-    file.show({{"attributes", {{"POSITION", file.vec3({0.01f, 0, -2, 1, 0, -2, 1, 1, -2, 0.01f, 1, -2})}}},
-               {"indices", file.indices(std::vector<uint16_t>{0, 1, 2, 0, 2, 3})},
-               {"material", 0}},
-              {{"name", "square"}});
-    file.root["nodes"].push_back({{"name", "eye"}, {"camera", 0}});
-    file.root["cameras"] = {
-        {{"type", "perspective"}, {"name", "eye"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}}};
-    file.root["extensionsUsed"] = {"KHR_materials_emissive_strength"};
-    return file.text();
-}
+std::string square() { return luminous_square({0.01f, 0, -2, 1, 0, -2, 1, 1, -2, 0.01f, 1, -2}); }
 
 class SamplesProgram : public ProgramTest {
 protected:

@@ -5,27 +5,13 @@
 #include "io/hdr_image.h"
 #include "io/image_file.h"
 #include "io/read_file.h"
-#include "support/program.h"
+#include "support/luminous_square.h"
 
 namespace vesper::test::scale_test {
 namespace {
 
 /// The lower half of what the eye sees emits 100 cd/m^2.
-std::string lower_half() {
-    GltfFile file;
-    file.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0}}},
-                               {"emissiveFactor", {1, 1, 1}},
-                               {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 100}}}}}}};
-    file.show({{"attributes", {{"POSITION", file.vec3({-9, -9, -2, 9, -9, -2, 9, 0, -2, -9, 0, -2})}}},
-               {"indices", file.indices(std::vector<uint16_t>{0, 1, 2, 0, 2, 3})},
-               {"material", 0}},
-              {{"name", "square"}});
-    file.root["nodes"].push_back({{"name", "eye"}, {"camera", 0}});
-    file.root["cameras"] = {
-        {{"type", "perspective"}, {"name", "eye"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}}};
-    file.root["extensionsUsed"] = {"KHR_materials_emissive_strength"};
-    return file.text();
-}
+std::string lower_half() { return luminous_square({-9, -9, -2, 9, -9, -2, 9, 0, -2, -9, 0, -2}); }
 
 std::string value(const io::HdrImage& image, const std::string& key) {
     const auto found = std::ranges::find(image.header, key, [](const auto& entry) { return entry.first; });

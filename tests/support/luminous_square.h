@@ -1,0 +1,31 @@
+// A square that shines, before an eye. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "support/program.h"
+
+namespace vesper::test {
+
+/// A glTF file of one square of 100 cd/m^2 with these corners, x, y, z of each, m, counterclockwise; seen by the camera
+/// "eye" in the origin, 1 rad high.
+inline std::string luminous_square(std::initializer_list<float> corners) {
+    GltfFile file;
+    file.root["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0}}},
+                               {"emissiveFactor", {1, 1, 1}},
+                               {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 100}}}}}}};
+    file.show({{"attributes", {{"POSITION", file.vec3(corners)}}},
+               {"indices", file.indices(std::vector<uint16_t>{0, 1, 2, 0, 2, 3})},
+               {"material", 0}},
+              {{"name", "square"}});
+    file.root["nodes"].push_back({{"name", "eye"}, {"camera", 0}});
+    file.root["cameras"] = {
+        {{"type", "perspective"}, {"name", "eye"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}}};
+    file.root["extensionsUsed"] = {"KHR_materials_emissive_strength"};
+    return file.text();
+}
+
+}  // namespace vesper::test

@@ -287,7 +287,7 @@ void DistanceMaps::make_moves() {
 }
 
 void DistanceMaps::draw(const std::vector<MapToDraw>& maps, const gpu_scene::SceneFrame& poses) {
-    if (std::ranges::all_of(maps, &MapToDraw::there)) return;
+    if (maps.empty()) return;
     graph::FrameGraph graph;
     const graph::Resource distances = graph.lasting(
         "map distances", distances_.get(), places_.texels() / 2 * sizeof(uint32_t), VK_FORMAT_R32G32B32A32_UINT);
@@ -306,18 +306,17 @@ void DistanceMaps::draw_maps(const gpu_scene::SceneFrame& poses) {
     std::iota(everything.begin(), everything.end(), 0u);
     std::vector<MapToDraw> maps;
     for (const uint32_t lamp : maps_to_draw_) {
-        maps.push_back({places_[lamp], gpu_scene::map_frame(poses.world[lamps_[lamp].node]), fixtures_[lamp],
-                        is_whole(lamp) ? everything : moving_.still(), matters_[lamp]});
+        MapToDraw map{places_[lamp], gpu_scene::map_frame(poses.world[lamps_[lamp].node]), fixtures_[lamp],
+                      is_whole(lamp) ? everything : moving_.still(), matters_[lamp]};
+        map.lamp = lamp;
+        if (kept && !is_whole(lamp) && kept->find(map))
+            ++report_.kept, --report_.maps;
+        else
+            maps.push_back(std::move(map));
     }
-    if (kept) {
-        const std::vector<std::vector<DrawnPlace>> places = drawn_places(maps);
-        for (size_t i = 0; i < maps.size(); ++i)
-            maps[i].there = !is_whole(maps_to_draw_[i]) && kept->find(maps[i], places[i]);
-        kept->upload();
-    }
+    if (kept) kept->upload();
     draw(maps, poses);
     if (kept) report_.note = kept->keep();
-    report_.kept = uint32_t(std::ranges::count(maps, true, &MapToDraw::there)), report_.maps -= report_.kept;
     for (const uint32_t lamp : maps_to_draw_) {
         drawn_[lamp] = true, drawn_version_[lamp] = moving_.version();
         for_view_[lamp] = drawn_for_view_ && is_whole(lamp);
@@ -338,7 +337,8 @@ void DistanceMaps::draw_tiles(const gpu_scene::SceneFrame& poses) {
                          fixtures_[lamp],
                          of_tile,
                          {},
-                         MapTile{tile.key.second, {tile.key.x, tile.key.y}, tile.cover.saved, tile.save}});
+                         MapTile{tile.key.second, {tile.key.x, tile.key.y}, tile.cover.saved, tile.save},
+                         lamp});
     }
     draw(tiles, poses);
     for (const TileToDraw& tile : tiles_to_draw_)

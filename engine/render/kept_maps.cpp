@@ -8,7 +8,7 @@ namespace vesper::render {
 namespace {
 
 // To be raised whenever code on the host draws other texels: layouts, frames, levels of masks, what is left out.
-constexpr uint64_t kMapVersion = 2;
+constexpr uint64_t kMapVersion = 3;
 
 constexpr uint64_t kTexelBytes = sizeof(uint16_t);
 // Between host and device; a largest map fits.
@@ -58,7 +58,7 @@ Digest::Value map_surroundings(const gpu::Device& device, const gpu_scene::GpuSc
     return digest.value();
 }
 
-Digest::Value map_key(const Digest::Value& surroundings, const MapToDraw& map, std::span<const DrawnPlace> places) {
+Digest::Value map_key(const Digest::Value& surroundings, const MapToDraw& map) {
     const gpu_scene::MapLayout& layout = map.layout;
     Digest digest;
     digest.add_value(surroundings);
@@ -66,12 +66,12 @@ Digest::Value map_key(const Digest::Value& surroundings, const MapToDraw& map, s
     digest.add_value(layout.zoom), digest.add_value(layout.range), digest.add_value(layout.flat);
     digest.add_value(map.frame.position), digest.add_value(map.frame.rotation);
     digest.add_list(map.fixture);
-    digest.add_list(places);
+    digest.add_value(map.lamp);
     return digest.value();
 }
 
-bool KeptMaps::find(const MapToDraw& map, std::span<const DrawnPlace> places) {
-    const Digest::Value key = map_key(surroundings_, map, places);
+bool KeptMaps::find(const MapToDraw& map) {
+    const Digest::Value key = map_key(surroundings_, map);
     const uint64_t bytes = kTexelBytes * map.layout.texels();
     if (found_.bytes() == 0) found_ = between(device_, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     if (filled_ + bytes > kBetweenBytes) upload();

@@ -15,8 +15,7 @@ namespace vesper::render {
 /// `still` are, and their poses.
 Digest::Value map_surroundings(const gpu::Device& device, const gpu_scene::GpuScene& scene,
                                const std::vector<uint32_t>& still, const gpu_scene::SceneFrame& poses);
-/// The key of the map of a lamp that is drawn at these places.
-Digest::Value map_key(const Digest::Value& surroundings, const MapToDraw& map, std::span<const DrawnPlace> places);
+Digest::Value map_key(const Digest::Value& surroundings, const MapToDraw& map);
 
 /// Maps of lamps that stand still, when they are drawn: taken from a cache, or given to it. For one time that maps are
 /// drawn. Throws Error.
@@ -27,7 +26,7 @@ public:
         : device_(device), cache_(cache), surroundings_(surroundings), distances_(distances) {}
 
     /// Looks for a whole map of what stands still. Returns whether there is one: after upload() it is in its place.
-    bool find(const MapToDraw& map, std::span<const DrawnPlace> places);
+    bool find(const MapToDraw& map);
     void upload();
     /// Keeps the maps that find() did not find, once they are drawn. Returns a line if the cache failed, once.
     std::string keep();

@@ -128,7 +128,7 @@ TEST(DistanceMap, HoldsTheFirstSurfaceAlongEachRay) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// 40 maps of 512 texels need three images.
+// 40 maps, of which some have the same place in an image.
 TEST(DistanceMap, ManyMapsTakeSeveralImages) {
     PassRig rig;
     OccluderScene s;
@@ -141,6 +141,7 @@ TEST(DistanceMap, ManyMapsTakeSeveralImages) {
                         gpu_scene::map_frame(glm::dmat4(1)),
                         {},
                         {}});
+        maps.back().lamp = i / 2;
         first += side * side;
     }
     const std::vector<float> drawn = draw(rig, s.scene(), maps, first);
@@ -152,6 +153,33 @@ TEST(DistanceMap, ManyMapsTakeSeveralImages) {
             ASSERT_GE(drawn[map.layout.first + i], 9.9f) << i << " of " << side;
             ASSERT_LE(drawn[map.layout.first + i], 30.1f) << i << " of " << side;
         }
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// So a frame does not depend on what the frames before it drew.
+TEST(DistanceMap, TexelsDoNotDependOnWhatElseIsDrawn) {
+    PassRig rig;
+    OccluderScene s = room();
+    std::vector<render::MapToDraw> maps;
+    uint32_t first = 0;
+    for (uint32_t i = 0; i < 12; ++i) {
+        const glm::quat turned = glm::angleAxis(0.7f * float(i), glm::normalize(glm::vec3(1, 0.3f * float(i), -0.5f)));
+        const uint32_t side = 64u << i % 3u;
+        maps.push_back({{.side = side, .hemispheres = 2, .zoom = 1, .range = 100, .radius = 0, .first = first},
+                        gpu_scene::map_frame(glm::mat4_cast(glm::dquat(turned))),
+                        {},
+                        {}});
+        maps.back().lamp = i;
+        first += 2 * side * side;
+    }
+    const std::vector<float> together = draw(rig, s.scene(), maps, first);
+    for (const render::MapToDraw& map : maps) {
+        const std::vector<float> alone = draw(rig, s.scene(), {&map, 1}, first);
+        size_t differ = 0;
+        for (size_t i = map.layout.first; i < map.layout.first + map.layout.texels(); ++i)
+            differ += alone[i] != together[i] ? 1 : 0;
+        EXPECT_EQ(differ, 0u) << "lamp " << map.lamp;
     }
     EXPECT_EQ(rig.complaints(), "");
 }

@@ -39,7 +39,7 @@ constexpr gpu::GraphicsShaders kMapShaders{"distance_map.frag", distance_map_ver
                                            kMapTextures,        sizeof(MaskPush),  VK_SHADER_STAGE_FRAGMENT_BIT,
                                            kMapBuffers,         kMapAttributes};
 
-constexpr uint32_t kDrawnSide = 2048;  // texels, at most, of an image that several squares are drawn into
+constexpr uint32_t kImageSide = 1024;  // texels, at least, of an image that squares are drawn into
 
 // A hemisphere of a map or a tile of one, and its corner in the image.
 struct Square {
@@ -53,8 +53,9 @@ struct Square {
 };
 
 struct DrawnImage {
-    uint32_t side = shared::kRegion;  // texels
+    uint32_t side;  // texels
     std::vector<Square> squares;
+    std::vector<bool> taken;  // regions
 };
 
 // The place of the n-th region along a curve that fills squares of powers of two one after another (Morton 1966).
@@ -76,20 +77,29 @@ std::vector<Square> squares_of(std::span<const MapToDraw> maps) {
     return all;
 }
 
-// Squares image by image, the largest first, so that each finds a place.
+// The first of the regions, of `count`, that a square is drawn into. Tiles that are side by side seldom meet.
+uint32_t first_region(const Square& square, uint32_t count) {
+    const glm::uvec2 tile = square.map->tile ? square.corner / shared::kRegion : glm::uvec2(0);
+    const uint32_t number = 2 * square.map->lamp + (square.second ? 1 : 0);
+    const uint32_t scattered = (number * 2654435761u >> 16u) + tile.x + 7 * tile.y;  // Knuth 1998, 6.4
+    return scattered % (count / square.regions()) * square.regions();
+}
+
+// Squares image by image, the largest first, each in its place in the first where that is free.
 std::vector<DrawnImage> fill_images(std::span<const MapToDraw> maps) {
     std::vector<Square> all = squares_of(maps);
     std::ranges::stable_sort(all, std::greater(), &Square::side);
-    constexpr uint32_t kRegions = kDrawnSide / shared::kRegion * (kDrawnSide / shared::kRegion);
     std::vector<DrawnImage> images;
-    uint32_t filled = kRegions;
     for (Square& square : all) {
-        if (filled + square.regions() > kRegions) images.emplace_back(), filled = 0;
-        square.place = region_place(filled);
-        filled += square.regions();
-        DrawnImage& image = images.back();
-        while (image.side / shared::kRegion * (image.side / shared::kRegion) < filled) image.side *= 2;
-        image.squares.push_back(square);
+        const uint32_t side = std::max(square.side, kImageSide),
+                       regions = side * side / (shared::kRegion * shared::kRegion);
+        const uint32_t first = first_region(square, regions);
+        square.place = region_place(first);
+        const auto has_room = [&](const DrawnImage& image) { return image.side == side && !image.taken[first]; };
+        auto image = std::ranges::find_if(images, has_room);
+        if (image == images.end()) image = images.insert(image, {side, {}, std::vector<bool>(regions)});
+        std::fill_n(image->taken.begin() + first, square.regions(), true);
+        image->squares.push_back(square);
     }
     return images;
 }
@@ -282,8 +292,6 @@ void add_distance_maps(const FrameContext& frame, const GpuScene& scene, const g
     Collector collector(scene, poses, frame.kernels.device());
     uint32_t number = 0;
     for (DrawnImage& image : fill_images(maps)) {
-        std::erase_if(image.squares, [](const Square& square) { return square.map->there; });
-        if (image.squares.empty()) continue;
         const std::string which = " " + std::to_string(number++);
         Drawn drawn;
         for (const Square& square : image.squares) collector.collect(square, image.side, drawn);
@@ -308,14 +316,6 @@ void add_distance_maps(const FrameContext& frame, const GpuScene& scene, const g
                        {sample(depth), sample(list), update(distances), load(small)},
                        graph::Groups{uint32_t(regions.size()), 1, 1});
     }
-}
-
-std::vector<std::vector<DrawnPlace>> drawn_places(std::span<const MapToDraw> maps) {
-    std::vector<std::vector<DrawnPlace>> places(maps.size());
-    for (const DrawnImage& image : fill_images(maps))
-        for (const Square& square : image.squares)
-            places[size_t(square.map - maps.data())].push_back({image.side, square.place});
-    return places;
 }
 
 void add_map_shaders(Digest& digest) {

@@ -29,7 +29,9 @@ struct MapToDraw {
     /// Whether what a sphere holds is to be drawn; empty: all is.
     std::function<bool(const gpu_scene::WorldSphere&)> matters{};
     std::optional<MapTile> tile{};  ///< into this tile, over what it saved; without: into an empty map
-    bool there = false;  ///< its texels are there already: it has a place among those that are drawn, and no more
+    /// Number of the lamp. Chooses where in an image it is drawn: coordinates are rounded there, so that texels depend
+    /// on it by a bit, and on nothing else that is drawn.
+    uint32_t lamp = 0;
 };
 
 /// Draws placements around lamps, at the poses of `poses`, into their maps: texels of `distances`, r32ui, two halves a
@@ -38,14 +40,6 @@ struct MapToDraw {
 /// rounded to halves, 0.1 %.
 void add_distance_maps(const FrameContext& frame, const gpu_scene::GpuScene& scene, const gpu_scene::SceneFrame& poses,
                        std::span<const MapToDraw> maps, graph::Resource distances);
-
-/// Where a hemisphere or a tile is drawn. Coordinates are rounded there, so that texels depend on it by a bit.
-struct DrawnPlace {
-    uint32_t image_side;  ///< texels
-    glm::uvec2 corner;    ///< texels
-};
-/// Of maps that are drawn at the same time, in this order: the places of each.
-std::vector<std::vector<DrawnPlace>> drawn_places(std::span<const MapToDraw> maps);
 
 /// The shaders that draw them.
 void add_map_shaders(Digest& digest);

@@ -19,7 +19,7 @@ void add_indirect_options(Command command, IndirectArguments& a, bool exact) {
         .shows_default();
     command
         .add_option("--reflections", a.reflections,
-                    "Reflections of light, at most; they end where the rest would add less than 1 %")
+                    "Reflections of light, at most; they end where the rest would add little (--quality)")
         .check(range(0u, 100u))
         .shows_default();
     command

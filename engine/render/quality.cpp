@@ -4,7 +4,7 @@ namespace vesper::render {
 namespace {
 
 constexpr QualityInfo kQualities[]{
-    {"standard", Quality::Standard, .001f, 1e-3f, .005f, .01},
+    {"standard", Quality::Standard, .001f, 1e-3f, .005f, .002},
     {"draft", Quality::Draft, .01f, .01f, .02f, .05},
     {"exact", Quality::Exact, 1e-9f, kMergesNothing, 0, 0},
 };

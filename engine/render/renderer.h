@@ -34,8 +34,8 @@ struct RenderSettings : ToneChainSettings {
     bool shadows = true;                       ///< lamps light only what they see
     uint64_t shadow_budget = kNoShadowBudget;  ///< of tiles of distance maps drawn for a frame, see DistanceMaps
     bool indirect = true;  ///< light of emitting surfaces and of the sky, and reflected light, if the renderer has it
-    uint32_t reflections = 100;          ///< of light, at most
-    double reflections_left_out = 0.01;  ///< and they end where the rest would add less than this share
+    uint32_t reflections = 100;           ///< of light, at most
+    double reflections_left_out = 0.002;  ///< and they end where the rest would add less than this share
     bool anti_aliasing = true;  ///< pixels beside edges are means of the surfaces that fill them; of one sample
     /// Of each pixel, at sample_places(); at least 1. Luminance is their mean, before glare and the eye. With more than
     /// one all shadows are those of the moment, whatever the budget.

@@ -135,13 +135,13 @@ TEST_F(QualityProgram, BoundsAreRecordedBesideTheName) {
                                     {"illuminanceThreshold", "10"},
                                     {"mergeError", "1"},
                                     {"shadowError", "0.5"},
-                                    {"reflectionsLeftOut", "0.01"}}) {
+                                    {"reflectionsLeftOut", "0.002"}}) {
         EXPECT_EQ(value(image, std::string("vesper:") + key), text);
         EXPECT_NE(png.find(std::string("vesper:") + key + '\0' + text), png.npos) << key;
     }
     EXPECT_TRUE(
         json.starts_with(R"({"quality": "standard", "threshold_lx": 10, "merge_error": 1, "shadow_error": 0.5, )"
-                         R"("reflections_left_out": 0.01, )"))
+                         R"("reflections_left_out": 0.002, )"))
         << json;
     EXPECT_EQ(value(picture("--quality exact"), "vesper:mergeError"), "0");
     EXPECT_EQ(value(picture(""), "vesper:illuminanceThreshold"), "0.001");

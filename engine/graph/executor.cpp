@@ -229,10 +229,17 @@ void Executor::place(const FrameGraph& graph) {
     wait();  // what is under way uses what goes now
     placed_key_.clear();
     resources_.clear();
-    heaps_.clear();
-    for (const Plan::Heap& heap : plan_.heaps)
-        heaps_.push_back(gpu::allocate(device_, heap.bytes,
-                                       device_.memory_type(heap.memory_types, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)));
+    // Memory stays where it is large enough, and not more than twice so: a new one costs as much as a short pass.
+    const auto suffices = [](const Plan::Heap& had, const Plan::Heap& wanted) {
+        return had.memory_types == wanted.memory_types && had.bytes >= wanted.bytes && had.bytes / 2 <= wanted.bytes;
+    };
+    if (!std::ranges::equal(allocated_, plan_.heaps, suffices)) {
+        heaps_.clear(), allocated_.clear();
+        for (const Plan::Heap& heap : plan_.heaps)
+            heaps_.push_back(gpu::allocate(
+                device_, heap.bytes, device_.memory_type(heap.memory_types, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)));
+        allocated_ = plan_.heaps;
+    }
     resources_.resize(graph.resources().size());
     for (const Plan::Placement& p : plan_.placements) {
         const Shape& shape = graph.resources()[p.resource].shape;
@@ -380,7 +387,7 @@ std::span<const std::byte> Executor::read(Resource readback) const {
 
 uint64_t Executor::heap_bytes() const {
     uint64_t total = 0;
-    for (const Plan::Heap& heap : plan_.heaps) total += heap.bytes;
+    for (const Plan::Heap& heap : allocated_) total += heap.bytes;
     return total;
 }
 

@@ -91,7 +91,8 @@ private:
     std::vector<Past*> turned_, turning_;  // by the last frame; by the one that is being submitted
     std::vector<Past*> cleared_;           // by it
     std::vector<gpu::OwnedMemory> heaps_;
-    std::string placed_key_;  // what the transients were made for
+    std::vector<Plan::Heap> allocated_;  // what they are
+    std::string placed_key_;             // what the transients were made for
     gpu::OwnedSampler sampler_;
     std::vector<std::unique_ptr<FrameSlot>> slots_;
     FrameSlot* slot_ = nullptr;  // of the last frame, or of the one that is being submitted

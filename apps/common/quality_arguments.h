@@ -38,7 +38,7 @@ RecordedQuality recorded_standard();
 std::vector<std::pair<std::string, std::string>> quality_texts(const RecordedQuality&);
 /// The same as members of a JSON object, in a line.
 std::string quality_json(const RecordedQuality&);
-/// The same for people: "standard (0.001 lx, merge error 0.001, shadow error 0.005, reflections 0.01)".
+/// The same for people: "standard (0.001 lx, merge error 0.001, shadow error 0.005, reflections 0.002)".
 std::string quality_words(const RecordedQuality&);
 /// The same for a picture's header.
 io::Header describe_quality(const RecordedQuality&);

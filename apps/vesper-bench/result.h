@@ -91,7 +91,7 @@ BenchResult read_result(const std::string& file);
 std::string headline(const BenchResult&, const RunResult&);
 /// The rest of it, as a table for a terminal.
 std::string text_of(const BenchResult&, const RunResult&);
-/// Every run as tables of Markdown, as docs/performance.md has them.
+/// Every run as tables of Markdown.
 std::string markdown_of(const BenchResult&);
 /// What B takes relative to A, run by run. Throws Error if no run of one has its like in the other.
 std::string comparison(const BenchResult& a, const BenchResult& b);

@@ -199,6 +199,7 @@ TEST(MapCache, IsForNothingElse) {
          kAll - 1},
         {"range", scene_change([](auto& s, auto&) { s.lamps[0].intensity *= 1.01f; }), kAll - 1},
         {"cone", scene_change([](auto& s, auto&) { s.lamps[3].outer_cone = 0.91f; }), kAll - 1},
+        {"order", scene_change([](auto& s, auto&) { s.lamps[0].kind = scene::Lamp::Kind::CosinePower; }), 0},
         {"fixture", scene_change([](auto& s, auto& street) { s.nodes[street.first_lamp].fixture = street.post; }),
          kAll - 1},
         {"colour", scene_change([](auto& s, auto&) {

@@ -98,9 +98,8 @@ TEST(DistanceMap, HoldsTheFirstSurfaceAlongEachRay) {
     const glm::dmat4 tilted = glm::translate(glm::dmat4(1), glm::dvec3(0.2, 1, -0.3)) *
                               glm::mat4_cast(glm::angleAxis(-1.4, glm::normalize(glm::dvec3(1, 0.1, 0.2))));
     const uint32_t own[] = {3};  // the box above is its fixture
-    // Two hemispheres, two beams, the second on a flat map, and a lamp with a fixture: of different sides, so that they
-    // share the image.
-    const render::MapToDraw maps[] = {
+    // Two hemispheres, two beams, the second on a flat map, and a lamp with a fixture, in one image.
+    render::MapToDraw maps[] = {
         {{.side = 64, .hemispheres = 2, .zoom = 1, .range = 100, .radius = 0, .first = 0},
          gpu_scene::map_frame(tilted),
          {},
@@ -117,6 +116,7 @@ TEST(DistanceMap, HoldsTheFirstSurfaceAlongEachRay) {
          gpu_scene::map_frame(glm::translate(glm::dmat4(1), glm::dvec3(0.5, 1.9, 0.3))),
          own,
          {}}};
+    for (uint32_t i = 0; i < 4; ++i) maps[i].lamp = i;
     const std::vector<float> drawn = draw(rig, s.scene(), maps, 32768 + 16384);
     for (const render::MapToDraw& map : maps)
         for (uint32_t h = 0; h < map.layout.hemispheres; ++h) {

@@ -77,12 +77,13 @@ std::vector<Square> squares_of(std::span<const MapToDraw> maps) {
     return all;
 }
 
-// The first of the regions, of `count`, that a square is drawn into. Tiles that are side by side seldom meet.
+// The first of the regions, of `count`, that a square is drawn into: lamps are scattered (Knuth 1998, 6.4), and tiles
+// that are side by side seldom meet.
 uint32_t first_region(const Square& square, uint32_t count) {
+    const uint32_t places = count / square.regions(), number = 2 * square.map->lamp + (square.second ? 1 : 0);
+    const auto scattered = uint32_t(uint64_t(number * 2654435761u) * places >> 32u);
     const glm::uvec2 tile = square.map->tile ? square.corner / shared::kRegion : glm::uvec2(0);
-    const uint32_t number = 2 * square.map->lamp + (square.second ? 1 : 0);
-    const uint32_t scattered = (number * 2654435761u >> 16u) + tile.x + 7 * tile.y;  // Knuth 1998, 6.4
-    return scattered % (count / square.regions()) * square.regions();
+    return (scattered + tile.x + 7 * tile.y) % places * square.regions();
 }
 
 // Squares image by image, the largest first, each in its place in the first where that is free.

@@ -229,7 +229,7 @@ void Executor::place(const FrameGraph& graph) {
     wait();  // what is under way uses what goes now
     placed_key_.clear();
     resources_.clear();
-    // Memory stays where it is large enough, and not more than twice so: a new one costs as much as a short pass.
+    // Memory stays where it is large enough, and not more than twice so.
     const auto suffices = [](const Plan::Heap& had, const Plan::Heap& wanted) {
         return had.memory_types == wanted.memory_types && had.bytes >= wanted.bytes && had.bytes / 2 <= wanted.bytes;
     };

@@ -306,9 +306,13 @@ void DistanceMaps::draw_maps(const gpu_scene::SceneFrame& poses) {
     std::iota(everything.begin(), everything.end(), 0u);
     std::vector<MapToDraw> maps;
     for (const uint32_t lamp : maps_to_draw_) {
-        MapToDraw map{places_[lamp], gpu_scene::map_frame(poses.world[lamps_[lamp].node]), fixtures_[lamp],
-                      is_whole(lamp) ? everything : moving_.still(), matters_[lamp]};
-        map.lamp = lamp;
+        MapToDraw map{places_[lamp],
+                      gpu_scene::map_frame(poses.world[lamps_[lamp].node]),
+                      fixtures_[lamp],
+                      is_whole(lamp) ? everything : moving_.still(),
+                      matters_[lamp],
+                      {},
+                      lamp};
         if (kept && !is_whole(lamp) && kept->find(map))
             ++report_.kept, --report_.maps;
         else

@@ -43,6 +43,18 @@ void copy(const gpu::Device& device, VkBuffer from, VkBuffer to, std::span<const
     });
 }
 
+Digest::Value map_key(const Digest::Value& surroundings, const MapToDraw& map) {
+    const gpu_scene::MapLayout& layout = map.layout;
+    Digest digest;
+    digest.add_value(surroundings);
+    digest.add_value(layout.side), digest.add_value(layout.hemispheres);
+    digest.add_value(layout.zoom), digest.add_value(layout.range), digest.add_value(layout.flat);
+    digest.add_value(map.frame.position), digest.add_value(map.frame.rotation);
+    digest.add_list(map.fixture);
+    digest.add_value(map.lamp);
+    return digest.value();
+}
+
 }  // namespace
 
 Digest::Value map_surroundings(const gpu::Device& device, const gpu_scene::GpuScene& scene,
@@ -55,18 +67,6 @@ Digest::Value map_surroundings(const gpu::Device& device, const gpu_scene::GpuSc
     digest.add_value(scene.occluders());
     digest.add_list(still);
     for (const uint32_t placement : still) digest.add_value(poses.world[scene.placements()[placement].node]);
-    return digest.value();
-}
-
-Digest::Value map_key(const Digest::Value& surroundings, const MapToDraw& map) {
-    const gpu_scene::MapLayout& layout = map.layout;
-    Digest digest;
-    digest.add_value(surroundings);
-    digest.add_value(layout.side), digest.add_value(layout.hemispheres);
-    digest.add_value(layout.zoom), digest.add_value(layout.range), digest.add_value(layout.flat);
-    digest.add_value(map.frame.position), digest.add_value(map.frame.rotation);
-    digest.add_list(map.fixture);
-    digest.add_value(map.lamp);
     return digest.value();
 }
 

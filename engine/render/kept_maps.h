@@ -15,7 +15,6 @@ namespace vesper::render {
 /// `still` are, and their poses.
 Digest::Value map_surroundings(const gpu::Device& device, const gpu_scene::GpuScene& scene,
                                const std::vector<uint32_t>& still, const gpu_scene::SceneFrame& poses);
-Digest::Value map_key(const Digest::Value& surroundings, const MapToDraw& map);
 
 /// Maps of lamps that stand still, when they are drawn: taken from a cache, or given to it. For one time that maps are
 /// drawn. Throws Error.

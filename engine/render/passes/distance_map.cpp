@@ -41,6 +41,9 @@ constexpr gpu::GraphicsShaders kMapShaders{"distance_map.frag", distance_map_ver
 
 constexpr uint32_t kImageSide = 1024;  // texels, at least, of an image that squares are drawn into
 
+// In a square of this side, texels.
+uint32_t regions_in(uint32_t side) { return side / shared::kRegion * (side / shared::kRegion); }
+
 // A hemisphere of a map or a tile of one, and its corner in the image.
 struct Square {
     const MapToDraw* map;
@@ -48,8 +51,6 @@ struct Square {
     glm::uvec2 corner;  // in the hemisphere, texels
     uint32_t side;      // texels
     glm::uvec2 place{0};
-
-    uint32_t regions() const { return side / shared::kRegion * (side / shared::kRegion); }
 };
 
 struct DrawnImage {
@@ -80,10 +81,11 @@ std::vector<Square> squares_of(std::span<const MapToDraw> maps) {
 // The first of the regions, of `count`, that a square is drawn into: lamps are scattered (Knuth 1998, 6.4), and tiles
 // that are side by side seldom meet.
 uint32_t first_region(const Square& square, uint32_t count) {
-    const uint32_t places = count / square.regions(), number = 2 * square.map->lamp + (square.second ? 1 : 0);
+    const uint32_t each = regions_in(square.side), places = count / each,
+                   number = 2 * square.map->lamp + (square.second ? 1 : 0);
     const auto scattered = uint32_t(uint64_t(number * 2654435761u) * places >> 32u);
     const glm::uvec2 tile = square.map->tile ? square.corner / shared::kRegion : glm::uvec2(0);
-    return (scattered + tile.x + 7 * tile.y) % places * square.regions();
+    return (scattered + tile.x + 7 * tile.y) % places * each;
 }
 
 // Squares image by image, the largest first, each in its place in the first where that is free.
@@ -92,14 +94,13 @@ std::vector<DrawnImage> fill_images(std::span<const MapToDraw> maps) {
     std::ranges::stable_sort(all, std::greater(), &Square::side);
     std::vector<DrawnImage> images;
     for (Square& square : all) {
-        const uint32_t side = std::max(square.side, kImageSide),
-                       regions = side * side / (shared::kRegion * shared::kRegion);
+        const uint32_t side = std::max(square.side, kImageSide), regions = regions_in(side);
         const uint32_t first = first_region(square, regions);
         square.place = region_place(first);
         const auto has_room = [&](const DrawnImage& image) { return image.side == side && !image.taken[first]; };
         auto image = std::ranges::find_if(images, has_room);
         if (image == images.end()) image = images.insert(image, {side, {}, std::vector<bool>(regions)});
-        std::fill_n(image->taken.begin() + first, square.regions(), true);
+        std::fill_n(image->taken.begin() + first, regions_in(square.side), true);
         image->squares.push_back(square);
     }
     return images;

@@ -1,0 +1,41 @@
+// What `vesper render` is asked for. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "edge_arguments.h"
+#include "glare_arguments.h"
+#include "indirect_arguments.h"
+#include "quality_arguments.h"
+#include "render/renderer.h"
+#include "shadow_arguments.h"
+#include "tone_arguments.h"
+#include "traced_light.h"
+
+namespace vesper::commands {
+
+constexpr unsigned kPathsOfPixel = 16;  // unless --paths says otherwise
+
+struct RenderArguments {
+    std::string scene, camera, size = "1680x1050", device, lambert = "physical";
+    apps::ToneArguments tone;
+    apps::ShadowArguments shadows;
+    apps::IndirectArguments indirect;
+    apps::EdgeArguments edges;
+    apps::QualityArguments quality;
+    double scale = 1;
+    unsigned paths = kPathsOfPixel;
+    bool traces = false;  // light for each pixel
+    transport::TraceSettings tracing;
+    apps::GlareArguments glare;
+    std::vector<std::string> outputs;
+    std::string statistics_file, log_file, replay_file, sources_file, eye_in, eye_out;
+    render::RenderSettings settings;
+    unsigned frames = 1, threads = 0;
+    double dt = 1.0 / 30, start = 0;
+    bool statistics = false, plan = false;
+    std::string options;  // as given
+};
+
+}  // namespace vesper::commands

@@ -5,9 +5,8 @@
 #include <numbers>
 #include <random>
 
-#include <unsupported/Eigen/FFT>
-
 #include "base/angle.h"
+#include "vision/fourier.h"
 
 namespace vesper::vision {
 namespace {
@@ -137,17 +136,11 @@ std::vector<std::complex<double>> EyeAperture::amplitude(double diameter, double
 
 std::vector<double> far_field(const std::vector<std::complex<double>>& amplitude, int side) {
     const size_t n = size_t(side);
-    Eigen::FFT<double> fft;
-    std::vector<std::complex<double>> half(n * n), turned(n);
-    for (size_t y = 0; y < n; ++y) {
-        fft.fwd(turned.data(), amplitude.data() + y * n, Eigen::Index(n));
-        for (size_t x = 0; x < n; ++x) half[x * n + y] = turned[x];
-    }
+    const Complexes spectrum = spectrum_of(amplitude, n, n);
     std::vector<double> intensity(n * n);
-    for (size_t x = 0; x < n; ++x) {
-        fft.fwd(turned.data(), half.data() + x * n, Eigen::Index(n));
-        for (size_t y = 0; y < n; ++y) intensity[(y + n / 2) % n * n + (x + n / 2) % n] = std::norm(turned[y]);
-    }
+    for (size_t x = 0; x < n; ++x)
+        for (size_t y = 0; y < n; ++y)
+            intensity[(y + n / 2) % n * n + (x + n / 2) % n] = std::norm(spectrum[x * n + y]);
     return intensity;
 }
 

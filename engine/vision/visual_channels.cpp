@@ -1,0 +1,266 @@
+#include "vision/visual_channels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/angle.h"
+#include "base/error.h"
+#include "base/parallel.h"
+#include "vision/fourier.h"
+
+namespace vesper::vision {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr int kOrientations = 4;
+constexpr double kCoarsest = 0.5;  // cycles/degree: octaves go down to about here
+constexpr size_t kMostOctaves = 12;
+constexpr double kMargin = 1;      // degrees, mirrored beyond the picture, at least
+constexpr size_t kGains = 4096;    // of a radial function
+constexpr int kAdaptations = 256;  // luminances at which a channel's sensitivity is known
+
+// The square root of the share of an octave about `centre`: channels an octave apart sum to 1 in their squares.
+double octave_share(double octaves) { return std::abs(octaves) < 1 ? std::cos(kPi / 2 * octaves) : 0; }
+
+// Index of a sample in a row of `length` that goes on as its own mirror image.
+size_t mirrored(size_t i, size_t length) {
+    const size_t turn = i % (2 * length);
+    return turn < length ? turn : 2 * length - 1 - turn;
+}
+
+// The picture in the top left corner, and its mirror images up to half of the margin on either side, which wraps.
+size_t source_of(size_t i, size_t length, size_t whole) {
+    const size_t after = (whole - length) / 2;
+    return i < length + after ? mirrored(i, length) : mirrored(whole - 1 - i, length);
+}
+
+class Pyramid {
+public:
+    Pyramid(const PicturePair& pair, const ContrastEye& eye)
+        : pair_(pair), scale_(eye), highest_(pair.pixels_per_degree / 2) {
+        octaves_ = size_t(std::clamp(std::lround(std::log2(highest_ / kCoarsest)), 1l, long(kMostOctaves)));
+        while (octaves_ > 1 && (size_t{1} << octaves_) > std::min(pair.width, pair.height)) --octaves_;
+        const size_t coarsest = size_t{1} << (octaves_ - 1), margin = size_t(std::ceil(kMargin * 2 * highest_));
+        whole_ = {uint32_t(fast_length(pair.width + std::min<size_t>(margin, pair.width), coarsest)),
+                  uint32_t(fast_length(pair.height + std::min<size_t>(margin, pair.height), coarsest)), 1};
+    }
+
+    void visit(const std::function<void(const Channel&)>& visit) {
+        Complexes first = jnd_spectrum(pair_.first), second = jnd_spectrum(pair_.second);
+        // Frequencies are weighted at the luminance of the mean JND of both, and each place then at its own.
+        const Complex mean = (first[0] + second[0]) / 2.0;
+        weighted_at_ = scale_.luminance(mean.real() / double(whole_.size()));
+        const double below = centre(octaves_), above = highest_;
+        coarse_ = grid_of(octaves_ - 1);
+        const Radial low = [&](double u) { return u <= below ? 1 : octave_share(std::log2(u / below)); };
+        first_adaptation_ = adaptation(first, low), second_adaptation_ = adaptation(second, low);
+        first[0] -= mean, second[0] -= mean;
+        show(first, second, coarse_, {below, true}, -1, low, visit);
+        for (size_t octave = octaves_; octave-- > 0;)
+            for (int o = 0; o < kOrientations; ++o)
+                show(
+                    first, second, grid_of(octave), {centre(octave)}, o,
+                    [&](double u) { return octave_share(std::log2(u / centre(octave))); }, visit);
+        show(
+            first, second, whole_, {above}, -1,
+            [&](double u) { return u >= above ? 1 : octave_share(std::log2(u / above)); }, visit);
+    }
+
+private:
+    using Radial = std::function<double(double)>;  // share of a frequency, of its amplitude
+
+    double centre(size_t octave) const { return highest_ / double(size_t{2} << octave); }
+    ChannelGrid grid_of(size_t octave) const {
+        return {whole_.width >> octave, whole_.height >> octave, uint32_t{1} << octave};
+    }
+
+    Complexes jnd_spectrum(std::span<const float> luminance) const {
+        Complexes rows(whole_.size());
+        in_parallel(whole_.height, 8, [&](size_t begin, size_t end) {
+            for (size_t y = begin; y < end; ++y)
+                for (size_t x = 0; x < whole_.width; ++x) {
+                    const size_t from = source_of(y, pair_.height, whole_.height) * pair_.width +
+                                        source_of(x, pair_.width, whole_.width);
+                    const double l = double(luminance[from]);
+                    rows[y * whole_.width + x] = scale_.jnd(std::isfinite(l) ? l : 0);
+                }
+        });
+        return spectrum_of(rows, whole_.width, whole_.height);
+    }
+
+    // What a filter passes, at the samples of a grid: below the highest frequency of the grid all is 0.
+    Complexes filtered(const Complexes& spectrum, const ChannelGrid& grid, int orientation,
+                       const Radial& radial) const {
+        const double scale = 1.0 / (double(grid.step) * grid.step), most = std::sqrt(2.0) * highest_ / grid.step;
+        std::vector<double> gains;
+        for (size_t i = 0; i <= kGains + 1; ++i) gains.push_back(scale * radial(most * double(i) / kGains));
+        const double turn = kPi * orientation / kOrientations, cosine = std::cos(turn), sine = std::sin(turn);
+        Complexes part(grid.size());
+        in_parallel(grid.width, 16, [&](size_t begin, size_t end) {
+            for (size_t x = begin; x < end; ++x) {
+                const bool right = 2 * x < grid.width;
+                const double u = (double(x) - (right ? 0 : grid.width)) / whole_.width;
+                const size_t column = right ? x : whole_.width - grid.width + x;
+                for (size_t y = 0; y < grid.height; ++y) {
+                    const bool lower = 2 * y < grid.height;
+                    const double v = (double(y) - (lower ? 0 : grid.height)) / whole_.height;
+                    const double r = std::sqrt(u * u + v * v), place = r * 2 * highest_ / most * kGains;
+                    const size_t i = std::min(size_t(place), kGains);
+                    double gain = std::lerp(gains[i], gains[i + 1], place - double(i));
+                    if (orientation >= 0) gain *= oriented(r > 0 ? (u * cosine + v * sine) / r : 0);
+                    const size_t row = lower ? y : whole_.height - grid.height + y;
+                    part[x * grid.height + y] = gain * spectrum[column * whole_.height + row];
+                }
+            }
+        });
+        return picture_of(part, grid.width, grid.height);
+    }
+
+    // Of the cosine of the angle to a channel's orientation: squares of four sum to 1 over both half planes, of which
+    // one is left out and the other doubled, so that a response is a pair of a quadrature.
+    static double oriented(double cosine) {
+        const double kWhole = std::sqrt(5.0 / 4);  // the sum of cos^6 over four orientations
+        return cosine > 0 ? 2 * cosine * cosine * cosine / kWhole : 0;
+    }
+
+    std::vector<double> adaptation(const Complexes& spectrum, const Radial& low) const {
+        const Complexes mean = filtered(spectrum, coarse_, -1, low);
+        std::vector<double> logarithms;
+        logarithms.reserve(mean.size());
+        for (const Complex& jnd : mean) logarithms.push_back(std::log10(scale_.luminance(jnd.real())));
+        return logarithms;
+    }
+
+    // Sensitivity at a frequency over the peak's: 1 of a grating at the peak. Below the octaves there are no gratings
+    // but differences of whole regions, which count as the coarsest waves do.
+    double relative(double frequency, double luminance) const {
+        return contrast_sensitivity(std::max(frequency, centre(octaves_)), luminance, scale_.eye()) /
+               scale_.peak(luminance);
+    }
+
+    // From the luminance at which a filter was weighted to that of each place.
+    void adapt(Complexes& response, const ChannelGrid& grid, double frequency,
+               const std::vector<double>& adaptation) const {
+        const double low = std::log10(JndScale::kLeast), high = std::log10(JndScale::kMost);
+        std::vector<double> factors;
+        const double here = relative(frequency, weighted_at_);  // 0 of waves that no optics pass
+        for (int i = 0; i < kAdaptations + 1; ++i) {
+            const double there = relative(frequency, std::pow(10, low + (high - low) * i / (kAdaptations - 1)));
+            factors.push_back(here > 0 ? there / here : 0);
+        }
+        const size_t finer = coarse_.step / grid.step;
+        in_parallel(grid.height, 8, [&](size_t begin, size_t end) {
+            for (size_t y = begin; y < end; ++y)
+                for (size_t x = 0; x < grid.width; ++x) {
+                    const double l = adaptation[y / finer * coarse_.width + x / finer],
+                                 place = (l - low) / (high - low) * (kAdaptations - 1);
+                    const size_t i = size_t(std::clamp(place, 0.0, double(kAdaptations - 1)));
+                    response[y * grid.width + x] *= std::lerp(factors[i], factors[i + 1], place - double(i));
+                }
+        });
+    }
+
+    struct Band {
+        double frequency;
+        bool base = false;
+    };
+    void show(const Complexes& first, const Complexes& second, const ChannelGrid& grid, const Band& band,
+              int orientation, const Radial& share, const std::function<void(const Channel&)>& visit) const {
+        const Radial weighted = [&](double u) { return share(u) * relative(u, weighted_at_); };
+        Complexes a = filtered(first, grid, orientation, weighted), b = filtered(second, grid, orientation, weighted);
+        adapt(a, grid, band.frequency, first_adaptation_), adapt(b, grid, band.frequency, second_adaptation_);
+        visit({band.frequency, band.base, grid, a, b});
+    }
+
+    const PicturePair& pair_;
+    JndScale scale_;
+    double highest_;  // cycles/degree that pixels can hold
+    size_t octaves_;
+    ChannelGrid whole_, coarse_;
+    double weighted_at_ = 0;                                    // cd/m^2
+    std::vector<double> first_adaptation_, second_adaptation_;  // log10 cd/m^2, at the samples of coarse_
+};
+
+}  // namespace
+
+void visit_channels(const PicturePair& pair, const ContrastEye& eye, const std::function<void(const Channel&)>& visit) {
+    const uint64_t pixels = uint64_t{pair.width} * pair.height;
+    if (pixels == 0 || pixels > kMostChannelPixels)
+        throw Error("pictures of 1 to " + std::to_string(kMostChannelPixels) + " pixels can be compared");
+    if (pair.first.size() != pixels || pair.second.size() != pixels) throw Error("the two pictures differ in size");
+    if (!(pair.pixels_per_degree > 0) || !std::isfinite(pair.pixels_per_degree))
+        throw Error("pictures that are compared need the angle that they cover");
+    Pyramid(pair, eye).visit(visit);
+}
+
+std::vector<double> at_half_step(std::span<const double> values, const ChannelGrid& grid) {
+    const size_t w = grid.width, h = grid.height;
+    std::vector<double> fine(4 * w * h);
+    in_parallel(h, 8, [&](size_t begin, size_t end) {
+        for (size_t y = begin; y < end; ++y)
+            for (size_t x = 0; x < w; ++x) {
+                const size_t right = (x + 1) % w, below = (y + 1) % h;
+                const double a = values[y * w + x], b = values[y * w + right], c = values[below * w + x],
+                             d = values[below * w + right];
+                double* const to = &fine[4 * y * w + 2 * x];
+                to[0] = a, to[1] = (a + b) / 2, to[2 * w] = (a + c) / 2, to[2 * w + 1] = (a + b + c + d) / 4;
+            }
+    });
+    return fine;
+}
+
+std::vector<double>& ChannelSum::at(const ChannelGrid& grid) {
+    if (values_.empty()) grid_ = grid, values_.assign(grid.size(), 0);
+    for (; grid_.step > grid.step; grid_ = {2 * grid_.width, 2 * grid_.height, grid_.step / 2})
+        values_ = at_half_step(values_, grid_);
+    return values_;
+}
+
+std::vector<double> ChannelSum::pixels(uint32_t width, uint32_t height) {
+    std::vector<double> cut;
+    cut.reserve(size_t{width} * height);
+    for (size_t y = 0; y < height; ++y)
+        cut.insert(cut.end(), values_.begin() + ptrdiff_t(y * grid_.width),
+                   values_.begin() + ptrdiff_t(y * grid_.width + width));
+    return cut;
+}
+
+std::vector<double> foveal_means(std::span<const double> values, uint32_t width, uint32_t height,
+                                 double pixels_per_degree) {
+    const double radius = std::max(pixels_per_degree / 2, 0.5);
+    const auto reach = ptrdiff_t(std::min(radius, double(std::max(width, height))));
+    std::vector<ptrdiff_t> half;  // of the row of the disc, px to either side
+    double pixels = 0;
+    for (ptrdiff_t dy = -reach; dy <= reach; ++dy) {
+        half.push_back(ptrdiff_t(std::sqrt(std::max(radius * radius - double(dy * dy), 0.0))));
+        pixels += double(2 * half.back() + 1);
+    }
+    const auto w = ptrdiff_t(width), h = ptrdiff_t(height);
+    std::vector<double> sums(size_t(w + 1) * height), means(values.size());  // of each row, up to a pixel
+    for (ptrdiff_t y = 0; y < h; ++y)
+        for (ptrdiff_t x = 0; x < w; ++x)
+            sums[size_t(y * (w + 1) + x + 1)] = sums[size_t(y * (w + 1) + x)] + values[size_t(y * w + x)];
+    in_parallel(height, 8, [&](size_t begin, size_t end) {
+        for (auto y = ptrdiff_t(begin); y < ptrdiff_t(end); ++y)
+            for (ptrdiff_t x = 0; x < w; ++x) {
+                double sum = 0;
+                for (ptrdiff_t row = std::max<ptrdiff_t>(y - reach, 0); row <= std::min(y + reach, h - 1); ++row) {
+                    const ptrdiff_t side = half[size_t(row - y + reach)];
+                    sum += sums[size_t(row * (w + 1) + std::min(x + side + 1, w))] -
+                           sums[size_t(row * (w + 1) + std::max<ptrdiff_t>(x - side, 0))];
+                }
+                means[size_t(y * w + x)] = std::max(sum, 0.0) / pixels;
+            }
+    });
+    return means;
+}
+
+double power_of_contrast(std::complex<double> contrast) {
+    const double c = std::sqrt(std::norm(contrast));
+    return c * c * c * std::sqrt(c);  // 3.5
+}
+
+double detection_probability(double powers) { return -std::expm1(-std::log(2.0) * powers); }
+
+}  // namespace vesper::vision

@@ -1,0 +1,145 @@
+// Visible differences against published thresholds, limits and a slow sum over all channels.
+// SPDX-License-Identifier: MIT
+#include "vision/visible_differences.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "support/gratings.h"
+#include "vision/contrast_fidelity.h"
+#include "vision/visibility.h"
+
+namespace vesper::test {
+namespace {
+
+using vision::visible_differences;
+
+constexpr uint32_t kSide = 160;
+constexpr double kPerDegree = 40;  // px
+
+std::vector<float> uniform(double luminance) { return std::vector<float>(size_t{kSide} * kSide, float(luminance)); }
+
+// A disc in the middle; pixels at its edge hold their share of it.
+std::vector<float> disc(double background, double minutes, double contrast) {
+    std::vector<float> picture;
+    const double radius = minutes / 60 * kPerDegree / 2, middle = kSide / 2;
+    for (uint32_t y = 0; y < kSide; ++y)
+        for (uint32_t x = 0; x < kSide; ++x) {
+            double inside = 0;
+            for (int i = 0; i < 64; ++i)
+                inside +=
+                    std::hypot(double(x) + (i % 8 + 0.5) / 8 - middle, double(y) + (i / 8 + 0.5) / 8 - middle) < radius;
+            picture.push_back(float(background * (1 + contrast * inside / 64)));
+        }
+    return picture;
+}
+
+std::vector<float> waves(double background, double cycles, double contrast) {
+    return grating(kSide, cycles, 0, background, contrast);
+}
+
+double largest(const std::vector<float>& a, const std::vector<float>& b) {
+    return visible_differences({kSide, kSide, kPerDegree, a, b}).largest;
+}
+
+// Adrian 1989 is a fit of discs that Blackwell and others measured: seen half of the time for k = 1, without a limit of
+// time from 2 s on. Contrast sensitivity was measured with other observers and gratings: what it makes of discs, with
+// no number fitted to them, is within a factor of two.
+TEST(VisibleDifferences, ThresholdsOfDiscsAreThoseOfAdrian) {
+    for (const double luminance : {0.1, 1.0, 30.0})
+        for (const double minutes : {4.0, 10.0, 30.0}) {
+            const double contrast =
+                vision::target_threshold(luminance, {.size = minutes, .seconds = 2, .age = 23, .probability = 1}) /
+                luminance;
+            EXPECT_LT(largest(uniform(luminance), disc(luminance, minutes, contrast / 1.4)), 0.5)
+                << minutes << "', " << luminance << " cd/m^2";
+            EXPECT_GT(largest(uniform(luminance), disc(luminance, minutes, contrast * 1.6)), 0.5)
+                << minutes << "', " << luminance << " cd/m^2";
+        }
+}
+
+// A grating is seen half of the time at the contrast of the sensitivity; channels of other orientations take a part of
+// its power, and what is left in its own is a tenth below the threshold.
+TEST(VisibleDifferences, ThresholdsOfGratingsAreThoseOfTheSensitivity) {
+    for (const double cycles : {10.0, 20.0}) {  // 2.5 and 5 per degree, the middle of octaves
+        const double contrast = 1.1 / vision::contrast_sensitivity(cycles / (kSide / kPerDegree), 1);
+        EXPECT_NEAR(largest(uniform(1), waves(1, cycles, contrast)), 0.5, 0.06) << cycles;
+    }
+}
+
+TEST(VisibleDifferences, EqualPicturesDifferNowhere) {
+    const std::vector<float> picture = waves(3, 20, 0.7);
+    const auto found = visible_differences({kSide, kSide, kPerDegree, picture, picture});
+    EXPECT_EQ(found.largest, 0);
+    for (const float p : found.probability) ASSERT_EQ(p, 0);
+}
+
+TEST(VisibleDifferences, AreWhereTheyAre) {
+    std::vector<float> changed = uniform(1);
+    changed[40 * kSide + 100] = 30;
+    const auto found = visible_differences({kSide, kSide, kPerDegree, uniform(1), changed});
+    EXPECT_GT(found.largest, 0.99);
+    EXPECT_LT(std::hypot(found.x - 100.0, found.y - 40.0), 2);
+    EXPECT_LT(found.probability[120 * kSide + 30], 0.01);
+    EXPECT_GT(found.above_half, found.above_75);
+    EXPECT_GT(found.above_75, found.above_95);
+    EXPECT_GT(found.above_95, std::numbers::pi / 4 * kPerDegree * kPerDegree / 2 / (kSide * kSide)) << "half a fovea";
+}
+
+// The same order of both pictures, and what is on a grating is masked by it.
+TEST(VisibleDifferences, AreMaskedAndSymmetric) {
+    const double contrast = 0.012;
+    const std::vector<float> empty = uniform(10), faint = waves(10, 20, contrast);
+    const double seen = largest(empty, faint);
+    EXPECT_GT(seen, 0.9);
+    EXPECT_NEAR(largest(faint, empty), seen, 1e-9);
+    // The same increment on a grating of its own frequency, orientation and phase.
+    EXPECT_LT(largest(waves(10, 20, 0.4), waves(10, 20, 0.4 + contrast)), 0.3);
+    // Legge and Foley 1980: far above its threshold a mask raises that of an increment with a slope of 0.6 to 0.8.
+    EXPECT_NEAR(std::log10(vision::threshold_elevation(1000) / vision::threshold_elevation(100)), 0.7, 1e-3);
+    EXPECT_EQ(vision::threshold_elevation(0), 1);
+}
+
+// Brighter as a whole: there is no contrast in either, but a display that is a tenth brighter is told apart.
+TEST(VisibleDifferences, CountTheLuminanceOfRegions) {
+    EXPECT_GT(largest(uniform(10), uniform(12)), 0.9);
+    EXPECT_LT(largest(uniform(10), uniform(10.02)), 0.1);
+}
+
+TEST(VisibleDifferences, OlderEyesSeeLess) {
+    const std::vector<float> a = uniform(1), b = disc(1, 10, 0.03);
+    const auto of_age = [&](double age) {
+        return visible_differences({kSide, kSide, kPerDegree, a, b}, {.age = age}).largest;
+    };
+    EXPECT_GT(of_age(23), of_age(50));
+    EXPECT_GT(of_age(50), of_age(70));
+}
+
+// What a display shows with less contrast is lost, with more is amplified, and what it adds is invented.
+TEST(ContrastFidelity, TellsLostInventedAndAmplifiedContrast) {
+    const std::vector<float> faint = waves(1, 20, 0.05), strong = waves(100, 20, 0.3), flat = uniform(100);
+    const auto of = [&](const std::vector<float>& scene, const std::vector<float>& shown) {
+        return vision::contrast_fidelity({kSide, kSide, kPerDegree, scene, shown});
+    };
+    const auto middle = [](const std::vector<float>& map) { return map[size_t{kSide} * kSide / 2 + kSide / 2]; };
+    const auto lost = of(faint, flat), invented = of(uniform(1), strong), amplified = of(faint, strong),
+               same = of(strong, strong), brighter = of(waves(5, 20, 0.3), waves(6, 20, 0.3));
+    EXPECT_GT(middle(lost.lost), 0.1) << "in one octave of six at least";
+    EXPECT_EQ(middle(lost.lost), middle(lost.seen));
+    EXPECT_EQ(middle(lost.invented), 0);
+    EXPECT_GT(middle(invented.invented), 0.1);
+    EXPECT_EQ(middle(invented.lost), 0);
+    EXPECT_GT(middle(amplified.amplified), 0.1);
+    for (const auto& kept : {same, brighter}) {
+        EXPECT_GT(middle(kept.seen), 0.1);
+        EXPECT_EQ(middle(kept.lost), 0);
+        EXPECT_EQ(middle(kept.invented), 0);
+        EXPECT_EQ(middle(kept.amplified), 0);
+    }
+    EXPECT_NEAR(vision::mean_of({0, 1, 0.5f, 0.5f}), 0.5, 1e-12);
+}
+
+}  // namespace
+}  // namespace vesper::test

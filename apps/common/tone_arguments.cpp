@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "print.h"
-#include "scene/display_file.h"
 #include "tone_log.h"
 
 namespace vesper::apps {
@@ -31,24 +30,6 @@ const std::map<std::string, uint32_t> kGamuts{
 const std::map<std::string, vision::SpencerState> kPupils{{"photopic", vision::SpencerState::Photopic},
                                                           {"mesopic", vision::SpencerState::Mesopic},
                                                           {"scotopic", vision::SpencerState::Scotopic}};
-
-vision::Display display_of(const ToneArguments& arguments) {
-    vision::Display display =
-        arguments.display.empty() ? vision::known_displays().front().display : scene::find_display(arguments.display);
-    const bool table = display.eotf == vision::Eotf::Table;
-    if (table && (arguments.peak || arguments.black))
-        throw Error("--display " + arguments.display +
-                    ": --display-peak and --display-black cannot change a measured table");
-    if (display.eotf != vision::Eotf::Gamma && arguments.gamma)
-        throw Error("--display " + arguments.display + ": --display-gamma: the display has no gamma");
-    display.peak = arguments.peak.value_or(display.peak);
-    display.black = arguments.black.value_or(display.black);
-    display.gamma = arguments.gamma.value_or(display.gamma);
-    display.ambient = arguments.ambient.value_or(display.ambient);
-    display.reflection = arguments.reflection.value_or(display.reflection);
-    vision::check_display(display);
-    return display;
-}
 
 /// Adds the settings of an operator to a command.
 struct OperatorOptions {
@@ -98,9 +79,7 @@ void add_tone_options(Command command, ToneArguments& a) {
         .shows_default();
     a.tone.operators.each([&](auto& settings) { settings.options(OperatorOptions{command}); });
     command.help_group();
-    command.add_option("--display", a.display,
-                       "NAME (" + vision::known_display_names() +
-                           ") or PROFILE.json (docs/display.md); default: " + vision::known_displays().front().name);
+    add_display_options(command, a);
     command.help_group("Display");
     command
         .add_option(
@@ -109,14 +88,6 @@ void add_tone_options(Command command, ToneArguments& a) {
             "bright as it can be) or clip (each channel by itself)")
         .check(one_of(gamut_names()))
         .shows_default();
-    command.add_option("--display-peak", a.peak, "Display: luminance of white in the dark, cd/m^2")
-        .check(between(0.1, 1e5));
-    command.add_option("--display-black", a.black, "Display: luminance of black in the dark, cd/m^2")
-        .check(between(1e-6, 1e3));
-    command.add_option("--display-gamma", a.gamma, "Display: exponent").check(between(0.5, 5.0));
-    command.add_option("--display-ambient", a.ambient, "Display: illuminance on the screen, lx")
-        .check(between(0.0, 1e5));
-    command.add_option("--display-reflection", a.reflection, "Display: diffuse reflectance").check(between(0.0, 1.0));
     command.help_group();
 }
 

@@ -1,11 +1,11 @@
 // What commands that show luminance on a display share: operator, display, files. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "command_line.h"
 
+#include "display_arguments.h"
 #include "eye_arguments.h"
 #include "io/image_file.h"
 #include "render/tone_chain.h"
@@ -13,14 +13,13 @@
 namespace vesper::apps {
 
 /// Options of the way from luminance to display codes.
-struct ToneArguments {
+struct ToneArguments : DisplayArguments {
     EyeArguments eye;
-    std::string glare = "none", pupil = "photopic", display, gamut = "luminance";
+    std::string glare = "none", pupil = "photopic", gamut = "luminance";
     double iris = vision::ScatteringEye{}.pigmentation;
     uint32_t eye_seed = vision::ApertureSettings{}.seed;
     bool lashes = false;
-    std::optional<float> peak, black, gamma, ambient, reflection;  ///< in place of the display's
-    double histogram_low = 1e-4, histogram_high = 1e6;             ///< cd/m^2
+    double histogram_low = 1e-4, histogram_high = 1e6;  ///< cd/m^2
     render::HistogramSettings histogram;
     render::ToneSettings tone;
 };

@@ -268,6 +268,9 @@ int Program::run(int argc, char** argv) {
         if (error.get_name() == "RequiredError" && !unknown.empty()) message = "there is no " + unknown.front();
         std::replace(message.begin(), message.end(), '\n', ' ');
         failure = one_line(message, 1000) + " (--help shows what is possible)";
+    } catch (const Verdict& verdict) {
+        Ranks::finish();
+        return output_ended(name) ? verdict.exit_code : kBadInput;
     } catch (const AgreedError& error) {
         if (*error.what() != '\0') print_error(name, error.what());
         Ranks::finish();

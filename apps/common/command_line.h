@@ -20,6 +20,11 @@ namespace vesper::apps {
 constexpr const char* kFirstPage = "Options";  ///< group of the options that --help lists
 constexpr int kBadInput = 2;                   ///< exit code for a file, device or argument that cannot be used
 
+/// Thrown by a command that printed its results and ends with an exit code of its own.
+struct Verdict {
+    int exit_code = 1;
+};
+
 /// A test of one argument, and the words that --help-all shows for it.
 class Check {
 public:

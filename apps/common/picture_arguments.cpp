@@ -137,7 +137,7 @@ PictureMeaning meaning_of(const io::HdrImage& image, const PictureRequest& reque
     }
     meaning.scale = (meaning.unit > 0 ? meaning.unit : 1) * std::exp2(request.scale.exposure);
     if (const double angle = request.fov > 0 ? request.fov : angle_of(image.header); angle > 0)
-        meaning.fov = angle;
+        meaning.fov = angle, meaning.fov_known = true;
     else if (request.angle_matters)
         meaning.notes.push_back(format(
             "its header names no angle of a perspective: taken as %g degrees high (--fov tells another)", meaning.fov));

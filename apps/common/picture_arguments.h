@@ -40,8 +40,9 @@ struct PictureMeaning {
     double unit = 1;           ///< cd/m^2 of its 1.0 before --exposure; 0: it has neither unit nor light
     double scale = 1;          ///< the same as it is shown, with --exposure
     std::string scale_source;  ///< where the unit is from: option, header, auto, sequence, or none
-    double fov = 40;  ///< angle it covers in height, degrees: as given, as the file says (Vesper's pictures and
-                      ///< Radiance's), or 40
+    double fov = 40;         ///< angle it covers in height, degrees: as given, as the file says (Vesper's pictures and
+                             ///< Radiance's), or 40
+    bool fov_known = false;  ///< and not 40 for want of an angle
     std::vector<std::string> notes;  ///< what was taken for granted, and what of the file was passed over
     std::string scale_note;          ///< likewise, of a unit that was found for this picture alone
 };

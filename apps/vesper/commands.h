@@ -11,6 +11,7 @@ void add_road(apps::Command program);
 void add_merge(apps::Command program);
 void add_inspect(apps::Command program);
 void add_tonemap(apps::Command program);
+void add_compare(apps::Command program);
 void add_display(apps::Command program);
 void add_study(apps::Command program);
 

@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
     vesper::commands::add_merge(program);
     vesper::commands::add_inspect(program);
     vesper::commands::add_tonemap(program);
+    vesper::commands::add_compare(program);
     vesper::commands::add_display(program);
     vesper::commands::add_study(program);
     vesper::apps::Command devices = program.add_command("devices", "List the Vulkan devices of this machine");

@@ -1,0 +1,198 @@
+// `vesper compare`: where an observer tells two pictures apart. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "arguments.h"
+#include "base/angle.h"
+#include "base/error.h"
+#include "base/luminance.h"
+#include "base/one_line.h"
+#include "commands.h"
+#include "compared_picture.h"
+#include "gpu/device.h"
+#include "io/file_gate.h"
+#include "print.h"
+#include "render/retina.h"
+#include "share_map.h"
+#include "thread_arguments.h"
+#include "vision/picture_metrics.h"
+#include "vision/visible_differences.h"
+
+namespace vesper::commands {
+namespace {
+
+using apps::format;
+
+struct CompareArguments {
+    std::string first, second, picture, json, device, glare = "cie";
+    CompareSource source;
+    double age = vision::ContrastEye{}.age, iris = vision::ScatteringEye{}.pigmentation;
+    double fail_above = 1;
+    unsigned threads = 0;
+};
+
+struct Comparison {
+    vision::VisibleDifferences seen;
+    double pixels_per_degree = 0, log_rmse = 0, psnr = 0;
+    std::optional<double> ssim;
+};
+
+// The luminances themselves, before the eye.
+std::vector<float> luminances(const render::HostPicture& picture, render::ToneMapper& mapper) {
+    return render::retinal_luminance(mapper, picture, {});
+}
+
+Comparison compare(const CompareArguments& a, const ComparedPicture& first, const ComparedPicture& second) {
+    const double fov = angle_of(first, second);
+    gpu::Device device({.select = a.device});
+    render::ToneMapper mapper(device);
+    std::optional<gpu_scene::ScatterSettings> eye;
+    if (a.glare != "none") eye = {.eye = {a.age, a.iris}};
+    const auto host = [&](const ComparedPicture& picture, const std::vector<float>& grey) {
+        return render::HostPicture{picture.extent, picture.channels == 1 ? grey : picture.values, 3, 1, fov};
+    };
+    const auto grey_of = [](const ComparedPicture& picture) {
+        std::vector<float> grey;
+        if (picture.channels == 1)
+            for (const float value : picture.values) grey.insert(grey.end(), 3, value);
+        return grey;
+    };
+    const std::vector<float> grey1 = grey_of(first), grey2 = grey_of(second);
+    const render::HostPicture host1 = host(first, grey1), host2 = host(second, grey2);
+    const std::vector<float> retina1 = render::retinal_luminance(mapper, host1, eye),
+                             retina2 = render::retinal_luminance(mapper, host2, eye);
+    const auto [width, height] = first.extent;
+    Comparison made;
+    made.pixels_per_degree = render::pixels_per_degree(height, fov);
+    made.seen = vision::visible_differences({width, height, made.pixels_per_degree, retina1, retina2},
+                                            {.optics = !eye, .age = a.age});
+    const std::vector<float> plain1 = luminances(host1, mapper), plain2 = luminances(host2, mapper);
+    made.log_rmse = vision::log_rmse(plain1, plain2);
+    made.psnr = vision::pu21_psnr(plain1, plain2);
+    made.ssim = vision::pu21_ssim(plain1, plain2, width, height);
+    return made;
+}
+
+// Of a pixel, from the middle of the picture, degrees right and up.
+glm::dvec2 direction(const Comparison& c, VkExtent2D extent) {
+    const glm::dvec2 from = glm::dvec2(c.seen.x + 0.5, c.seen.y + 0.5) - 0.5 * glm::dvec2(extent.width, extent.height);
+    const double pixel = kRadiansPerDegree / c.pixels_per_degree;
+    return {std::atan(from.x * pixel) * kDegreesPerRadian, -std::atan(from.y * pixel) * kDegreesPerRadian};
+}
+
+void report(const CompareArguments& a, const ComparedPicture& first, const ComparedPicture& second,
+            const Comparison& c) {
+    const auto& seen = c.seen;
+    const glm::dvec2 at = direction(c, first.extent);
+    apps::print("%s: %s\n%s: %s\n", a.first.c_str(), first.source.c_str(), a.second.c_str(), second.source.c_str());
+    apps::print("%u x %u px, %.4g px/degree, an eye of %.4g years%s\n", first.extent.width, first.extent.height,
+                c.pixels_per_degree, a.age, a.glare == "none" ? ", without its scatter" : "");
+    apps::print("largest probability of detection  %.4f\n", seen.largest);
+    if (seen.largest > 0)
+        apps::print("  at (%u, %u), %.2f degrees %s and %.2f %s of the middle\n", seen.x, seen.y, std::abs(at.x),
+                    at.x < 0 ? "left" : "right", std::abs(at.y), at.y < 0 ? "below" : "above");
+    apps::print("pixels above 50, 75 and 95 %%       %.4g, %.4g and %.4g %%\n", 100 * seen.above_half,
+                100 * seen.above_75, 100 * seen.above_95);
+    apps::print("RMSE of log10 luminance           %.4g\n", c.log_rmse);
+    apps::print("PU21-PSNR                         %.4g dB\n", c.psnr);
+    if (c.ssim) apps::print("PU21-SSIM                         %.5g\n", *c.ssim);
+}
+
+void write_json(const CompareArguments& a, const Comparison& c) {
+    const auto& seen = c.seen;
+    nlohmann::ordered_json json{{"first", a.first},
+                                {"second", a.second},
+                                {"pixels_per_degree", c.pixels_per_degree},
+                                {"age_years", a.age},
+                                {"glare", a.glare},
+                                {"largest_probability", seen.largest},
+                                {"x", seen.x},
+                                {"y", seen.y},
+                                {"share_above_0.5", seen.above_half},
+                                {"share_above_0.75", seen.above_75},
+                                {"share_above_0.95", seen.above_95},
+                                {"log10_rmse", c.log_rmse}};
+    json["pu21_psnr_db"] = std::isfinite(c.psnr) ? nlohmann::ordered_json(c.psnr) : nullptr;  // of equal pictures: none
+    json["pu21_ssim"] = c.ssim ? nlohmann::ordered_json(*c.ssim) : nullptr;
+    apps::write_text(a.json, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+void draw(const CompareArguments& a, const ComparedPicture& first, const Comparison& c) {
+    const auto [width, height] = first.extent;
+    apps::ValuePicture luminance{width, height, {}};
+    for (size_t i = 0; i < first.values.size(); i += first.channels)
+        luminance.values.push_back(first.channels == 1 ? first.values[i]
+                                                       : float(vesper::luminance({first.values[i], first.values[i + 1],
+                                                                                  first.values[i + 2]})));
+    apps::ShareMap map(one_line(a.first, 60) + " and " + one_line(a.second, 60) + ": probability of detection",
+                       luminance, {width, height, c.seen.probability}, "detected");
+    if (c.seen.largest > 0) map.canvas().circle(map.at(c.seen.x, c.seen.y), 9, apps::CanvasColour(1), 1.5);
+    map.canvas().save(a.picture);
+}
+
+void run(const CompareArguments& a) {
+    if (!a.picture.empty() && !a.picture.ends_with(".png"))
+        throw Error("-o " + one_line(a.picture) + ": a .png file is expected");
+    const ComparedPicture first = read_compared(a.source, a.first), second = read_compared(a.source, a.second);
+    io::announce_write("-o", a.picture);
+    io::announce_write("--json", a.json);
+    if (first.extent.width != second.extent.width || first.extent.height != second.extent.height)
+        throw Error(format("%s has %u x %u px, and %s %u x %u px", a.first.c_str(), first.extent.width,
+                           first.extent.height, a.second.c_str(), second.extent.width, second.extent.height));
+    const Comparison made = compare(a, first, second);
+    report(a, first, second, made);
+    if (!a.json.empty()) write_json(a, made);
+    if (!a.picture.empty()) draw(a, first, made);
+    if (made.seen.largest > a.fail_above) {
+        apps::print("above --fail-above %g\n", a.fail_above);
+        throw apps::Verdict{};
+    }
+}
+
+}  // namespace
+
+void add_compare(apps::Command program) {
+    apps::Command command =
+        program.add_command("compare", "Find where an observer tells two pictures apart (docs/compare.md)");
+    const auto a = std::make_shared<CompareArguments>();
+    command.add_option("first", a->first, "OpenEXR or Radiance picture in cd/m^2, or a PNG of display codes")
+        .required();
+    command.add_option("second", a->second, "The same, of the same size").required();
+    command.add_option("--output,-o", a->picture, "OUT.png: probability that a difference is detected, by pixel");
+    command.add_option("--json", a->json, "Write all figures to a JSON file");
+    command
+        .add_option("--fail-above", a->fail_above,
+                    "Exit with code 1 if a difference is detected anywhere with a larger probability, such as 0.5")
+        .check(apps::between(0.0, 1.0));
+    command
+        .add_option("--fov", a->source.fov,
+                    "Angle that the pictures cover in height, degrees (default: as an HDR picture says)")
+        .check(apps::between(0.1, 170.0));
+    apps::add_scale_options(command, a->source.scale);
+    command.add_option("--layer", a->source.layer, apps::kLayerHelp);
+    command.add_option("--age", a->age, "Of the observer, years").check(apps::between(1.0, 120.0)).shows_default();
+    command
+        .add_option("--glare", a->glare, "Light scattered in the eye: cie, or none for pictures that have it already")
+        .check(apps::one_of({"cie", "none"}))
+        .shows_default();
+    command.add_option("--iris", a->iris, "Pigmentation of the iris, from 0 very dark to 1.2 light blue")
+        .check(apps::between(0.0, 1.5))
+        .shows_default();
+    apps::add_display_options(command, a->source.display);
+    command.add_option("--device", a->device,
+                       "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
+    apps::add_thread_option(command, a->threads);
+    command.footer(
+        "Examples:\n  vesper compare before.exr after.exr -o seen.png\n"
+        "  vesper compare a.png b.png --fov 40 --display projector --fail-above 0.5\n");
+    command.callback([a] {
+        apps::use_threads(a->threads);
+        run(*a);
+    });
+}
+
+}  // namespace vesper::commands

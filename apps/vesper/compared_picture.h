@@ -1,0 +1,36 @@
+// Pictures to compare: luminance from HDR files, and from codes of a display. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "display_arguments.h"
+#include "picture_arguments.h"
+#include "render/tone_mapper.h"
+
+namespace vesper::commands {
+
+struct CompareSource {
+    apps::ScaleArguments scale;
+    apps::DisplayArguments display;
+    std::string layer;
+    double fov = 0;  ///< degrees in height; 0: as the files say
+};
+
+/// A picture in cd/m^2.
+struct ComparedPicture {
+    VkExtent2D extent{};
+    std::vector<float> values;  ///< rows from the top
+    uint32_t channels = 3;      ///< 3: linear Rec. 709; 1: luminance
+    double fov = 0;             ///< degrees in height; 0: neither option nor file tells it
+    std::string source;         ///< of its unit, for the report
+};
+
+/// Reads OpenEXR and Radiance files that state their unit, or for which --scale does, and PNG files as codes of the
+/// display. Prints notes. Throws Error, naming the file, for others.
+ComparedPicture read_compared(const CompareSource&, const std::string& file);
+
+/// The angle of two pictures, rad in height. Throws Error if neither is known, or if they differ.
+double angle_of(const ComparedPicture& a, const ComparedPicture& b);
+
+}  // namespace vesper::commands

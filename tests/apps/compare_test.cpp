@@ -1,0 +1,102 @@
+// `vesper compare` on pictures whose difference is known. SPDX-License-Identifier: MIT
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "io/hdr_image.h"
+#include "io/image_file.h"
+#include "support/program.h"
+
+namespace vesper::test {
+namespace {
+
+class CompareTest : public ProgramTest {
+protected:
+    static constexpr uint32_t kWidth = 96, kHeight = 64;
+
+    /// A uniform picture of 1 cd/m^2 with a soft spot in its middle, as many times brighter.
+    void write(const std::string& name, double contrast, bool with_angle = true, bool with_unit = true) const {
+        io::HdrImage image{.width = kWidth, .height = kHeight, .rgb = {}};
+        for (uint32_t y = 0; y < kHeight; ++y)
+            for (uint32_t x = 0; x < kWidth; ++x) {
+                const double r2 = std::pow(x - kWidth / 2.0, 2) + std::pow(y - kHeight / 2.0, 2);
+                image.rgb.insert(image.rgb.end(), 3, float(1 + contrast * std::exp(-r2 / 32)));
+            }
+        if (with_unit) image.white_luminance = 1;
+        const double half = std::tan(1.0 * std::numbers::pi / 180);  // 2 degrees high: 32 px/degree
+        const std::string t = std::to_string(half), w = std::to_string(1.5 * half);
+        if (with_angle) image.header = {{"vesper:tangents", "-" + w + " -" + t + " " + w + " " + t}};
+        io::write_exr(folder / name, image);
+    }
+    nlohmann::json figures() const { return nlohmann::json::parse(read_text(folder / "c.json")); }
+};
+
+// A spot of about 10 minutes of arc. At 1 cd/m^2 a disc of that size is seen half of the time from a contrast of 0.019
+// on (Adrian 1989).
+TEST_F(CompareTest, TellsWhatIsSeenFromWhatIsNot) {
+    write("plain.exr", 0), write("faint.exr", 0.005), write("spot.exr", 0.08);
+    ASSERT_EQ(run("compare plain.exr faint.exr --json c.json"), 0) << said;
+    EXPECT_LT(figures()["largest_probability"], 0.05);
+    EXPECT_GT(figures()["largest_probability"], 0);
+    ASSERT_EQ(run("compare plain.exr spot.exr --json c.json -o map.png"), 0) << said;
+    const nlohmann::json seen = figures();
+    EXPECT_GT(seen["largest_probability"], 0.95);
+    EXPECT_NEAR(seen["x"], kWidth / 2, 2);
+    EXPECT_NEAR(seen["y"], kHeight / 2, 2);
+    EXPECT_NEAR(seen["pixels_per_degree"], 32, 0.01);
+    EXPECT_GT(seen["log10_rmse"], 0);
+    EXPECT_TRUE(exists("map.png"));
+    EXPECT_NE(printed.find("largest probability"), std::string::npos);
+    ASSERT_EQ(run("compare spot.exr spot.exr --json c.json"), 0) << said;
+    EXPECT_EQ(figures()["largest_probability"], 0);
+    EXPECT_TRUE(figures()["pu21_psnr_db"].is_null()) << "infinite";
+}
+
+TEST_F(CompareTest, FailsForIntegration) {
+    write("plain.exr", 0), write("spot.exr", 0.08);
+    EXPECT_EQ(run("compare plain.exr spot.exr --fail-above 0.5"), 1);
+    EXPECT_TRUE(said.empty()) << said;
+    EXPECT_EQ(run("compare plain.exr plain.exr --fail-above 0.5"), 0);
+}
+
+// Codes of a display: half of the largest is 0.2176 of white's light of a gamma of 2.2.
+TEST_F(CompareTest, ReadsCodesOfADisplay) {
+    const std::vector<uint8_t> grey(size_t{32} * 32 * 4, 128);
+    io::write_png(folder / "grey.png", 32, 32, grey);
+    ASSERT_EQ(run("compare grey.png grey.png --fov 1 --display-peak 500"), 0) << said;
+    EXPECT_NE(printed.find("to 500"), std::string::npos) << printed;
+    io::HdrImage same{.width = 32, .height = 32, .rgb = std::vector<float>(32 * 32 * 3), .white_luminance = 1};
+    const double black = 0.1 + 0.01 * 5 / std::numbers::pi;  // of the default display
+    for (float& value : same.rgb) value = float(black + 99.9 * std::pow(128 / 255.0, 2.2));
+    io::write_exr(folder / "same.exr", same);
+    ASSERT_EQ(run("compare grey.png same.exr --fov 1 --json c.json --display-peak 100"), 0) << said;
+    EXPECT_LT(figures()["log10_rmse"], 1e-5);
+}
+
+TEST_F(CompareTest, RefusesPicturesWithoutAMeaning) {
+    write("a.exr", 0), write("blind.exr", 0, false), write("relative.exr", 0, true, false);
+    io::write_png(folder / "small.png", 2, 2, std::vector<uint8_t>(16, 9));
+    expect_refused("compare blind.exr blind.exr", {"--fov"});
+    expect_refused("compare a.exr relative.exr", {"relative.exr", "--scale"});
+    expect_refused("compare a.exr small.png", {"2 x 2"});
+    expect_refused("compare a.exr missing.exr", {"missing.exr"});
+    expect_refused("compare a.exr a.exr -o map.jpg", {"map.jpg"});
+    EXPECT_EQ(run("compare blind.exr a.exr"), 0) << "one of them says it: " << said;
+    EXPECT_EQ(run("compare a.exr relative.exr --scale 2"), 0) << said;
+}
+
+TEST_F(CompareTest, NotesPixelsThatAreNotFinite) {
+    write("a.exr", 0);
+    io::HdrImage damaged = io::read_exr(folder / "a.exr");
+    damaged.header = {};  // texts that only a reader may make
+    damaged.rgb[30] = std::nanf(""), damaged.rgb[300] = HUGE_VALF;
+    io::write_exr(folder / "damaged.exr", damaged);
+    ASSERT_EQ(run("compare a.exr damaged.exr --json c.json"), 0) << said;
+    EXPECT_NE(said.find("2 values are not finite"), std::string::npos) << said;
+    EXPECT_GT(figures()["largest_probability"], 0.9);
+}
+
+}  // namespace
+}  // namespace vesper::test

@@ -2,27 +2,11 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
-#include "base/stopwatch.h"
-#include "gpu/memory.h"
 #include "render/frame_queue.h"
+#include "render/host_picture.h"
 
 namespace vesper::render {
-
-/// A picture on the host.
-struct HostPicture {
-    VkExtent2D extent{};            ///< px
-    std::span<const float> values;  ///< RGB (or RGBA, alpha ignored) in linear Rec. 709, rows from the top
-    uint32_t channels = 3;          ///< 3 or 4
-    float scale = 1;                ///< cd/m^2 per unit
-    double vertical_fov = 0.7;      ///< rad, in (0, pi): what angle the picture covers in height
-    std::vector<gpu_scene::OffscreenLamp> outside =
-        {};  ///< lamps that scatter light into it; the picture is seen along -z, y up
-    const vision::ImageAngles* angles =
-        nullptr;  ///< of its edges, in place of vertical_fov, where the eye's axis is not in its middle
-    const vision::OffscreenLight* beyond = nullptr;  ///< that other pictures of the eye scatter into it
-};
 
 /// A picture on the device, in an external image that can be sampled.
 struct DevicePicture {
@@ -69,8 +53,7 @@ private:
                 const gpu_scene::View& view, const ChainInputs& inputs, const Outputs& outputs,
                 const graph::SubmitSemaphores& semaphores);
 
-    gpu::Device& device_;
-    gpu::HostBuffer pixels_;
+    PictureUpload upload_;
     FrameQueue frames_;  // waits for its frames, which use the rest
 };
 

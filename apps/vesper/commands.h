@@ -14,5 +14,6 @@ void add_tonemap(apps::Command program);
 void add_compare(apps::Command program);
 void add_display(apps::Command program);
 void add_study(apps::Command program);
+void add_saliency(apps::Command program);
 
 }  // namespace vesper::commands

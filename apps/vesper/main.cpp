@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
     vesper::commands::add_compare(program);
     vesper::commands::add_display(program);
     vesper::commands::add_study(program);
+    vesper::commands::add_saliency(program);
     vesper::apps::Command devices = program.add_command("devices", "List the Vulkan devices of this machine");
     devices.callback([] {
         for (const std::string& line : vesper::gpu::list_devices()) vesper::apps::print("%s\n", line.c_str());

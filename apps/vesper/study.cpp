@@ -70,21 +70,7 @@ void run(const StudyArguments& arguments, const std::string& what, const std::st
 void add_pictures(Command command, StudyArguments& a) {
     command.add_option("pictures", a.inputs, "OpenEXR or Radiance pictures, or a .gltf or .glb to render once")
         .required();
-    command.add_option("--camera,-c", a.source.camera, "Of a scene: name of a camera (default: the first)");
-    command.add_option("--size,-s", a.source.size, "Of a scene: WIDTHxHEIGHT, px").shows_default();
-    command.add_option("--start", a.source.start, "Of a scene: its time, s")
-        .check(apps::between(0.0, 1e6))
-        .shows_default();
-    apps::add_edge_options(command, a.source.edges);
-    apps::add_quality_option(command, a.source.quality);
-    command.add_allow_outside();
-    command.add_option("--layer", a.source.layer, apps::kLayerHelp);
-    apps::add_scale_options(command, a.source.scale);
-    command
-        .add_option("--fov", a.source.fov,
-                    "Angle a picture covers in height, degrees (default: what the picture says, if Vesper or Radiance "
-                    "made it, or 40)")
-        .check(apps::between(0.1, 170.0));
+    add_source_options(command, a.source);
 }
 
 Command add_one(Command studies, const std::shared_ptr<StudyArguments>& a, const std::string& name,

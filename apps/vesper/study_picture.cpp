@@ -71,6 +71,24 @@ double StudyPicture::luminance(size_t i) const {
     return double(scale * (shared::kRed * rgb[0] + shared::kGreen * rgb[1] + shared::kBlue * rgb[2]));
 }
 
+void add_source_options(apps::Command command, PictureSource& source) {
+    command.add_option("--camera,-c", source.camera, "Of a scene: name of a camera (default: the first)");
+    command.add_option("--size,-s", source.size, "Of a scene: WIDTHxHEIGHT, px").shows_default();
+    command.add_option("--start", source.start, "Of a scene: its time, s")
+        .check(apps::between(0.0, 1e6))
+        .shows_default();
+    apps::add_edge_options(command, source.edges);
+    apps::add_quality_option(command, source.quality);
+    command.add_allow_outside();
+    command.add_option("--layer", source.layer, apps::kLayerHelp);
+    apps::add_scale_options(command, source.scale);
+    command
+        .add_option("--fov", source.fov,
+                    "Angle a picture covers in height, degrees (default: what the picture says, if Vesper or Radiance "
+                    "made it, or 40)")
+        .check(apps::between(0.1, 170.0));
+}
+
 StudyPicture read_study_picture(const PictureSource& arguments, gpu::Device& device,
                                 const render::ToneChainSettings& settings, const std::string& input) {
     StudyPicture picture = is_scene(input) ? rendered(arguments, device, settings, input) : loaded(arguments, input);

@@ -38,6 +38,8 @@ struct PictureSource {
     bool angle_matters = false;              ///< to the study, so that a guess is noted
 };
 
+void add_source_options(apps::Command, PictureSource&);
+
 /// A picture without a name. Prints notes. Throws Error if it cannot be read or is black.
 StudyPicture read_study_picture(const PictureSource&, gpu::Device&, const render::ToneChainSettings&,
                                 const std::string& input);

@@ -41,28 +41,13 @@ struct Comparison {
     std::optional<double> ssim;
 };
 
-// The luminances themselves, before the eye.
-std::vector<float> luminances(const render::HostPicture& picture, render::ToneMapper& mapper) {
-    return render::retinal_luminance(mapper, picture, {});
-}
-
 Comparison compare(const CompareArguments& a, const ComparedPicture& first, const ComparedPicture& second) {
     const double fov = angle_of(first, second);
     gpu::Device device({.select = a.device});
     render::ToneMapper mapper(device);
     std::optional<gpu_scene::ScatterSettings> eye;
     if (a.glare != "none") eye = {.eye = {a.age, a.iris}};
-    const auto host = [&](const ComparedPicture& picture, const std::vector<float>& grey) {
-        return render::HostPicture{picture.extent, picture.channels == 1 ? grey : picture.values, 3, 1, fov};
-    };
-    const auto grey_of = [](const ComparedPicture& picture) {
-        std::vector<float> grey;
-        if (picture.channels == 1)
-            for (const float value : picture.values) grey.insert(grey.end(), 3, value);
-        return grey;
-    };
-    const std::vector<float> grey1 = grey_of(first), grey2 = grey_of(second);
-    const render::HostPicture host1 = host(first, grey1), host2 = host(second, grey2);
+    const render::HostPicture host1{first.extent, first.rgb, 3, 1, fov}, host2{second.extent, second.rgb, 3, 1, fov};
     const std::vector<float> retina1 = render::retinal_luminance(mapper, host1, eye),
                              retina2 = render::retinal_luminance(mapper, host2, eye);
     const auto [width, height] = first.extent;
@@ -70,7 +55,8 @@ Comparison compare(const CompareArguments& a, const ComparedPicture& first, cons
     made.pixels_per_degree = render::pixels_per_degree(height, fov);
     made.seen = vision::visible_differences({width, height, made.pixels_per_degree, retina1, retina2},
                                             {.optics = !eye, .age = a.age});
-    const std::vector<float> plain1 = luminances(host1, mapper), plain2 = luminances(host2, mapper);
+    const std::vector<float> plain1 = render::retinal_luminance(mapper, host1, {}),
+                             plain2 = render::retinal_luminance(mapper, host2, {});  // without an eye
     made.log_rmse = vision::log_rmse(plain1, plain2);
     made.psnr = vision::pu21_psnr(plain1, plain2);
     made.ssim = vision::pu21_ssim(plain1, plain2, width, height);
@@ -124,10 +110,8 @@ void write_json(const CompareArguments& a, const Comparison& c) {
 void draw(const CompareArguments& a, const ComparedPicture& first, const Comparison& c) {
     const auto [width, height] = first.extent;
     apps::ValuePicture luminance{width, height, {}};
-    for (size_t i = 0; i < first.values.size(); i += first.channels)
-        luminance.values.push_back(first.channels == 1 ? first.values[i]
-                                                       : float(vesper::luminance({first.values[i], first.values[i + 1],
-                                                                                  first.values[i + 2]})));
+    for (size_t i = 0; i < first.rgb.size(); i += 3)
+        luminance.values.push_back(float(vesper::luminance({first.rgb[i], first.rgb[i + 1], first.rgb[i + 2]})));
     apps::ShareMap map(one_line(a.first, 60) + " and " + one_line(a.second, 60) + ": probability of detection",
                        luminance, {width, height, c.seen.probability}, "detected");
     if (c.seen.largest > 0) map.canvas().circle(map.at(c.seen.x, c.seen.y), 9, apps::CanvasColour(1), 1.5);

@@ -24,7 +24,6 @@ ComparedPicture codes(const CompareSource& source, const std::string& file) {
         io::decode_wide_png(io::read_file(file, kMostBytes), limits.max_side, limits.max_pixels);
     return {{image.width, image.height},
             vision::DisplayLight(display).of_wide(image.rgba),
-            1,
             source.fov,
             apps::format("codes of a display from %.4g to %.4g cd/m^2", double(display.low()), double(display.high()))};
 }
@@ -38,7 +37,6 @@ ComparedPicture luminances(const CompareSource& source, const std::string& file)
     for (float& value : image.rgb) value *= float(meaning.scale);
     return {{image.width, image.height},
             std::move(image.rgb),
-            3,
             meaning.fov_known ? meaning.fov : 0,
             apps::format("1.0 is %.6g cd/m^2 (%s)", meaning.scale, meaning.scale_source.c_str())};
 }
@@ -56,7 +54,7 @@ ComparedPicture read_compared(const CompareSource& source, const std::string& fi
         throw Error(message.find(one_line(file)) == std::string::npos ? one_line(file) + ": " + message : message);
     }
     const auto damaged =
-        std::count_if(picture.values.begin(), picture.values.end(), [](float v) { return !std::isfinite(v); });
+        std::count_if(picture.rgb.begin(), picture.rgb.end(), [](float v) { return !std::isfinite(v); });
     if (damaged > 0)
         apps::print_note(one_line(file) + ": " + std::to_string(damaged) +
                          " values are not finite: their pixels are compared as black");

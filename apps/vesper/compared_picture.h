@@ -20,10 +20,9 @@ struct CompareSource {
 /// A picture in cd/m^2.
 struct ComparedPicture {
     VkExtent2D extent{};
-    std::vector<float> values;  ///< rows from the top
-    uint32_t channels = 3;      ///< 3: linear Rec. 709; 1: luminance
-    double fov = 0;             ///< degrees in height; 0: neither option nor file tells it
-    std::string source;         ///< of its unit, for the report
+    std::vector<float> rgb;  ///< cd/m^2 in linear Rec. 709, rows from the top
+    double fov = 0;          ///< degrees in height; 0: neither option nor file tells it
+    std::string source;      ///< of its unit, for the report
 };
 
 /// Reads OpenEXR and Radiance files that state their unit, or for which --scale does, and PNG files as codes of the

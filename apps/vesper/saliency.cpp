@@ -14,6 +14,7 @@
 #include "render/tone_mapper.h"
 #include "thread_arguments.h"
 #include "tone_arguments.h"
+#include "vision/display_light.h"
 
 namespace vesper::commands {
 namespace {
@@ -114,8 +115,9 @@ void run(const SaliencyArguments& a) {
         apps::print_note(apps::format("%s: only %u of 6 pairs of levels can be compared in less than 256 px on a side",
                                       a.input.c_str(), found.scene.pairs));
     render::ToneMapper tone(device);
-    const render::ToneMapped shown = tone.map(settings, picture.host(), 0, {.display = false, .display_light = true});
-    found.display = mapper.map({picture.extent, shown.display_light, 4, 1, picture.vertical_fov});
+    const render::ToneMapped shown = tone.map(settings, picture.host(), 0);
+    const std::vector<float> light = vision::DisplayLight(settings.display).of_words(shown.display);
+    found.display = mapper.map({picture.extent, light, 3, 1, picture.vertical_fov});
     compare(found, a);
     save_saliency(a.picture, found);
     if (!a.json.empty()) apps::write_text(a.json, json_of(found).dump(1) + "\n");

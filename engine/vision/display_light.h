@@ -9,7 +9,8 @@
 
 namespace vesper::vision {
 
-/// Luminance of a display's pixels, cd/m^2, the light that it reflects included.
+/// Light of a display's pixels as its codes have it, cd/m^2 in linear Rec. 709, three values a pixel: within its gamut,
+/// its peak and its steps, with the light that it reflects.
 class DisplayLight {
 public:
     explicit DisplayLight(const Display&);
@@ -21,9 +22,11 @@ public:
 
 private:
     std::vector<double> light_of(uint32_t largest) const;  // emitted, of each code
+    void add(std::vector<float>& pixels, const glm::dvec3& emitted) const;
 
     Display display_;
-    glm::dvec3 weights_;  // of each primary's luminance in that of white
+    glm::dmat3 to_rec709_;
+    double reflected_;  // cd/m^2
 };
 
 }  // namespace vesper::vision

@@ -6,15 +6,23 @@
 
 #include <gtest/gtest.h>
 
+#include "base/luminance.h"
+
 namespace vesper::test {
 namespace {
+
+std::vector<double> luminances_of(const std::vector<float>& rgb) {
+    std::vector<double> luminances;
+    for (size_t i = 0; i < rgb.size(); i += 3) luminances.push_back(luminance({rgb[i], rgb[i + 1], rgb[i + 2]}));
+    return luminances;
+}
 
 TEST(DisplayLight, IsThatOfTheDescription) {
     const vision::Display display{.peak = 200, .black = 0.5f, .gamma = 2, .ambient = 10, .reflection = 0.1f};
     const vision::DisplayLight light(display);
     const double reflected = 0.1 * 10 / std::numbers::pi;
     const std::vector<uint16_t> codes{0, 0, 0, 7, 65535, 65535, 65535, 0, 32768, 32768, 32768, 0, 0, 65535, 0, 0};
-    const std::vector<float> seen = light.of_wide(codes);
+    const std::vector<double> seen = luminances_of(light.of_wide(codes));
     const double half = 32768.0 / 65535;
     ASSERT_EQ(seen.size(), 4u);
     EXPECT_NEAR(seen[0], 0.5 + reflected, 1e-5);
@@ -32,7 +40,11 @@ TEST(DisplayLight, ReadsWordsOfEightAndTenBits) {
         std::vector<uint8_t> bytes;
         for (int i = 0; i < 4; ++i) bytes.push_back(uint8_t(word >> (8 * i)));
         const vision::DisplayLight light(display);
-        EXPECT_NEAR(light.of_words(bytes)[0], light.of_wide(std::vector<uint16_t>{0, 65535, 0, 0})[0], 1e-4) << bits;
+        const std::vector<float> words = light.of_words(bytes),
+                                 wide = light.of_wide(std::vector<uint16_t>{0, 65535, 0, 0});
+        ASSERT_EQ(words.size(), 3u);
+        for (size_t c = 0; c < 3; ++c) EXPECT_NEAR(words[c], wide[c], 1e-4) << bits;
+        EXPECT_GT(words[1], 50 * words[0]) << "it is green";
     }
 }
 

@@ -57,10 +57,11 @@ void run(const StudyArguments& arguments, const std::string& what, const std::st
         throw Error("-o " + one_line(arguments.folder) + ": cannot be made a folder");
     apps::Ranks::all().agree_on_start();
     render::ToneMapper mapper(device);
-    Study all{arguments, settings, mapper, pictures, StudyPage(title)};
-    all.page.paragraph(apps::format("Display from %.4g to %.4g cd/m\u00b2, %u bits. ", double(settings.display.low()),
-                                    double(settings.display.high()), settings.display.bits) +
-                       "Differences are of display codes.");
+    Study all{arguments, settings, device, mapper, pictures, StudyPage(title)};
+    if (arguments.displays.empty())
+        all.page.paragraph(apps::format("Display from %.4g to %.4g cd/m\u00b2, %u bits.",
+                                        double(settings.display.low()), double(settings.display.high()),
+                                        settings.display.bits));
     study(all);
     if (!apps::Ranks::all().is_first()) return;
     apps::write_text(all.file(what + ".html"), all.page.html());
@@ -97,8 +98,9 @@ void add_study(Command program) {
         "study", "Study what settings of the tone operators do: CSV, plots and a page (docs/study.md)");
     studies.requires_command();
     const auto mip = std::make_shared<StudyArguments>(), bins = std::make_shared<StudyArguments>(),
-               tunnel = std::make_shared<StudyArguments>(), ops = std::make_shared<StudyArguments>();
-    mip->source.angle_matters = true;
+               tunnel = std::make_shared<StudyArguments>(), ops = std::make_shared<StudyArguments>(),
+               fidelity = std::make_shared<StudyArguments>();
+    mip->source.angle_matters = fidelity->source.angle_matters = true;
     add_pictures(add_one(studies, mip, "mip", "The foveal level",
                          "Foveal levels 1 to 8: what they do to curve and picture, against level 1",
                          "night.gltf --camera driver -o out/mip", study_mip),
@@ -118,6 +120,13 @@ void add_study(Command program) {
     compared.add_option("--minutes", ops->minutes, "Diameter of the target, arc minutes")
         .check(apps::between(1.0, 60.0))
         .shows_default();
+    Command shown =
+        add_one(studies, fidelity, "fidelity", "What displays show of the scene",
+                "All operators: contrast that the display loses, invents or amplifies, and saliency it keeps",
+                "night.gltf --camera driver --displays desk,projector -o out/fidelity", study_fidelity);
+    add_pictures(shown, *fidelity);
+    shown.add_option("--displays", "Several in place of --display: NAMES or FILES, separated by commas")
+        .takes_list(fidelity->displays);
     Command adaptation = add_one(studies, tunnel, "adaptation", "Into a tunnel and out of it",
                                  "Step responses of every operator that adapts over time",
                                  "--outside 5000 --inside 50 -o out/tunnel", study_adaptation);

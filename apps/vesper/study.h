@@ -22,6 +22,7 @@ struct StudyArguments {
     PictureSource source;
     double outside = 5000, inside = 50, seconds = 300;  ///< cd/m^2, s; of the tunnel
     double contrast = 0.3, minutes = 10;                ///< of the target: (Lt - Lb) / Lb; diameter, arc minutes
+    std::vector<std::string> displays;                  ///< names or files; none: that of `tone`
     apps::ToneArguments tone;
 };
 
@@ -37,6 +38,7 @@ struct StudyPart {
 struct Study {
     const StudyArguments& arguments;
     render::ToneChainSettings settings;
+    gpu::Device& device;
     render::ToneMapper& mapper;
     const std::vector<StudyPicture>& pictures;
     StudyPage page;
@@ -79,5 +81,6 @@ void study_bins(Study&);
 void study_adaptation(Study&);
 void study_mip(Study&);
 void study_operators(Study&);
+void study_fidelity(Study&);
 
 }  // namespace vesper::commands

@@ -140,7 +140,7 @@ void study_bins(Study& study) {
         format("The default of %u bins with shared votes is %.2f codes away at most: it %s.", standard, of_default,
                follows ? "follows" : "does not follow from this criterion");
     study.page.heading("Answer");
-    study.page.paragraph(answer + " " + verdict);
+    study.page.paragraph(answer + " " + verdict + " Differences are of display codes.");
     study.page.table(columns, answers);
     study.page.plot("bins.png");
     study.page.heading("All figures");

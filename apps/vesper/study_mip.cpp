@@ -79,6 +79,7 @@ void study_mip(Study& study) {
     };
     const std::vector<StudyPart> parts = study.parts("mip", study.pictures.size() * ops.size(), make);
     if (parts.empty()) return;
+    study.page.paragraph("Differences are of display codes.");
     for (size_t i = 0; i < parts.size(); ++i) {
         const std::string name = study.pictures[i / ops.size()].name, op = apps::name_of(ops[i % ops.size()]);
         rows.insert(rows.end(), parts[i].rows.begin(), parts[i].rows.end());

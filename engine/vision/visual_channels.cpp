@@ -48,13 +48,11 @@ public:
 
     void visit(const std::function<void(const Channel&)>& visit) {
         Complexes first = jnd_spectrum(pair_.first), second = jnd_spectrum(pair_.second);
-        // Frequencies are weighted at the luminance of the mean JND of both, and each place then at its own.
         const Complex mean = (first[0] + second[0]) / 2.0;
-        weighted_at_ = scale_.luminance(mean.real() / double(whole_.size()));
         const double below = centre(octaves_), above = highest_;
         coarse_ = grid_of(octaves_ - 1);
         const Radial low = [&](double u) { return u <= below ? 1 : octave_share(std::log2(u / below)); };
-        first_adaptation_ = adaptation(first, low), second_adaptation_ = adaptation(second, low);
+        first_ = adaptation(first, low), second_ = adaptation(second, low);
         first[0] -= mean, second[0] -= mean;
         show(first, second, coarse_, {below, true}, -1, low, visit);
         for (size_t octave = octaves_; octave-- > 0;)
@@ -124,12 +122,16 @@ private:
         return cosine > 0 ? 2 * cosine * cosine * cosine / kWhole : 0;
     }
 
-    std::vector<double> adaptation(const Complexes& spectrum, const Radial& low) const {
-        const Complexes mean = filtered(spectrum, coarse_, -1, low);
-        std::vector<double> logarithms;
-        logarithms.reserve(mean.size());
-        for (const Complex& jnd : mean) logarithms.push_back(std::log10(scale_.luminance(jnd.real())));
-        return logarithms;
+    // Of a picture: frequencies are weighted at the luminance of its mean JND, and each place then at its own.
+    struct Adaptation {
+        double mean = 0;                 // cd/m^2
+        std::vector<double> logarithms;  // log10 cd/m^2, at the samples of coarse_
+    };
+    Adaptation adaptation(const Complexes& spectrum, const Radial& low) const {
+        Adaptation made{scale_.luminance(spectrum[0].real() / double(whole_.size())), {}};
+        for (const Complex& jnd : filtered(spectrum, coarse_, -1, low))
+            made.logarithms.push_back(std::log10(scale_.luminance(jnd.real())));
+        return made;
     }
 
     // Sensitivity at a frequency over the peak's: 1 of a grating at the peak. Below the octaves there are no gratings
@@ -140,11 +142,10 @@ private:
     }
 
     // From the luminance at which a filter was weighted to that of each place.
-    void adapt(Complexes& response, const ChannelGrid& grid, double frequency,
-               const std::vector<double>& adaptation) const {
+    void adapt(Complexes& response, const ChannelGrid& grid, double frequency, const Adaptation& adaptation) const {
         const double low = std::log10(JndScale::kLeast), high = std::log10(JndScale::kMost);
         std::vector<double> factors;
-        const double here = relative(frequency, weighted_at_);  // 0 of waves that no optics pass
+        const double here = relative(frequency, adaptation.mean);  // 0 of waves that no optics pass
         for (int i = 0; i < kAdaptations + 1; ++i) {
             const double there = relative(frequency, std::pow(10, low + (high - low) * i / (kAdaptations - 1)));
             factors.push_back(here > 0 ? there / here : 0);
@@ -153,7 +154,7 @@ private:
         in_parallel(grid.height, 8, [&](size_t begin, size_t end) {
             for (size_t y = begin; y < end; ++y)
                 for (size_t x = 0; x < grid.width; ++x) {
-                    const double l = adaptation[y / finer * coarse_.width + x / finer],
+                    const double l = adaptation.logarithms[y / finer * coarse_.width + x / finer],
                                  place = (l - low) / (high - low) * (kAdaptations - 1);
                     const size_t i = size_t(std::clamp(place, 0.0, double(kAdaptations - 1)));
                     response[y * grid.width + x] *= std::lerp(factors[i], factors[i + 1], place - double(i));
@@ -167,9 +168,13 @@ private:
     };
     void show(const Complexes& first, const Complexes& second, const ChannelGrid& grid, const Band& band,
               int orientation, const Radial& share, const std::function<void(const Channel&)>& visit) const {
-        const Radial weighted = [&](double u) { return share(u) * relative(u, weighted_at_); };
-        Complexes a = filtered(first, grid, orientation, weighted), b = filtered(second, grid, orientation, weighted);
-        adapt(a, grid, band.frequency, first_adaptation_), adapt(b, grid, band.frequency, second_adaptation_);
+        const auto response = [&](const Complexes& spectrum, const Adaptation& adaptation) {
+            const auto weighted = [&](double u) { return share(u) * relative(u, adaptation.mean); };
+            Complexes made = filtered(spectrum, grid, orientation, weighted);
+            adapt(made, grid, band.frequency, adaptation);
+            return made;
+        };
+        const Complexes a = response(first, first_), b = response(second, second_);
         visit({band.frequency, band.base, grid, a, b});
     }
 
@@ -178,8 +183,7 @@ private:
     double highest_;  // cycles/degree that pixels can hold
     size_t octaves_;
     ChannelGrid whole_, coarse_;
-    double weighted_at_ = 0;                                    // cd/m^2
-    std::vector<double> first_adaptation_, second_adaptation_;  // log10 cd/m^2, at the samples of coarse_
+    Adaptation first_, second_;
 };
 
 }  // namespace

@@ -183,6 +183,27 @@ TEST_F(StudyProgram, OperatorsShowContrastAndVisibility) {
     expect_refused("study mip street.exr -o out --fov 40 --operator linear", {"linear", "histogram"});
 }
 
+// A linear display of the whole range loses contrast that visibility matching keeps, and every display sees the same
+// scene.
+TEST_F(StudyProgram, FidelityTellsWhatDisplaysLose) {
+    write_layout(folder / "street.exr", street(), {.white_luminance = 1});
+    ASSERT_EQ(run("study fidelity street.exr --fov 3 --displays desk,projector -o out"), 0) << said;
+    auto rows = csv("out/fidelity.csv", "picture,display,operator,seen,lost,invented,amplified,saliency");
+    ASSERT_EQ(rows.size(), 2 * (render::operators().size() - 1)) << "all but ldr, on two displays";
+    std::map<std::string, Row> first;
+    for (Row row : rows) {
+        EXPECT_EQ(row["seen"], rows[0]["seen"]) << row["operator"];
+        EXPECT_GT(std::stod(row["seen"]), 0.01);
+        EXPECT_LE(std::stod(row["lost"]) + std::stod(row["amplified"]), std::stod(row["seen"]));
+        EXPECT_LE(std::stod(row["seen"]) + std::stod(row["invented"]), 1);
+        if (row["display"] == "desk") first[row["operator"]] = row;
+    }
+    EXPECT_GT(std::stod(first["linear"]["lost"]), 2 * std::stod(first["ward"]["lost"]) + 0.01);
+    expect_page("out/fidelity.html");
+    expect_refused("study fidelity street.exr --fov 3 -o out --displays desk --display projector", {"--displays"});
+    expect_refused("study fidelity street.exr --fov 3 -o out --displays none.json", {"none.json"});
+}
+
 TEST_F(StudyProgram, RefusesInOneLine) {
     write_layout(folder / "a.exr", street(), {.white_luminance = 1});
     fs::create_directory(folder / "b");

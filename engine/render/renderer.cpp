@@ -199,7 +199,22 @@ Renderer::SceneLight Renderer::declare(const FrameContext& frame, const gpu_scen
     if (inputs.edges) add_edges(frame, surfaces, scene);
     scene = add_small_emitters(frame, surfaces, scene, inputs.small_emitters);
     scene = add_luminaires(frame, scene, surfaces.surface, inputs.luminaires);
-    return {scene, clusters, blocks};
+    return {scene, clusters, blocks, surfaces};
+}
+
+// Pixels with samples belong to what the last of them saw.
+void Renderer::add_obstacles(const FrameContext& frame, const RenderSettings& settings,
+                             const gpu_scene::SceneFrame& poses, const SceneLight& light, const ToneChain& chain,
+                             Pending& pending) const {
+    if (settings.obstacles.empty() || settings.tone_operator == Operator::Ldr || !chain.whole_retina) return;
+    pending.view = frame.view;
+    pending.obstacles = obstacles_in_view(settings.obstacles, poses, frame.view);
+    const std::span<const std::byte> instances = frame.graph.resources()[light.surfaces.instances.index].contents;
+    const graph::Resource sums =
+        add_targets(frame, {light.surfaces.triangle, light.luminance, chain.retina_light, chain.whole_retina},
+                    {obstacles_of_instances(settings.obstacles, scene_->resident, instances), pending.obstacles.rects});
+    pending.targets =
+        add_readback(frame.graph, "targets", sums, pending.obstacles.rects.size() * sizeof(shared::TargetSums));
 }
 
 // Samples before the last. Lamps, maps and luminaires are those of the view itself, of which samples see other points.
@@ -273,6 +288,7 @@ void Renderer::submit(const RenderSettings& given, const gpu_scene::View& view, 
         light.luminance = add_mean_of_samples(context, sums, settings.samples);
     }
     frame.chain = add_tone_chain(context, light.luminance, settings, chain, outputs);
+    add_obstacles(context, settings, poses, light, frame.chain, pending);
     pending.clusters =
         add_readback(frame.graph, "cluster report", light.clusters.report, sizeof(shared::ClusterReport));
     pending.visibility =
@@ -297,6 +313,11 @@ std::optional<Frame> Renderer::finish() {
     static_cast<ToneMapped&>(frame) = std::move(*shown);
     frame.clusters = read_one<shared::ClusterReport>(frames_.executor(), pending_->clusters);
     frame.visibility = read_one<shared::VisibilityReport>(frames_.executor(), pending_->visibility);
+    if (pending_->targets) {
+        const auto sums = frames_.executor().read_as<shared::TargetSums>(pending_->targets);
+        measure(pending_->obstacles, sums, pending_->view);
+        frame.obstacles = std::move(pending_->obstacles.seen);
+    }
     graph::add_times(frame.timings, pending_->earlier);
     return frame;
 }

@@ -22,6 +22,7 @@
 #include "render/passes/shade.h"
 #include "render/passes/sky.h"
 #include "render/sample_buffers.h"
+#include "render/seen_obstacles.h"
 
 namespace vesper::render {
 
@@ -52,6 +53,7 @@ struct RenderSettings : ToneChainSettings {
     bool unit_lamps = false;  ///< lamps and luminaires of 1.0 instead of their candela, emission of at most 1.0
     bool lamps_alone =
         false;  ///< without ambient light, daylight, sky, retroreflection and light from outside the picture
+    std::vector<scene::Obstacle> obstacles;  ///< of the scene, to be measured in the picture (Frame::obstacles)
 };
 
 /// With Operator::Ldr: the settings of the paper's baseline without any HDR. Otherwise the same settings.
@@ -70,6 +72,8 @@ struct Frame : ToneMapped {
         glare_sources;  ///< lamps before the eye, as if nothing stood between; none with Operator::Ldr
     std::vector<gpu_scene::OffscreenLamp>
         outside;  ///< light from beside the picture: of those, and of RenderSettings::offscreen_lamps
+    std::vector<SeenObstacle> obstacles;  ///< those of the settings; none with Operator::Ldr, Outputs::retina and
+                                          ///< Outputs::statistics
 };
 
 /// Renders one scene on one device. Not thread-safe; several renderers may share a device in one thread.
@@ -169,12 +173,16 @@ private:
         graph::Resource luminance;  // cd/m^2
         Clusters clusters;
         Blocks blocks;
+        GBuffer surfaces;
     };
     /// The results of a submitted frame, as far as they are known.
     struct Pending {
         Frame frame;
         graph::Resource clusters, visibility;  // to be read
-        std::vector<graph::Timing> earlier;    // of samples before the last
+        graph::Resource targets;               // likewise; none without obstacles
+        ObstaclesInView obstacles;
+        gpu_scene::View view;
+        std::vector<graph::Timing> earlier;  // of samples before the last
         ChainInputs chain;
     };
 
@@ -192,6 +200,8 @@ private:
     ChainInputs chain_inputs_of(const FrameInputs& in, const RenderSettings& settings, const gpu_scene::View& view,
                                 float seconds);
     SceneLight declare(const FrameContext& frame, const gpu_scene::SceneFrame& poses, const FrameInputs& inputs) const;
+    void add_obstacles(const FrameContext& frame, const RenderSettings& settings, const gpu_scene::SceneFrame& poses,
+                       const SceneLight& light, const ToneChain& chain, Pending& pending) const;
     Pending add_samples(const RenderSettings& settings, const gpu_scene::View& view, const gpu_scene::SceneFrame& poses,
                         std::span<const glm::dvec2> places);
 

@@ -119,6 +119,7 @@ ToneChain add_tone_chain(const FrameContext& frame, Resource scene, const ToneCh
     const shared::ToneParameters parameters =
         tone_parameters(op, settings.histogram, settings.tone, settings.display, fovea, inputs.seconds);
     chain.foveal_level = level;
+    chain.retina_light = retina, chain.whole_retina = luminance.levels.back();
     if (outputs.statistics) {
         const auto texels = [&](const char* name, Resource image, VkExtent2D size) {
             return add_readback(frame.graph, name, image, uint64_t(size.width) * size.height * sizeof(glm::vec4),

@@ -64,6 +64,8 @@ struct ToneChain {
     glm::vec2 gaze{0};                      // likewise, texels
     uint32_t foveal_level = 0;
     VkExtent2D shown_extent{};  ///< px, of the codes
+    /// No readbacks: the luminance of the retina, and the last level of its pyramid; none where the chain ends before.
+    graph::Resource retina_light, whole_retina;
 };
 
 /// The eye that looks at a frame.

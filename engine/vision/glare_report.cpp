@@ -98,7 +98,7 @@ void report_target(const ImageAngles& image, const Pixels& pixels, const std::ve
     const dvec2 span = border * image.pixel();
     const double steradians = span.x * span.y * steradians_per_area(middle);
     Target seen{.age = question.eye.age};
-    seen.size = 2 * std::sqrt(steradians / std::numbers::pi) * kDegreesPerRadian * 60;  // of a disc as large
+    seen.size = disc_minutes(steradians);
     if (report.around + report.target_veil > 0)
         report.visibility =
             visibility_level(report.target + report.target_veil, report.around + report.target_veil, seen);

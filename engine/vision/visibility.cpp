@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "base/angle.h"
 
 namespace vesper::vision {
 namespace {
@@ -64,5 +67,18 @@ double visibility_level(double target_luminance, double background, Target targe
     target.darker = difference < 0;
     return difference / target_threshold(background, target);
 }
+
+std::optional<double> bounded_visibility_level(double target_luminance, double background, Target target) {
+    target.size = std::min(target.size, kLargestTarget);
+    const bool known = std::isfinite(target_luminance) && target.size > 0 && background >= kDarkestBackground &&
+                       background <= kBrightestBackground;
+    if (!known) return std::nullopt;
+    target.darker = target_luminance < background;
+    const double threshold = target_threshold(background, target);
+    if (!(threshold > 0)) return std::nullopt;
+    return (target_luminance - background) / threshold;
+}
+
+double disc_minutes(double steradians) { return 2 * std::sqrt(steradians / std::numbers::pi) * kDegreesPerRadian * 60; }
 
 }  // namespace vesper::vision

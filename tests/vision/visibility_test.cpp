@@ -33,5 +33,35 @@ TEST(Visibility, GoesOnAcrossThePieces) {
     EXPECT_GT(target_threshold(1, {.age = 70}), target_threshold(1, {.age = 63}));
 }
 
+TEST(Visibility, WithinBoundsItIsAdriansAndBeyondThemNone) {
+    using vision::bounded_visibility_level;
+    for (const double size : {2.0, 10.0, 60.0})
+        for (const double background : {1e-4, 0.01, 1.0, 1e4})
+            for (const double factor : {0.0, 0.5, 1.5})
+                EXPECT_DOUBLE_EQ(*bounded_visibility_level(factor * background, background, {.size = size}),
+                                 vision::visibility_level(factor * background, background, {.size = size}))
+                    << size << " " << background << " " << factor;
+    EXPECT_DOUBLE_EQ(*bounded_visibility_level(2, 1, {.size = 500}), vision::visibility_level(2, 1, {.size = 60}));
+    EXPECT_FALSE(bounded_visibility_level(2, 0));
+    EXPECT_FALSE(bounded_visibility_level(2, 0.9e-4));
+    EXPECT_FALSE(bounded_visibility_level(2, 1.1e4));
+    EXPECT_FALSE(bounded_visibility_level(2, std::nan("")));
+    EXPECT_FALSE(bounded_visibility_level(HUGE_VAL, 1));
+    EXPECT_FALSE(bounded_visibility_level(2, 1, {.size = 0}));
+}
+
+// The formula for darker targets is fitted to data and may give less than nothing beyond them.
+TEST(Visibility, AThresholdIsAbove0OrThereIsNoLevel) {
+    for (double size = 0.5; size <= 60; size *= 1.3)
+        for (double background = 1e-4; background < 1e4; background *= 1.7) {
+            const auto level = vision::bounded_visibility_level(0.9 * background, background, {.size = size});
+            EXPECT_TRUE(!level || *level < 0) << size << " " << background;
+        }
+}
+
+TEST(Visibility, TheDiscOfTheMoonIsHalfADegree) {
+    EXPECT_NEAR(vision::disc_minutes(6.42e-5), 31.1, 0.1);  // its mean solid angle, sr
+}
+
 }  // namespace
 }  // namespace vesper::test

@@ -9,6 +9,7 @@
 #include "base/one_line.h"
 #include "glare_arguments.h"
 #include "io/read_file.h"
+#include "obstacle_arguments.h"
 #include "photometry/table.h"
 #include "print.h"
 
@@ -73,7 +74,7 @@ std::string log_heading() {
     for (uint32_t i = 0; i <= shared::kMaxBins; ++i) line += format(",node%u", i);
     line += ",cone_sigma,rod_sigma,log_average,maximum,under_full,slack";
     for (int i = 0; i < kSamples; ++i) line += format(",Ld(1e%.1f)", sample_log10(i));
-    return line + glare_columns() + "\n";
+    return line + glare_columns();
 }
 
 std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve,
@@ -85,7 +86,7 @@ std::string log_line(unsigned index, const LoggedFrame& frame, const shared::Ton
          {curve.cone_sigma, curve.rod_sigma, curve.log_average, curve.maximum, curve.under_full, curve.slack})
         line += format(",%.9g", double(value));
     for (double shown : curve_samples(curve, tone_operator, display)) line += format(",%.6g", shown);
-    return line + glare_values(glare) + "\n";
+    return line + glare_values(glare);
 }
 
 std::vector<LoggedFrame> read_log(const std::string& file) {
@@ -93,15 +94,20 @@ std::vector<LoggedFrame> read_log(const std::string& file) {
     const std::vector<uint8_t> bytes = io::read_file(file, kMostLogBytes);
     photometry::LineReader lines(bytes, one_line(file));
     const std::string heading(lines.next().value_or(""));
-    if (heading + "\n" != log_heading()) lines.fail("these are not the columns of a log of this version");
-    const size_t columns = size_t(std::count(heading.begin(), heading.end(), ',')) + 1;
+    const std::string known = log_heading();
+    if (!heading.starts_with(known) || !are_obstacle_columns(heading.substr(known.size())))
+        lines.fail("these are not the columns of a log of this version");
+    const auto columns_of = [](const std::string& text) {
+        return size_t(std::count(text.begin(), text.end(), ',')) + 1;
+    };
+    const size_t columns = columns_of(heading), read = columns_of(known);
     std::vector<LoggedFrame> frames;
     while (const auto line = lines.next()) {
         const auto fields = photometry::fields_of(*line, ',', columns);
         if (fields.size() != columns) lines.fail("has not " + std::to_string(columns) + " values");
         LoggedFrame frame;
-        std::vector<double> values(columns);
-        for (size_t i = 0; i < columns; ++i) {
+        std::vector<double> values(read);
+        for (size_t i = 0; i < read; ++i) {
             if (i == kName) continue;
             const auto value = fields[i] == "inf" && i > kName + kFloats
                                    ? std::optional(0.0)

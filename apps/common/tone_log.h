@@ -17,7 +17,8 @@ struct LoggedFrame {
     shared::EyeState eye{};
 };
 
-/// Lines of a log. The first names the columns; numbers are written so that they read back to the last bit.
+/// Lines of a log, without their ends. The first names the columns; numbers are written so that they read back to the
+/// last bit. Columns of obstacles (obstacle_arguments.h) may follow in both.
 std::string log_heading();
 std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve,
                      render::Operator tone_operator, const vision::Display& display, const vision::GlareReport& glare);

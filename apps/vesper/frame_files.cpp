@@ -12,8 +12,10 @@ apps::Bytes FrameRows::packed() const {
     return packet.take();
 }
 
-void FrameFiles::open(const std::string& log, const std::string& sources, const std::string& eye) {
-    if (!log.empty()) log_.emplace(log).append(apps::log_heading());
+void FrameFiles::open(const std::string& log, const std::string& sources, const std::string& eye,
+                      const std::string& more) {
+    heading_ = apps::log_heading() + more + "\n";
+    if (!log.empty()) log_.emplace(log).append(heading_);
     if (!sources.empty()) sources_.emplace(sources).append(apps::glare_sources_heading());
     eye_file_ = eye;
 }
@@ -23,7 +25,7 @@ void FrameFiles::add(const apps::Bytes& rows) {
     for (auto* file : {&log_, &sources_})
         if (const std::string text = packet.text(); *file) (*file)->append(text);
     const std::string eye = packet.text();
-    if (!eye_file_.empty() && !eye.empty()) apps::write_text(eye_file_, apps::log_heading() + eye);
+    if (!eye_file_.empty() && !eye.empty()) apps::write_text(eye_file_, heading_ + eye);
 }
 
 void FrameFiles::complete() {

@@ -16,6 +16,7 @@
 #include "io/growing_file.h"
 #include "io/image_file.h"
 #include "numbered_files.h"
+#include "obstacle_arguments.h"
 #include "picture_arguments.h"
 #include "print.h"
 #include "progress.h"
@@ -106,6 +107,7 @@ void check_arguments(RenderArguments& arguments) {
         if (settings.shadow_budget != render::kNoShadowBudget)
             throw Error("--shadow-budget: a frame then depends on the one before; not with several ranks");
         if (settings.display_average) throw Error("--display-average is not made by several ranks");
+        if (!arguments.obstacles.empty()) throw Error("--obstacle: is not measured by several ranks");
     }
     if (apps::Ranks::own_number() != 0) return;  // the first rank alone writes these
     io::announce_write("--stats-json", arguments.statistics_file);
@@ -120,9 +122,10 @@ void check_arguments(RenderArguments& arguments) {
 void check_wanted(const RenderArguments& a) {
     const bool files = !a.outputs.empty() || !a.log_file.empty() || !a.sources_file.empty() ||
                        !a.statistics_file.empty() || !a.eye_out.empty();
-    if (!files && !a.statistics && !a.plan && a.glare.target.empty())
+    if (!files && !a.statistics && !a.plan && a.glare.target.empty() && a.obstacles.empty())
         throw Error(
-            "nothing to do: give -o, --stats, --stats-json, --log, --glare-sources, --eye-out, --target or --plan");
+            "nothing to do: give -o, --stats, --stats-json, --log, --glare-sources, --eye-out, --target, --obstacle or "
+            "--plan");
 }
 
 // A frame to render: its time, how long after the one before, and, in a replay, what the eye remembers.
@@ -229,6 +232,8 @@ void run(RenderArguments& arguments) {
     const scene::Scene& scene = loaded.scene;
     gpu_scene::SceneFrame moment{scene::world_transforms(scene, moments.front().seconds)};
     gpu_scene::camera_view(scene, moment, arguments.camera, extent);  // a wrong name is known before a device is opened
+    std::vector<scene::Obstacle>& obstacles = arguments.settings.obstacles;
+    obstacles = apps::obstacles_of(scene, arguments.obstacles, arguments.settings);
     const std::vector<std::string> cameras = gpu_scene::camera_names(scene);
     if (arguments.camera.empty() && !cameras.empty()) arguments.camera = cameras.front();
 
@@ -250,7 +255,8 @@ void run(RenderArguments& arguments) {
     if (!arguments.traces) renderer.watch_samples([&](uint32_t done) { progress.sampled(number, done); });
     std::vector<double> milliseconds;
     FrameFiles files;
-    if (ranks.is_first()) files.open(arguments.log_file, arguments.sources_file, arguments.eye_out);
+    if (ranks.is_first())
+        files.open(arguments.log_file, arguments.sources_file, arguments.eye_out, apps::obstacle_columns(obstacles));
     const auto take = [&](unsigned index, const apps::Bytes& rows) {
         files.add(rows);
         progress.at(index, 1);
@@ -285,13 +291,15 @@ void run(RenderArguments& arguments) {
         if (!arguments.log_file.empty() || (last && !arguments.eye_out.empty()))
             rows.log =
                 apps::log_line(index, {seconds, step, apps::name_of(arguments.settings.tone_operator), frame.eye},
-                               frame.curve, arguments.settings.tone_operator, arguments.settings.display, glare);
+                               frame.curve, arguments.settings.tone_operator, arguments.settings.display, glare) +
+                apps::obstacle_values(frame.obstacles, arguments.settings) + "\n";
         if (!arguments.sources_file.empty())
             rows.sources = apps::glare_sources_lines(index, scene, frame.glare_sources, arguments.settings.scatter.eye);
         if (last) rows.eye = rows.log;
         if (index == 0 && arguments.plan) apps::print_text(renderer.plan());
         if (last) {
             if (wants_target) apps::print_text(apps::target_line(glare));
+            apps::print_text(apps::obstacle_lines(obstacles, frame.obstacles, arguments.settings));
             if (arguments.statistics) print_statistics(arguments, device, renderer, frame, milliseconds);
             if (!arguments.statistics_file.empty())
                 apps::write_text(arguments.statistics_file, statistics_json(arguments, frame) + "\n");
@@ -353,6 +361,8 @@ void add_render(apps::Command program) {
     apps::add_quality_option(command, a->quality);
     apps::add_tone_options(command, a->tone);
     apps::add_glare_options(command, a->glare);
+    command.help_group("Glare");
+    apps::add_obstacle_option(command, a->obstacles);
     command.help_group("Light");
     apps::add_shadow_options(command, a->shadows);
     apps::add_indirect_options(command, a->indirect, true);

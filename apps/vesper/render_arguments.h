@@ -29,7 +29,7 @@ struct RenderArguments {
     bool traces = false;  // light for each pixel
     transport::TraceSettings tracing;
     apps::GlareArguments glare;
-    std::vector<std::string> outputs;
+    std::vector<std::string> outputs, obstacles;
     std::string statistics_file, log_file, replay_file, sources_file, eye_in, eye_out;
     render::RenderSettings settings;
     unsigned frames = 1, threads = 0;

@@ -1,0 +1,89 @@
+// Obstacles from the command line. SPDX-License-Identifier: MIT
+#include <map>
+#include <sstream>
+
+#include "support/luminous_card.h"
+#include "vision/visibility.h"
+
+namespace vesper::test::obstacle_program_test {
+namespace {
+
+/// Rows of a CSV file: by the name of the column, in order.
+std::vector<std::map<std::string, std::string>> rows_of(const std::string& text) {
+    const auto cells_of = [](const std::string& line) {
+        std::vector<std::string> cells(1);
+        for (const char c : line)
+            if (c == ',')
+                cells.emplace_back();
+            else
+                cells.back() += c;
+        return cells;
+    };
+    std::istringstream lines(text);
+    std::string line;
+    std::getline(lines, line);
+    const std::vector<std::string> names = cells_of(line);
+    std::vector<std::map<std::string, std::string>> rows;
+    while (std::getline(lines, line)) {
+        const std::vector<std::string> cells = cells_of(line);
+        EXPECT_EQ(cells.size(), names.size());
+        auto& row = rows.emplace_back();
+        for (size_t i = 0; i < std::min(names.size(), cells.size()); ++i) row[names[i]] = cells[i];
+    }
+    return rows;
+}
+
+class ObstacleProgram : public ProgramTest {
+protected:
+    void SetUp() override { folder.write("a.gltf", luminous_card(15)); }
+    const std::string render = "render a.gltf --size 96x60 --shadows off --indirect off ";
+};
+
+TEST_F(ObstacleProgram, RenderPrintsAndLogsThem) {
+    ASSERT_EQ(run(render + "--obstacle 'c?rd' --frames 2 --log l.csv -o a%d.png --eye-out e.csv"), 0) << said;
+    EXPECT_TRUE(printed.starts_with("obstacle card, 15.0 m: ")) << printed;
+    EXPECT_NE(printed.find(" arc minutes, 3 cd/m^2 on 2 cd/m^2, veil 0 cd/m^2, visibility level "), std::string::npos)
+        << printed;
+    const auto rows = rows_of(read_text(folder / "l.csv"));
+    ASSERT_EQ(rows.size(), 2u);
+    for (auto row : rows) {
+        EXPECT_NEAR(std::stod(row["distance:card"]), 15, 0.01);
+        EXPECT_NEAR(std::stod(row["target:card"]), 3, 1e-4);
+        EXPECT_NEAR(std::stod(row["around:card"]), 2, 1e-4);
+        EXPECT_EQ(row["target_veil:card"], "0");
+        EXPECT_GT(std::stod(row["size:card"]), 60);
+        const double want = vision::visibility_level(3, 2, {.size = 60});
+        EXPECT_NEAR(std::stod(row["visibility:card"]), want, 1e-3 * want);
+        EXPECT_EQ(row["visibility:card"], row["visibility_without_veil:card"]);
+    }
+    // Logs with such columns are read as others are.
+    ASSERT_EQ(run(render + "--replay l.csv --start 0.02 -o b.png"), 0) << said;
+    EXPECT_EQ(read_text(folder / "a1.png"), read_text(folder / "b.png"));
+    for (const char* log : {"l.csv", "e.csv"}) ASSERT_EQ(run(render + "--eye-in " + log + " -o c.png"), 0) << said;
+    // Older eyes see less.
+    ASSERT_EQ(run(render + "--obstacle card --age 70 --log old.csv"), 0) << said;
+    EXPECT_LT(std::stod(rows_of(read_text(folder / "old.csv"))[0]["visibility:card"]),
+              std::stod(rows[0].at("visibility:card")));
+}
+
+TEST_F(ObstacleProgram, WhatIsNotMeasuredHasNoNumber) {
+    folder.write("a.gltf", luminous_card(500));
+    ASSERT_EQ(run(render + "--obstacle card --log l.csv"), 0) << said;
+    EXPECT_EQ(printed, "obstacle card, 500.0 m: hidden\n");
+    auto row = rows_of(read_text(folder / "l.csv")).at(0);
+    EXPECT_EQ(row["distance:card"], "500");
+    for (const char* column : {"size", "target", "around", "target_veil", "visibility", "visibility_without_veil"})
+        EXPECT_EQ(row.at(std::string(column) + ":card"), "") << column;
+}
+
+TEST_F(ObstacleProgram, RefusesWhatIsNotThere) {
+    expect_refused(render + "-o a.png --obstacle card --obstacle 'cat*'", {"--obstacle cat*", "no node"});
+    expect_refused(render + "-o a.png --obstacle eye", {"--obstacle eye"});
+    expect_refused(render + "-o a.png --obstacle card --operator ldr", {"--obstacle", "ldr"});
+    folder.write("other.csv", "frame,seconds\n0,0\n");
+    expect_refused(render + "-o a.png --replay other.csv", {"columns"});
+    EXPECT_FALSE(exists("a.png"));
+}
+
+}  // namespace
+}  // namespace vesper::test::obstacle_program_test

@@ -62,7 +62,7 @@ void save_plot(const std::string& file, const LinePlot& plot) {
         canvas.line({corner.x, at({1, plot.rule}).y}, {end.x, at({1, plot.rule}).y}, CanvasColour(0), 1.5, true);
     for (size_t i = 0; i < plot.lines.size(); ++i) {
         const PlotLine& line = plot.lines[i];
-        const CanvasColour colour = kLines[i % std::size(kLines)];
+        const CanvasColour colour = kLines[line.colour.value_or(i) % std::size(kLines)];
         std::vector<glm::dvec2> run;
         const auto flush = [&] {
             if (run.size() > 1) canvas.line(run, colour, 2, line.dashed);

@@ -1,6 +1,7 @@
 // Diagrams of lines. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ struct PlotLine {
     std::string name;
     std::vector<glm::dvec2> points;
     bool dashed = false, marks = false;
+    std::optional<size_t> colour = {};  ///< number in the palette; default: that among the lines
 };
 
 struct LinePlot {

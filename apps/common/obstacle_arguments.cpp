@@ -52,9 +52,11 @@ bool are_obstacle_columns(const std::string& text) {
     return text.empty() || text.starts_with(std::string(",") + kColumns[0] + ":");
 }
 
-std::string obstacle_values(std::span<const SeenObstacle> obstacles, const render::ToneChainSettings& settings) {
+std::string obstacle_values(std::span<const scene::Obstacle> obstacles, std::span<const SeenObstacle> frame,
+                            const render::ToneChainSettings& settings) {
+    if (frame.empty()) return std::string(std::size(kColumns) * obstacles.size(), ',');
     std::string values;
-    for (const SeenObstacle& seen : obstacles) {
+    for (const SeenObstacle& seen : frame) {
         values += value(seen.distance);
         const render::ObstacleVisibility visible = render::visibility_of(seen, settings.tone.observer.age);
         if (seen.state == SeenObstacle::State::Measured)

@@ -18,9 +18,11 @@ void add_obstacle_option(Command, std::vector<std::string>& patterns);
 std::vector<scene::Obstacle> obstacles_of(const scene::Scene&, const std::vector<std::string>& patterns,
                                           const render::ToneChainSettings&);
 
-/// Columns of a log, each with a leading comma, NAME:OBSTACLE, and their values. Values that are not known are empty.
+/// Columns of a log, each with a leading comma, NAME:OBSTACLE, and their values. Values that are not known are empty,
+/// as are all of a frame that has no obstacles.
 std::string obstacle_columns(std::span<const scene::Obstacle>);
-std::string obstacle_values(std::span<const render::SeenObstacle>, const render::ToneChainSettings&);
+std::string obstacle_values(std::span<const scene::Obstacle>, std::span<const render::SeenObstacle>,
+                            const render::ToneChainSettings&);
 /// Whether a text is the columns of some obstacles, or of none.
 bool are_obstacle_columns(const std::string&);
 

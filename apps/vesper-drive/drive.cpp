@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 #include "io/file_gate.h"
+#include "obstacle_arguments.h"
 #include "osi/receiver.h"
 #include "own_data.h"
 #include "picture_arguments.h"
@@ -61,8 +62,12 @@ void refuse_idle(const apps::Command& program, const DriveArguments& a) {
         {!a.channels.empty(),
          {"--size", "--scale", "--fov"},
          "channels have sizes and angles of their own (--channels)"},
-        {!films && !logs, {"--fps"}, "of what? give --video or --log"},
+        {!films && !logs && a.obstacles.empty(), {"--fps"}, "of what? give --video, --log or --obstacle"},
         {!logs, {"--probe"}, "is a column of the log: give --log"},
+        {a.obstacles.empty(), {"--visible-from", "--detection-plot"}, "of what? give --obstacle"},
+        {!a.headless, {"--detection-plot"}, "has a meaning only without a window (--headless)"},
+        {!a.channels.empty(), {"--obstacle"}, "obstacles are measured in one picture, not in channels (--channels)"},
+        {apps::Ranks::several(), {"--obstacle"}, "is not measured by several ranks"},
         {a.headless && !replays && (camera == a.settings.end() || camera->second != "free"),
          {"--free"},
          "only that camera stands there: give --camera free"},
@@ -102,6 +107,9 @@ void check(const apps::Command& program, DriveArguments& a) {
          {a.messages.file.string(), a.messages.models.string(), a.scene, a.replay, a.channels, a.controllers})
         io::announce_read(file);
     if (apps::Ranks::own_number() != 0) return;  // the first rank alone writes
+    if (!a.detection_plot.empty() && !a.detection_plot.ends_with(".png"))
+        throw Error("--detection-plot " + one_line(a.detection_plot) + ": .png is expected");
+    io::announce_write("--detection-plot", a.detection_plot);
     for (const auto& [option, file] : growing_outputs(a)) {
         io::announce_write(option, file);
         std::error_code failed;
@@ -170,6 +178,13 @@ void add_drive(apps::Command program) {
     program.add_option(
         "--probe", a->probes,
         "X,Y, parts of the picture from its top left: a column of luminance in the log; may be given several times");
+    program.help_group("Obstacles");
+    apps::add_obstacle_option(program, a->obstacles);
+    program.add_option("--visible-from", a->visible_from, "Visibility level from which an obstacle is seen")
+        .check(apps::between(0.01, 1000.0))
+        .shows_default();
+    program.add_option("--detection-plot", a->detection_plot,
+                       "Headless: FILE.png, levels of the obstacles over their distance");
     program.help_group();
     program
         .add_option("--size,-s", a->size,

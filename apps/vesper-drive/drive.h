@@ -7,6 +7,7 @@
 
 #include "command_line.h"
 
+#include "detection.h"
 #include "drive_file.h"
 #include "settings.h"
 
@@ -16,7 +17,9 @@ namespace vesper::drive {
 struct DriveArguments {
     std::string scene, device, size = "1680x1050";
     std::string record, replay, video, log, channels;
-    std::vector<std::string> probes;
+    std::vector<std::string> probes, obstacles;
+    double visible_from = kVisibleFrom;  ///< a visibility level
+    std::string detection_plot;
     MessageSource messages;  ///< made of the following
     std::string table, trace, models, origin;
     std::string osi_udp, osi_out;  ///< [ADDRESS:]PORT to listen at; a trace to write

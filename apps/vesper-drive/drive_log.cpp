@@ -9,6 +9,7 @@
 #include "base/luminance.h"
 #include "base/one_line.h"
 #include "glare_arguments.h"
+#include "obstacle_arguments.h"
 #include "print.h"
 #include "statistics.h"
 #include "tone_arguments.h"
@@ -17,13 +18,6 @@ namespace vesper::drive {
 namespace {
 
 using apps::format;
-
-// A name as part of a field: what parts fields is left out.
-std::string csv_name(std::string name) {
-    for (char& c : name)
-        if (c == ',' || c == ';' || c == '"' || static_cast<unsigned char>(c) < 0x20) c = '_';
-    return name;
-}
 
 constexpr double kPercents[]{1, 5, 25, 50, 75, 95, 99, 99.9};  // as luminance_statistics has them
 
@@ -77,7 +71,7 @@ std::string DriveRows::heading() const {
 
 // NODE@SPEED of each, the speed (m/s) at which they met; several are parted by semicolons.
 void DriveRows::add(const traffic::Contact& contact) {
-    contacts_ += (contacts_.empty() ? "" : ";") + csv_name(contact.node) + format("@%.3g", contact.speed);
+    contacts_ += (contacts_.empty() ? "" : ";") + apps::csv_name(contact.node) + format("@%.3g", contact.speed);
 }
 
 std::string DriveRows::next(const Session& session, const gpu_scene::View& view, const render::Frame& frame) {

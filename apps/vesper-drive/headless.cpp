@@ -18,6 +18,7 @@
 #include "io/image_file.h"
 #include "message_feed.h"
 #include "numbered_files.h"
+#include "obstacle_arguments.h"
 #include "own_data.h"
 #include "picture_arguments.h"
 #include "playback.h"
@@ -95,7 +96,7 @@ public:
             if (apps::Ranks::own_number() == 0) io::announce_write("--video", film_ ? a.video : names_->at(0));
         }
     }
-    bool wanted() const { return film_ || names_ || !arguments_.log.empty(); }
+    bool wanted() const { return film_ || names_ || !arguments_.log.empty() || !arguments_.obstacles.empty(); }
     /// Throws Error if pictures with these settings cannot go there, in a film that began with those it was asked of
     /// first.
     void check(const DriveSettings& settings) {
@@ -113,9 +114,9 @@ public:
                         ": a film has codes of one kind, and those of this display are others");
     }
     /// Once everything is read, and before anything is written: no name of so many frames may be another file's.
-    void open(size_t frames) {
+    void open(size_t frames, const std::vector<scene::Obstacle>& obstacles) {
         if (names_) announce_numbered(frames);
-        if (logs()) log_.emplace(arguments_.log, probes_, meets_ ? kMeetingColumns : "");
+        if (logs()) log_.emplace(arguments_.log, probes_, meets_ ? kMeetingColumns : apps::obstacle_columns(obstacles));
     }
     /// On other ranks than the first, in its place.
     bool logs() const { return !arguments_.log.empty(); }
@@ -305,9 +306,13 @@ void run_headless(const DriveArguments& a) {
         drive, a.settings, [&](const DriveSettings& settings) { scenery.check(settings); },
         [&](const DriveSettings& settings) { outlet.check(settings); });
     if (!outlet.wanted() && a.record.empty() && a.osi_out.empty())
-        throw Error("nothing to do: give --video, --log, --record or --osi-out");
+        throw Error("nothing to do: give --video, --log, --obstacle, --record or --osi-out");
+    std::vector<scene::Obstacle> obstacles =
+        apps::obstacles_of(scenery.scene(), a.obstacles, DriveSettings(options.settings).render());
+    Detections detections(obstacles, a.visible_from);
     gpu::Device device({.select = a.device});
     Session session(device, options, std::move(scenery));
+    session.watch(std::move(obstacles));
     if (channels) check_displays(*channels, session.settings().render().display);
     if (channels) session.share_channels(ranks ? &*ranks : nullptr, a.latency);
     apps::Ranks::all().agree_on_start();
@@ -324,7 +329,7 @@ void run_headless(const DriveArguments& a) {
     Playback playback(std::move(drive.events), a.settings);
     std::optional<Live> live;
     if (a.messages.live) live.emplace(a, session, playback);
-    if (first) outlet.open(playback.frames());
+    if (first) outlet.open(playback.frames(), session.obstacles());
     apps::print_notes(session.scenery().notes());
     if (!channels) outlet.scaled().print_note();
     if (first && !a.osi_out.empty()) session.write_trace(a.osi_out);
@@ -351,7 +356,10 @@ void run_headless(const DriveArguments& a) {
         } else if (relay.has(index)) {
             const gpu_scene::View view = outlet.scaled().rendered(session.view(extent));
             const render::Frame frame = session.render(view, outlet.outputs(session));
-            const std::string row = outlet.logs() ? outlet.rows().next(session, view, frame) : "";
+            const render::RenderSettings& settings = session.settings().render();
+            std::string row = outlet.logs() ? outlet.rows().next(session, view, frame) : "";
+            if (outlet.logs()) row += apps::obstacle_values(session.obstacles(), frame.obstacles, settings);
+            detections.add(frame.obstacles, settings.tone.observer.age);
             relay.deliver(index, outlet.take(index, session, frame, frame.lamps, row), take);
         } else {
             session.skip_frame(), outlet.rows().skip();
@@ -363,6 +371,8 @@ void run_headless(const DriveArguments& a) {
     outlet.finish();
     session.stop_recording();
     session.finish_trace();
+    if (!a.obstacles.empty()) apps::print_text(detections.table());
+    if (!a.detection_plot.empty()) apps::save_plot(a.detection_plot, detections.plot());
     if (live) live->finish();
     if (playback.strayed())
         apps::print_note(

@@ -89,6 +89,10 @@ public:
     /// Tiles of distance maps drawn for a frame where neither the setting "shadow-budget" nor the quality "exact" is
     /// set; at first all. It is not recorded: a replay draws all unless it is told otherwise.
     void set_shadow_budget(uint64_t tiles) { shadow_budget_ = tiles; }
+    /// Obstacles of the scene that are measured in frames of one view (Frame::obstacles); at first none. They are not
+    /// recorded.
+    void watch(std::vector<scene::Obstacle> obstacles) { obstacles_ = std::move(obstacles); }
+    const std::vector<scene::Obstacle>& obstacles() const { return obstacles_; }
     /// What the camera of the settings sees in a picture of that size.
     gpu_scene::View view(VkExtent2D) const;
     /// Where everything stands now and how it is lit.
@@ -166,6 +170,7 @@ private:
     shared::EyeState eye_{};
     double eye_step_ = 0;
     uint64_t shadow_budget_ = render::kNoShadowBudget;
+    std::vector<scene::Obstacle> obstacles_;
     std::shared_ptr<Cache> map_cache_;
     std::shared_ptr<const transport::Radiosity> radiosity_;
     std::shared_ptr<const transport::LampReflections> lamp_reflections_;  // made when first asked for

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 #include "channel_window.h"
+#include "obstacle_arguments.h"
 #include "picture_arguments.h"
 #include "print.h"
 #include "render/passes/operators.h"
@@ -85,7 +86,8 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
     if (!a.osi_out.empty()) session_->write_trace(a.osi_out);
     if (!a.record.empty()) session_->record(a.record, recorded_size()), recording_ = a.record;
     if (a.autopilot) hands_.press(Action::Autopilot);
-    if (!a.log.empty()) log_.emplace(a.log, probes_of(a.probes), ranks_ ? kMeetingColumns : "");
+    if (!a.log.empty())
+        log_.emplace(a.log, probes_of(a.probes), ranks_ ? kMeetingColumns : apps::obstacle_columns(obstacles_));
     window_.on_key = [this](int key, int modifiers) {
         const auto action = action_of(key, modifiers);
         if (!action || screen_->is_typing()) return;
@@ -127,6 +129,8 @@ void WindowedDrive::open_session(const Drive& drive) {
         [](const DriveSettings&) {});
     session_ = std::make_unique<Session>(*device_, start, std::move(scenery));
     if (arguments_.replay.empty()) session_->set_shadow_budget(kWindowShadowBudget);
+    obstacles_ = apps::obstacles_of(session_->scenery().scene(), arguments_.obstacles, session_->settings().render());
+    session_->watch(obstacles_);
     if (channels_) session_->share_channels(ranks_.get(), arguments_.latency);
     watch_contacts();
     keep_maps();
@@ -140,6 +144,7 @@ void WindowedDrive::open_session(const Drive& drive) {
 void WindowedDrive::reload(const std::string& scene) {
     if (ranks_) return say("several ranks show this drive: another scene needs a new start", true);
     const bool same = scene == arguments_.scene;  // then what moves on it, too
+    bool watches = true;
     DriveSettings::Values settings = session_->settings().values();
     if (!same)
         std::erase_if(settings, [](const auto& setting) {
@@ -151,6 +156,7 @@ void WindowedDrive::reload(const std::string& scene) {
                                                            .messages = same ? arguments_.messages : MessageSource{},
                                                            .seed = arguments_.seed,
                                                            .settings = settings});
+        watches = watch_again(*made);
         if (!recording_.empty()) session_->stop_recording();
         light_.reset(), session_ = std::move(made), feed_.reset();
         if (same && arguments_.messages.live) open_feed();
@@ -166,7 +172,7 @@ void WindowedDrive::reload(const std::string& scene) {
     recording_.clear(), replay_.reset(), instruments_.forget();
     if (!arguments_.size_given) size_.reset();
     stale_ = true;
-    say("loaded " + scene);
+    say("loaded " + scene + (watches ? "" : "; it has other obstacles, which are not watched"), !watches);
 }
 
 void WindowedDrive::say(const std::string& text, bool alarm) {
@@ -381,8 +387,10 @@ void WindowedDrive::render(bool moved) {
     if (log_) {
         try {
             if (!ranks_)
-                row_ = log_->rows().next(
-                    *session_, channels_ ? channel_view(channels_->screens[channels_->gaze], view_) : view_, frame_);
+                row_ = log_->rows().next(*session_,
+                                         channels_ ? channel_view(channels_->screens[channels_->gaze], view_) : view_,
+                                         frame_) +
+                       apps::obstacle_values(obstacles_, frame_.obstacles, session_->settings().render());
             log_->append(row_, meeting_);
         } catch (const Error& error) {
             log_.reset();

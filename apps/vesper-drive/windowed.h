@@ -60,6 +60,7 @@ private:
     void open_feed();
     void listen();
     void watch_contacts();
+    bool watch_again(Session&) const;
     void keep_maps();
     void take_light();
     std::string standing_message() const;
@@ -107,6 +108,7 @@ private:
     Clock::time_point message_until_{};
     uint64_t troubles_ = 0;  // of the feed, as they were said last
     Clock::time_point troubles_said_{};
+    std::vector<scene::Obstacle> obstacles_;  // of the first scene, of which the log has columns
     std::optional<DriveLog> log_;
     std::string row_, meeting_, meeting_note_;  // of the last frame of several ranks
 };

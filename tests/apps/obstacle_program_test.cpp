@@ -1,4 +1,6 @@
 // Obstacles from the command line. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cstdio>
 #include <map>
 #include <sstream>
 
@@ -35,6 +37,7 @@ std::vector<std::map<std::string, std::string>> rows_of(const std::string& text)
 
 class ObstacleProgram : public ProgramTest {
 protected:
+    explicit ObstacleProgram(std::string program = VESPER_PROGRAM) : ProgramTest(std::move(program)) {}
     void SetUp() override { folder.write("a.gltf", luminous_card(15)); }
     const std::string render = "render a.gltf --size 96x60 --shadows off --indirect off ";
 };
@@ -74,6 +77,63 @@ TEST_F(ObstacleProgram, WhatIsNotMeasuredHasNoNumber) {
     EXPECT_EQ(row["distance:card"], "500");
     for (const char* column : {"size", "target", "around", "target_veil", "visibility", "visibility_without_veil"})
         EXPECT_EQ(row.at(std::string(column) + ":card"), "") << column;
+}
+
+class ObstacleDrive : public ObstacleProgram {
+protected:
+    ObstacleDrive() : ObstacleProgram(VESPER_DRIVE) {}
+    const std::string drive =
+        "a.gltf --headless --autopilot --fps 4 --size 96x60 --shadows off --indirect off --obstacle card ";
+};
+
+// A car begins to move 75 m before the card, which is then 2 px wide and 3 px high, and comes nearer.
+TEST_F(ObstacleDrive, SaysFromWhereTheyAreSeen) {
+    folder.write("a.gltf", luminous_card(75));
+    ASSERT_EQ(run(drive + "--seconds 8 --log l.csv --detection-plot p.png"), 0) << said;
+    const auto rows = rows_of(read_text(folder / "l.csv"));
+    ASSERT_EQ(rows.size(), 33u);
+    EXPECT_NEAR(std::stod(rows[0].at("distance:card")), 75, 0.3) << "the eye is not quite where the camera is";
+    EXPECT_LT(std::stod(rows.back().at("distance:card")), 55);
+    EXPECT_EQ(rows[0].at("visibility:card"), "") << "too few pixels";
+    const auto first = std::find_if(rows.begin(), rows.end(), [](const auto& row) {
+        return !row.at("visibility:card").empty() && std::stod(row.at("visibility:card")) >= 7;
+    });
+    ASSERT_NE(first, rows.end());
+    char distance[16];
+    std::snprintf(distance, sizeof distance, "%.1f", std::stod(first->at("distance:card")));
+    EXPECT_NE(printed.find("level 7 first at, m"), std::string::npos) << printed;
+    EXPECT_NE(printed.find(std::string("  ") + distance + "  "), std::string::npos) << printed << distance;
+    EXPECT_TRUE(read_text(folder / "p.png").starts_with("\x89PNG"));
+    // A level that it never has; and the table alone is reason enough to drive.
+    ASSERT_EQ(run(drive + "--seconds 0.5 --visible-from 900"), 0) << said;
+    EXPECT_NE(printed.find("level 900 first at, m"), std::string::npos) << printed;
+    EXPECT_EQ(printed.find("\n+:"), std::string::npos);
+}
+
+TEST_F(ObstacleDrive, WithoutLuminancesCellsAreEmpty) {
+    folder.write("d.json", R"({"vesper_drive":1,"scene":"a.gltf","events":[{"frame":true},
+        {"set":{"operator":"ldr"}},{"step":{}},{"frame":true}]})");
+    const std::string replay =
+        "--headless --replay d.json --size 96x60 --shadows off --indirect off --obstacle card --log l.csv ";
+    ASSERT_EQ(run(replay), 0) << said;
+    const auto rows = rows_of(read_text(folder / "l.csv"));
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_NE(rows[0].at("visibility:card"), "");
+    for (const char* column : {"distance:card", "visibility:card", "visibility_without_veil:card"})
+        EXPECT_EQ(rows[1].at(column), "");
+    EXPECT_NE(printed.find("15.2+"), std::string::npos) << "seen in the first frame: " << printed;
+    EXPECT_NE(printed.find("\n+:"), std::string::npos);
+    expect_refused(replay + "--operator ldr", {"--obstacle", "ldr"});
+}
+
+TEST_F(ObstacleDrive, RefusesWhatHasNoMeaning) {
+    expect_refused(drive + "--obstacle dog", {"--obstacle dog"});
+    expect_refused(drive + "--detection-plot p.jpg", {"--detection-plot p.jpg", ".png"});
+    expect_refused(drive + "--visible-from 0", {"--visible-from"});
+    expect_refused("a.gltf --headless --log l.csv --visible-from 3", {"--visible-from", "--obstacle"});
+    expect_refused("a.gltf --headless --log l.csv --detection-plot p.png", {"--detection-plot", "--obstacle"});
+    expect_refused("a.gltf --headless --log l.csv --obstacle card --channels c.json", {"--obstacle", "--channels"});
+    EXPECT_FALSE(exists("l.csv") || exists("p.png"));
 }
 
 TEST_F(ObstacleProgram, RefusesWhatIsNotThere) {

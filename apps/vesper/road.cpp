@@ -13,6 +13,7 @@
 #include "print.h"
 #include "road_render.h"
 #include "road_report.h"
+#include "road_targets.h"
 #include "roads/layout_file.h"
 #include "roads/layout_scene.h"
 #include "scene/gltf_save.h"
@@ -22,11 +23,12 @@ namespace vesper::commands {
 namespace {
 
 struct RoadArguments {
-    std::string layout, csv, json, wanted, device, scene, occlusion;
+    std::string layout, csv, json, wanted, device, scene, occlusion, target_map;
     unsigned threads = 0;
     std::vector<std::string> pictures;
     roads::LayoutOverrides overrides;
-    bool grid = false;
+    bool grid = false, stv = false;
+    std::optional<double> reflectance;  ///< of small targets
 };
 
 /// The road as a scene whose luminaires are seen, too, where their file states an opening.
@@ -35,6 +37,8 @@ scene::Scene lit_road(const roads::LoadedLayout& layout) {
     for (scene::Lamp& lamp : scene.lamps) lamp.opening = layout.distribution.opening;
     return scene;
 }
+
+bool wants_targets(const RoadArguments& arguments) { return arguments.stv || !arguments.target_map.empty(); }
 
 /// Names the files that are read and written, and refuses options that do not go together.
 void check_arguments(const RoadArguments& arguments) {
@@ -45,6 +49,11 @@ void check_arguments(const RoadArguments& arguments) {
             throw Error("--render " + file + ": a .png or .exr file is expected");
         io::announce_write("--render", file);
     }
+    if (!arguments.target_map.empty() && !arguments.target_map.ends_with(".png"))
+        throw Error("--stv-map " + arguments.target_map + ": a .png file is expected");
+    io::announce_write("--stv-map", arguments.target_map);
+    if (arguments.reflectance && !wants_targets(arguments))
+        throw Error("--target-reflectance has a meaning only beside --stv or --stv-map");
     io::announce_write("--csv", arguments.csv);
     io::announce_write("--json", arguments.json);
     if (!arguments.scene.empty() && !arguments.scene.ends_with(".gltf") && !arguments.scene.ends_with(".glb"))
@@ -82,6 +91,14 @@ void run(const RoadArguments& arguments) {
         roads::find_lighting_class(arguments.wanted.empty() ? layout.wanted_class : arguments.wanted);
     apps::print_text(text_of(layout, result, wanted ? wanted : roads::reached_class(result), standard));
     if (arguments.grid) apps::print_text(grid_text_of(result));
+    std::optional<RoadTargets> found;
+    if (wants_targets(arguments)) {
+        found = road_targets(layout, arguments.reflectance.value_or(0.5));
+        apps::print_text(text_of(*found));
+        if (arguments.grid) apps::print_text(grid_text_of(result.field, *found));
+    }
+    const RoadTargets* targets = found ? &*found : nullptr;
+    if (!arguments.target_map.empty()) write_target_map(arguments.target_map, layout, result.field, targets->counted);
     RenderedRoad rendered;
     if (!arguments.pictures.empty()) {
         rendered = render_road(layout, result, arguments.device);
@@ -92,8 +109,9 @@ void run(const RoadArguments& arguments) {
     if (!arguments.scene.empty())
         scene::save_gltf(lit_road(layout), std::filesystem::path(arguments.layout).filename().string(),
                          arguments.scene);
-    if (!arguments.csv.empty()) apps::write_text(arguments.csv, csv_of(layout, result, beside));
-    if (!arguments.json.empty()) apps::write_text(arguments.json, json_of(layout, result, wanted, standard, beside));
+    if (!arguments.csv.empty()) apps::write_text(arguments.csv, csv_of(layout, result, beside, targets));
+    if (!arguments.json.empty())
+        apps::write_text(arguments.json, json_of(layout, result, wanted, standard, beside, targets));
 }
 
 }  // namespace
@@ -106,6 +124,11 @@ void add_road(apps::Command program) {
     for (const roads::LightingClass& c : roads::lighting_classes()) classes.emplace_back(c.name);
     command.add_option("layout", a->layout, "The road: a .json file (docs/road.md)").required();
     command.add_flag("--grid", a->grid, "Print illuminance and luminance of every point");
+    command.add_flag("--stv", a->stv, "Calculate the visibility of small targets, too (IES RP-8-00)");
+    command.add_option("--stv-map", a->target_map,
+                       "Likewise, and draw the road with the level of each target: OUT.png");
+    command.add_option("--target-reflectance", a->reflectance, "Of small targets (default: 0.5)")
+        .check(apps::range(0.01, 1.0));
     command.add_option("--csv", a->csv, "Write the points to a CSV file");
     command.add_option("--json", a->json, "Write figures and points to a JSON file");
     command.add_option(
@@ -137,6 +160,7 @@ void add_road(apps::Command program) {
     command.footer(
         "Examples:\n  vesper road data/road/worked-example.json\n"
         "  vesper road data/road/worked-example.json --r-table R2 --spacing 36 --grid --csv points.csv\n"
+        "  vesper road data/road/worked-example.json --stv --stv-map targets.png\n"
         "  vesper road data/road/worked-example.json --render road.png\n"
         "  vesper road data/road/worked-example.json --scene road.gltf && vesper render road.gltf --camera \"observer "
         "lane 1\" --glare cie -o seen.png\n");

@@ -193,26 +193,32 @@ std::string grid_text_of(const roads::RoadLighting& result) {
     return text;
 }
 
-std::string csv_of(const roads::LoadedLayout& layout, const roads::RoadLighting& result, const RenderedRoad* rendered) {
+std::string csv_of(const roads::LoadedLayout& layout, const roads::RoadLighting& result, const RenderedRoad* rendered,
+                   const RoadTargets* targets) {
     std::string text = "# " + layout.name + ": surface " + layout.surface.name + ", x ahead and y to the left, m";
     text += layout.hiding ? "; less what " + occluders_of(layout) + " hides\n" : "\n";
     text += "x_m,y_m,E_h_lx";
     for (const roads::LaneObserver& o : result.observers) text += format(",L_lane%d_cd_m2", o.lane);
     if (rendered)
         for (const roads::LaneObserver& o : result.observers) text += format(",L_lane%d_rendered_cd_m2", o.lane);
+    if (targets) text += ",E_v_lx,Lt_cd_m2,Lb_cd_m2,Lv_cd_m2,VL";
     for (size_t i = 0; i < result.points.size(); ++i) {
         const roads::FieldPoint& point = result.points[i];
         text += format("\n%.4f,%.4f,%.6g", point.x, point.y, point.illuminance);
         for (const double luminance : point.luminance) text += format(",%.6g", luminance);
-        if (!rendered) continue;
-        for (const RenderedObserver& seen : rendered->observers) text += format(",%.6g", seen.counted.luminance[i]);
+        if (rendered)
+            for (const RenderedObserver& seen : rendered->observers) text += format(",%.6g", seen.counted.luminance[i]);
+        if (!targets) continue;
+        const roads::SmallTarget& t = targets->counted.targets[i];
+        text += format(",%.6g,%.6g,%.6g,%.6g,%.6g", t.vertical_illuminance, t.luminance, t.background, t.veil,
+                       t.visibility_level);
     }
     return text + "\n";
 }
 
 std::string json_of(const roads::LoadedLayout& layout, const roads::RoadLighting& result,
                     const roads::LightingClass* wanted, const roads::RoadLighting* standard,
-                    const RenderedRoad* rendered) {
+                    const RenderedRoad* rendered, const RoadTargets* targets) {
     nlohmann::ordered_json json = {
         {"name", layout.name}, {"surface", layout.surface.name}, {"q0", q0_of(layout.surface)}, {"wet", result.wet}};
     add_figures(json, result);
@@ -248,6 +254,7 @@ std::string json_of(const roads::LoadedLayout& layout, const roads::RoadLighting
             }
         }
     }
+    if (targets) json["small_targets"] = json_of(*targets);
     return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

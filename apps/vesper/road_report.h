@@ -4,6 +4,7 @@
 #include <string>
 
 #include "road_render.h"
+#include "road_targets.h"
 #include "roads/road_lighting.h"
 
 namespace vesper::commands {
@@ -14,9 +15,10 @@ std::string text_of(const roads::LoadedLayout&, const roads::RoadLighting&, cons
                     const roads::RoadLighting* standard);
 /// Illuminance and the luminances of every observer as tables: x across, y down, the left edge on top.
 std::string grid_text_of(const roads::RoadLighting&);
-/// One line for each point of the grid. The following with what was rendered, if anything was.
-std::string csv_of(const roads::LoadedLayout&, const roads::RoadLighting&, const RenderedRoad* rendered);
+/// One line for each point of the grid. The following with what was rendered and with small targets, if there are any.
+std::string csv_of(const roads::LoadedLayout&, const roads::RoadLighting&, const RenderedRoad* rendered,
+                   const RoadTargets* targets);
 std::string json_of(const roads::LoadedLayout&, const roads::RoadLighting&, const roads::LightingClass* wanted,
-                    const roads::RoadLighting* standard, const RenderedRoad* rendered);
+                    const roads::RoadLighting* standard, const RenderedRoad* rendered, const RoadTargets* targets);
 
 }  // namespace vesper::commands

@@ -9,6 +9,7 @@
 #include "roads/layout_file.h"
 #include "roads/lit_roads.h"
 #include "roads/road_lighting.h"
+#include "roads/small_targets.h"
 
 namespace vesper::roads {
 namespace {
@@ -42,6 +43,11 @@ RoadLayout read_road_layout(const std::filesystem::path& file) {
 RoadLighting calculate_road_lighting(const RoadLayout& layout) {
     guarded(VESPER_BAD_ARGUMENT, [&] { check_layout(layout); });
     return guarded(VESPER_FAILED, [&] { return calculate_lighting(load_layout(layout)); });
+}
+
+SmallTargetVisibility calculate_small_targets(const RoadLayout& layout, double reflectance) {
+    guarded(VESPER_BAD_ARGUMENT, [&] { check_layout(layout), check_target_reflectance(reflectance); });
+    return guarded(VESPER_FAILED, [&] { return small_target_visibility(load_layout(layout), reflectance); });
 }
 
 }  // namespace vesper::roads

@@ -24,16 +24,7 @@ bool in_reach(const PlacedLuminaire& lamp, glm::dvec2 point) {
     return away.x >= -5 * away.z && away.x <= 12 * away.z && std::abs(away.y) <= 5 * away.z;
 }
 
-/// The luminaires that a place sees; all of them without occluders, in their order.
-std::vector<PlacedLuminaire> seen_from(const LoadedLayout& layout, std::span<const PlacedLuminaire> lamps,
-                                       glm::dvec3 place) {
-    std::vector<PlacedLuminaire> seen;
-    for (const PlacedLuminaire& lamp : lamps)
-        if (!layout.hiding || !layout.hiding->hide(lamp.position, place)) seen.push_back(lamp);
-    return seen;
-}
-
-/// Likewise for a point of the road, of those in reach of it.
+/// The luminaires in reach that a point of the road sees; all of them without occluders.
 std::vector<PlacedLuminaire> seen_from(const LoadedLayout& layout, std::span<const PlacedLuminaire> lamps,
                                        glm::dvec2 point, RoadLighting* counted = nullptr) {
     if (!layout.hiding) return {lamps.begin(), lamps.end()};
@@ -110,6 +101,14 @@ void summarise_illuminance(const LoadedLayout& layout, std::span<const PlacedLum
 
 }  // namespace
 
+std::vector<PlacedLuminaire> seen_from(const LoadedLayout& layout, std::span<const PlacedLuminaire> lamps,
+                                       glm::dvec3 place) {
+    std::vector<PlacedLuminaire> seen;
+    for (const PlacedLuminaire& lamp : lamps)
+        if (!layout.hiding || !layout.hiding->hide(lamp.position, place)) seen.push_back(lamp);
+    return seen;
+}
+
 double horizontal_illuminance(const LoadedLayout& layout, std::span<const PlacedLuminaire> lamps, glm::dvec2 point) {
     double sum = 0;
     for (const PlacedLuminaire& lamp : lamps) {
@@ -117,6 +116,17 @@ double horizontal_illuminance(const LoadedLayout& layout, std::span<const Placed
         if (std::hypot(away.x, away.y) > 5 * away.z) continue;
         const double distance = glm::length(away);
         sum += intensity_towards(layout, lamp, {point, 0}) * away.z / (distance * distance * distance);
+    }
+    return sum * layout.maintenance_factor;
+}
+
+double facing_illuminance(const LoadedLayout& layout, std::span<const PlacedLuminaire> lamps, glm::dvec3 point) {
+    double sum = 0;
+    for (const PlacedLuminaire& lamp : lamps) {
+        const glm::dvec3 away = lamp.position - point;
+        if (away.x >= 0 || away.x < -12 * away.z || std::abs(away.y) > 5 * away.z) continue;
+        const double distance = glm::length(away);
+        sum += intensity_towards(layout, lamp, point) * -away.x / (distance * distance * distance);
     }
     return sum * layout.maintenance_factor;
 }

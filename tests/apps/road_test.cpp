@@ -115,6 +115,41 @@ TEST_F(Road, CountsOccluders) {
     EXPECT_NE(text_of("err.txt").find("--render has no occluders"), std::string::npos);
 }
 
+// docs/small-targets.md states these figures; tests/roads/small_targets_test.cpp holds them against a reference.
+TEST_F(Road, SaysWhetherSmallTargetsAreSeen) {
+    ASSERT_EQ(run("--json plain.json --csv plain.csv"), 0) << text_of("err.txt");
+    EXPECT_EQ(text_of("out.txt").find("STV"), std::string::npos);
+    ASSERT_EQ(run("--stv --stv-map map.png --grid --json a.json --csv a.csv"), 0) << text_of("err.txt");
+    const std::string out = text_of("out.txt"), csv = text_of("a.csv");
+    EXPECT_NE(out.find("STV               2.23   VL from -6.5 to 6.3, 28 of 60 targets darker"), std::string::npos)
+        << out;
+    EXPECT_NE(out.find("   0.583   -4.67   -2.08"), std::string::npos) << out;
+    const auto json = nlohmann::json::parse(text_of("a.json"));
+    const auto& found = json["small_targets"];
+    EXPECT_NEAR(found["stv"], 2.23, 0.005);
+    ASSERT_EQ(found["targets"].size(), 60u);
+    EXPECT_EQ(found["reflectance"], 0.5);
+    EXPECT_NEAR(found["targets"][0]["visibility_level"], -4.67, 0.005);
+    EXPECT_EQ(found["targets"][9]["x_m"], json["points"][9]["x_m"]);
+    EXPECT_NE(csv.find(",L_lane2_cd_m2,E_v_lx,Lt_cd_m2,Lb_cd_m2,Lv_cd_m2,VL\n1.5000,"), std::string::npos);
+    EXPECT_TRUE(fs::exists(folder / "map.png"));
+    auto without = json;
+    without.erase("small_targets");
+    EXPECT_EQ(without, nlohmann::json::parse(text_of("plain.json")));
+
+    ASSERT_EQ(run("--stv --target-reflectance 0.2"), 0);
+    EXPECT_NE(text_of("out.txt").find("58 of 60 targets darker"), std::string::npos) << text_of("out.txt");
+
+    vesper::test::OccluderScene tree;
+    tree.box({-8, 4.25f, -20}, {3, 3.75f, 4});
+    vesper::scene::save_gltf(tree.scene(), "tree", folder / "tree.gltf");
+    ASSERT_EQ(run("--occluders tree.gltf --stv --json b.json"), 0) << text_of("err.txt");
+    EXPECT_NE(text_of("out.txt").find("  unoccluded        2.23   VL from -6.5"), std::string::npos);
+    const auto shaded = nlohmann::json::parse(text_of("b.json"))["small_targets"];
+    EXPECT_EQ(shaded["stv_without_occluders"], found["stv"]);
+    EXPECT_NE(shaded["stv"], found["stv"]);
+}
+
 /// Largest differences of points and of averages between calculation and pictures, %, of what `--json a.json` wrote.
 struct Differences {
     double point = 0, average = 0, every_average = 0;
@@ -255,9 +290,10 @@ TEST_F(Road, GlareIsOfLampsAlone) {
 }
 
 TEST_F(Road, RefusesInOneLine) {
-    for (const char* arguments :
-         {"--r-table R9", "--q0 0", "--spacing 1", "--class P1", "--luminaire none.ies", "--csv none/a.csv",
-          "--height x", "--render a.jpg", "--render none/a.png", "--device cpu", "--render a.png --device nowhere"}) {
+    for (const char* arguments : {"--r-table R9", "--q0 0", "--spacing 1", "--class P1", "--luminaire none.ies",
+                                  "--csv none/a.csv", "--height x", "--stv-map a.jpg", "--stv-map none/a.png",
+                                  "--target-reflectance 0.5", "--stv --target-reflectance 0", "--render a.jpg",
+                                  "--render none/a.png", "--device cpu", "--render a.png --device nowhere"}) {
         EXPECT_EQ(run(arguments), 2) << arguments;
         const std::string said = text_of("err.txt");
         EXPECT_TRUE(said.starts_with("vesper: ")) << said;

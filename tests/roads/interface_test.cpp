@@ -53,6 +53,17 @@ TEST(RoadsInterface, CalculatesTheWorkedExample) {
     EXPECT_NEAR(lighter.average_illuminance / lighting.average_illuminance, 1, 1e-12);
 }
 
+TEST(RoadsInterface, CalculatesSmallTargets) {
+    const roads::SmallTargetVisibility found = roads::calculate_small_targets(plain_example());
+    EXPECT_EQ(found.targets.size(), 60u);
+    EXPECT_NEAR(found.stv, 2.23, 0.005);
+    EXPECT_LT(roads::calculate_small_targets(plain_example(), 0.2).targets[34].visibility_level, 0);
+    EXPECT_GT(found.targets[34].visibility_level, 0);
+    EXPECT_EQ(caught([] { roads::calculate_small_targets(plain_example(), 2); }).message,
+              "the reflectance of targets must be from 0.01 to 1");
+    EXPECT_EQ(caught([] { roads::calculate_small_targets(plain_example(), 0); }).result, VESPER_BAD_ARGUMENT);
+}
+
 // A layout of a file can be changed and calculated: it holds all that the file says.
 TEST(RoadsInterface, LayoutsOfFilesAreWhole) {
     const TempFolder folder;

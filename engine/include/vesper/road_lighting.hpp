@@ -124,6 +124,24 @@ struct RoadLighting {
     std::size_t hidden_pairs = 0;           /**< pairs of which the point does not see the luminaire */
 };
 
+/** A target of small-target visibility, on a point of the calculation field. Values are maintained. */
+struct SmallTarget {
+    double x = 0;                    /**< along the road */
+    double y = 0;                    /**< to the left */
+    double vertical_illuminance = 0; /**< at its centre, from the side of its observer, lx */
+    double luminance = 0;            /**< Lt, cd/m^2 */
+    double background = 0;           /**< Lb: of the road at its foot and above its top, cd/m^2 */
+    double veil = 0;                 /**< Lv, in the eye of its observer, cd/m^2 */
+    double visibility_level = 0;     /**< VL: negative where the target is darker; 0 where road and eye are dark */
+};
+
+/** Visibility of small targets on a road (IES RP-8-00; docs/small-targets.md). */
+struct SmallTargetVisibility {
+    double reflectance = 0.5;         /**< of the targets, diffuse */
+    std::vector<SmallTarget> targets; /**< in the order of RoadLighting::points */
+    double stv = 0;                   /**< small-target visibility: weighted average of |VL| */
+};
+
 /** A lighting class for motorised traffic (EN 13201-2:2015, Table 1). */
 struct LightingClass {
     const char* name;                   /**< M1 to M6 */
@@ -141,6 +159,8 @@ RoadLayout read_road_layout(const std::filesystem::path& file);
 /** Reads the files that a layout names and calculates its figures. Throws vesper::cpp::Failure: VESPER_BAD_ARGUMENT if
  * a value is out of range; VESPER_FAILED if a file cannot be used, or if no light is seen; VESPER_OUT_OF_MEMORY. */
 RoadLighting calculate_road_lighting(const RoadLayout& layout);
+/** Likewise the visibility of targets of a reflectance from 0.01 to 1 on the points of the calculation field. */
+SmallTargetVisibility calculate_small_targets(const RoadLayout& layout, double reflectance = 0.5);
 
 /** The classes, the most demanding first. */
 const std::array<LightingClass, 6>& lighting_classes();

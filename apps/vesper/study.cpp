@@ -34,10 +34,6 @@ std::vector<std::string> check_arguments(const StudyArguments& arguments) {
         if (!fs::is_regular_file(input)) throw Error(one_line(input) + ": there is no such file");
     }
     apps::parse_size(arguments.source.size);
-    if (!fs::is_directory(arguments.folder)) {
-        io::announce_write("-o", fs::path(arguments.folder).lexically_normal().string());
-        if (fs::exists(arguments.folder)) throw Error("-o " + one_line(arguments.folder) + ": is not a folder");
-    }
     return names;
 }
 
@@ -51,10 +47,7 @@ void run(const StudyArguments& arguments, const std::string& what, const std::st
         pictures.push_back(read_study_picture(arguments.source, device, settings, arguments.inputs[i]));
         pictures.back().name = names[i];
     }
-    std::error_code error;
-    fs::create_directory(arguments.folder, error);  // another rank may have made it
-    if (!fs::is_directory(arguments.folder))
-        throw Error("-o " + one_line(arguments.folder) + ": cannot be made a folder");
+    make_folder(arguments.folder);
     apps::Ranks::all().agree_on_start();
     render::ToneMapper mapper(device);
     Study all{arguments, settings, device, mapper, pictures, StudyPage(title)};
@@ -85,7 +78,7 @@ Command add_one(Command studies, const std::shared_ptr<StudyArguments>& a, const
     command.footer("Example:\n  vesper study " + name + " " + example + "\n");
     command.callback_of_ranks([a, name, title, study] {
         apps::use_threads(a->threads);
-        while (a->folder.size() > 1 && a->folder.ends_with('/')) a->folder.pop_back();
+        check_folder(a->folder);
         run(*a, name, title, study);
     });
     return command;
@@ -93,9 +86,22 @@ Command add_one(Command studies, const std::shared_ptr<StudyArguments>& a, const
 
 }  // namespace
 
+void check_folder(std::string& folder) {
+    while (folder.size() > 1 && folder.ends_with('/')) folder.pop_back();
+    if (fs::is_directory(folder)) return;
+    io::announce_write("-o", fs::path(folder).lexically_normal().string());
+    if (fs::exists(folder)) throw Error("-o " + one_line(folder) + ": is not a folder");
+}
+
+void make_folder(const std::string& folder) {
+    std::error_code error;
+    fs::create_directory(folder, error);  // another rank may have made it
+    if (!fs::is_directory(folder)) throw Error("-o " + one_line(folder) + ": cannot be made a folder");
+}
+
 void add_study(Command program) {
     Command studies = program.add_command(
-        "study", "Study what settings of the tone operators do: CSV, plots and a page (docs/study.md)");
+        "study", "Study settings of the tone operators, or headlamps: CSV, plots and a page (docs/study.md)");
     studies.requires_command();
     const auto mip = std::make_shared<StudyArguments>(), bins = std::make_shared<StudyArguments>(),
                tunnel = std::make_shared<StudyArguments>(), ops = std::make_shared<StudyArguments>(),
@@ -139,10 +145,12 @@ void add_study(Command program) {
     adaptation.add_option("--seconds", tunnel->seconds, "How long each response is followed, s")
         .check(apps::between(0.1, 3600.0))
         .shows_default();
+    add_headlamps(studies);
     studies.footer(
         "Examples:\n  vesper study bins night.gltf --camera driver -o out/bins\n"
         "  vesper study bins *.hdr --scale 179 --operator irawan -o out/bins\n"
-        "  vesper study adaptation --outside 5000 --inside 50 -o out/tunnel\n");
+        "  vesper study adaptation --outside 5000 --inside 50 -o out/tunnel\n"
+        "  vesper study headlamps night.gltf --camera driver --obstacle pedestrian_00 --beam low.csv -o out/beams\n");
 }
 
 }  // namespace vesper::commands

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "line_plot.h"
 #include "progress.h"
 #include "render/tone_mapper.h"
@@ -75,6 +76,13 @@ struct Difference {
 Difference difference(const render::ToneMapped& from, const render::ToneMapped& to, const vision::Display&);
 std::string describe(const Difference&);
 double largest_difference(const std::vector<double>&, const std::vector<double>&);
+
+/// Throws Error if the folder of a page cannot be one; ends it without a slash. And makes it.
+void check_folder(std::string& folder);
+void make_folder(const std::string& folder);
+
+/// vesper study headlamps.
+void add_headlamps(apps::Command studies);
 
 /// Each study writes its files and fills the page.
 void study_bins(Study&);

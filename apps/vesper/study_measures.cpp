@@ -50,7 +50,8 @@ apps::Bytes bytes_of(const StudyPart& part) {
     for (const std::vector<std::string>& row : part.rows) write_texts(packet, row);
     packet.value(part.lines.size());
     for (const apps::PlotLine& line : part.lines)
-        packet.list(line.name), packet.list(line.points), packet.value(line.dashed), packet.value(line.marks);
+        packet.list(line.name), packet.list(line.points), packet.value(line.dashed), packet.value(line.marks),
+            packet.value(line.colour ? int(*line.colour) : -1);
     packet.value(part.shown.size());
     for (const StudyPage::Figure& figure : part.shown) packet.list(figure.file), packet.list(figure.caption);
     packet.list(part.numbers);
@@ -65,6 +66,7 @@ StudyPart part_of(const apps::Bytes& bytes) {
         apps::PlotLine& line = part.lines.emplace_back();
         line.name = packet.text(), line.points = packet.list<glm::dvec2>();
         packet.value(line.dashed), packet.value(line.marks);
+        if (const int colour = packet.value<int>(); colour >= 0) line.colour = size_t(colour);
     }
     for (auto left = packet.value<size_t>(); left > 0; --left) {
         StudyPage::Figure& figure = part.shown.emplace_back();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/angle.h"
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "vision/fourier.h"
@@ -17,6 +18,7 @@ constexpr int kOrientations = 4;
 constexpr double kCoarsest = 0.5;  // cycles/degree: octaves go down to about here
 constexpr size_t kMostOctaves = 12;
 constexpr double kMargin = 1;      // degrees, mirrored beyond the picture, at least
+constexpr size_t kBytesOfPixel = 128;  // two spectra, four pictures of a channel, and what is summed
 constexpr size_t kGains = 4096;    // of a radial function
 constexpr int kAdaptations = 256;  // luminances at which a channel's sensitivity is known
 
@@ -44,6 +46,7 @@ public:
         const size_t coarsest = size_t{1} << (octaves_ - 1), margin = size_t(std::ceil(kMargin * 2 * highest_));
         whole_ = {uint32_t(fast_length(pair.width + std::min<size_t>(margin, pair.width), coarsest)),
                   uint32_t(fast_length(pair.height + std::min<size_t>(margin, pair.height), coarsest)), 1};
+        spend(kBytesOfPixel * whole_.size());
     }
 
     void visit(const std::function<void(const Channel&)>& visit) {
@@ -190,11 +193,11 @@ private:
 
 void visit_channels(const PicturePair& pair, const ContrastEye& eye, const std::function<void(const Channel&)>& visit) {
     const uint64_t pixels = uint64_t{pair.width} * pair.height;
-    if (pixels == 0 || pixels > kMostChannelPixels)
-        throw Error("pictures of 1 to " + std::to_string(kMostChannelPixels) + " pixels can be compared");
+    if (pixels == 0) throw Error("pictures without pixels cannot be compared");
     if (pair.first.size() != pixels || pair.second.size() != pixels) throw Error("the two pictures differ in size");
     if (!(pair.pixels_per_degree > 0) || !std::isfinite(pair.pixels_per_degree))
         throw Error("pictures that are compared need the angle that they cover");
+    const Budget budget("comparing pictures of " + std::to_string(pixels) + " pixels");
     Pyramid(pair, eye).visit(visit);
 }
 

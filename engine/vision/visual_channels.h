@@ -19,7 +19,6 @@ struct PicturePair {
     double pixels_per_degree = 0;    ///< where the eye looks
     std::span<const float> first, second;
 };
-constexpr uint64_t kMostChannelPixels = uint64_t{1} << 25;
 
 /// Samples of a channel: every `step`-th pixel in each direction from the first one on, row by row, beyond the picture
 /// as far as its mirrored margin goes.

@@ -12,7 +12,7 @@
 namespace vesper::render {
 
 /// An obstacle in a picture. A pixel is the obstacle's if its middle sees one of its surfaces. Luminances are means of
-/// pixels that no edge crosses; its surroundings are those of add_targets().
+/// pixels that no edge crosses and that are no glare sources; its surroundings are those of add_targets().
 struct SeenObstacle {
     enum class State : uint8_t {
         Measured,       ///< the only state with luminances

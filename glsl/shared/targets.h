@@ -6,7 +6,7 @@ SHARED_BEGIN
 
 const uint kMostTargets = 64u;
 const uint kTargetGroup = 256u;         // invocations for each target
-const uint kMostTargetSamples = 16384u; // pixels that are read for each; of larger rectangles every stride-th of a row and row
+const uint kMostTargetSamples = 4096u;  // pixels that are read for each; of larger rectangles every stride-th of a row and row
 const uint kGlareContrast = 100u;       // kSourceContrast of vision/glare_report.h
 
 // Pixels that are read for a target: itself and its surroundings; the end is beyond them.
@@ -17,7 +17,8 @@ struct TargetRect {
 SHARED_SIZE(TargetRect, 20)
 
 // A pixel belongs to a target by the surface at its middle. Its luminance counts if the four pixels beside it belong to
-// the same, so that none that an edge crosses does; surroundings are likewise apart from all targets.
+// the same, so that none that an edge crosses does; surroundings are likewise apart from all targets. Glare sources do
+// not count, nor the pixels beside them: lamps are drawn over the surfaces at their pixels and smooth at their edges.
 struct TargetSums {
     uint pixels;         // of the target, of those that were read
     uint inner;          // of them, whose luminance counts

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
 
 // Luminances of targets and of what surrounds them: a workgroup for each target, which sums in a fixed order.
 
@@ -23,13 +24,15 @@ shared vec4 counts[kTargetGroup];  // of the target: pixels, inner ones, solid a
 shared vec4 light[kTargetGroup];   // luminance of the target; around: scene, retina
 shared vec2 places[kTargetGroup];
 
+const ivec2 kBeside[4] = ivec2[](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));
+
 uint target_at(ivec2 pixel) {
-    const uint instance = imageLoad(triangles, clamp(pixel, ivec2(0), ivec2(push.size) - 1)).r;
+    const uint instance = imageLoad(triangles, pixel).r;
     const uint target = texel_at(targets_of_instances, int(max(instance, 1u) - 1u)).x;
     return instance == 0u ? 0u : target;
 }
 
-float luminance_of(vec3 rgb) { return dot(rgb, vec3(kRed, kGreen, kBlue)); }
+#define luminance_at(image, pixel) dot(imageLoad(image, pixel).rgb, vec3(kRed, kGreen, kBlue))
 
 void main() {
     const uint target = gl_WorkGroupID.x, mine = gl_LocalInvocationIndex;
@@ -42,11 +45,14 @@ void main() {
     for (uint k = mine; k < read.x * read.y; k += kTargetGroup) {
         const uvec2 from_first = rect.stride * uvec2(k % read.x, k / read.x);
         const ivec2 pixel = ivec2(rect.first + from_first);
-        const uint here = target_at(pixel), left = target_at(pixel - ivec2(1, 0)), right = target_at(pixel + ivec2(1, 0)),
-                   above = target_at(pixel - ivec2(0, 1)), below = target_at(pixel + ivec2(0, 1));
-        const float scene = luminance_of(imageLoad(scene_image, pixel).rgb), retina = luminance_of(imageLoad(retina_image, pixel).rgb);
-        const bool counts_ = abs(scene) <= 3.4e38 && abs(retina) <= 3.4e38 && here == left && here == right && here == above && here == below;
-        const bool own = here == target + 1u, inner = own && counts_, around = here == 0u && counts_ && scene <= brightest;
+        const uint here = target_at(pixel);
+        const float scene = luminance_at(scene_image, pixel), retina = luminance_at(retina_image, pixel);
+        bool counts_ = scene <= brightest && abs(scene) <= 3.4e38 && abs(retina) <= 3.4e38;
+        [[unroll]] for (int n = 0; n < 4; ++n) {
+            const ivec2 beside = clamp(pixel + kBeside[n], ivec2(0), ivec2(push.size) - 1);
+            counts_ = counts_ && target_at(beside) == here && !(luminance_at(scene_image, beside) > brightest);
+        }
+        const bool own = here == target + 1u, inner = own && counts_, around = here == 0u && counts_;
         const vec2 ray = push.ray_scale * (vec2(pixel) + 0.5) + push.ray_offset;
         const float cosine = inversesqrt(1.0 + dot(ray, ray));
         count += vec4(own ? 1.0 : 0.0, inner ? 1.0 : 0.0, own ? cosine * cosine * cosine : 0.0, around ? 1.0 : 0.0);

@@ -104,6 +104,19 @@ TEST_F(ObstaclesOfFrames, HiddenPartsDoNotCount) {
     EXPECT_DOUBLE_EQ(look_at(street.scene).distance, double(kAway));
 }
 
+// A lamp of 10,000 cd/m^2, drawn over pixels of the card and beside it.
+TEST_F(ObstaclesOfFrames, LampsBeforeThemDoNotCount) {
+    Street street;
+    for (const double x : {0.03, 0.7}) {
+        add_lamp(street.scene, 100, {x, 0.02, -kAway / 2});
+        street.scene.lamps.back().opening = {.length = 0.1, .width = 0.1};
+    }
+    const render::SeenObstacle seen = look_at(street.scene);
+    EXPECT_EQ(seen.state, State::Measured);
+    EXPECT_NEAR(seen.luminance, double(kCard), 1e-5);
+    EXPECT_NEAR(seen.around, double(kWall), 1e-5);
+}
+
 TEST_F(ObstaclesOfFrames, SurroundingsAreNoOtherObstacles) {
     Street street;
     street.add("neighbour", 50, {1.1f, -2, -kAway + 0.1f}, {2, 0, 0}, {0, 4, 0});

@@ -38,16 +38,18 @@ inline MeasuredTarget measure_target(const TargetPicture& p, uint32_t which, int
             const uint32_t here = p.target[index(x, y)];
             bool alike = true;
             for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}})
-                if (x + dx >= 0 && x + dx < p.width && y + dy >= 0 && y + dy < p.height)
-                    alike &= p.target[index(x + dx, y + dy)] == here;
+                if (x + dx >= 0 && x + dx < p.width && y + dy >= 0 && y + dy < p.height) {
+                    const size_t beside = index(x + dx, y + dy);
+                    alike &= p.target[beside] == here && !(luminance(p.scene[beside]) > p.brightest);
+                }
             const double scene = luminance(p.scene[index(x, y)]), retina = luminance(p.retina[index(x, y)]);
-            const bool counts = alike && std::isfinite(scene) && std::isfinite(retina);
+            const bool counts = alike && std::isfinite(scene) && std::isfinite(retina) && scene <= p.brightest;
             if (here == which) {
                 const dvec2 ray = p.scale * dvec2(x + 0.5, y + 0.5) + p.offset;
                 ++m.pixels, m.solid_angle += stride * stride * std::pow(1 + glm::dot(ray, ray), -1.5);
                 m.centre += dvec2(x + 0.5, y + 0.5);
                 if (counts) ++m.inner, m.luminance += scene;
-            } else if (here == 0 && counts && scene <= p.brightest) {
+            } else if (here == 0 && counts) {
                 ++m.around, m.around_scene += scene, m.around_retina += retina;
             }
         }

@@ -51,8 +51,10 @@ TEST(TargetsReference, SourcesAndDamagedPixelsDoNotCount) {
     p.scene[0] = dvec3(1e4), p.brightest = 1000;
     p.scene[1].g = std::nan(""), p.retina[2].b = HUGE_VAL;
     const MeasuredTarget m = measure_target(p, 1, 0, 0, 9, 9);
-    EXPECT_EQ(m.around, 81 - 9 - 12 - 3);
+    EXPECT_EQ(m.around, 81 - 9 - 12 - 4) << "the source, two beside it, one more";
     EXPECT_DOUBLE_EQ(m.around_scene, 2);
+    p.scene[40] = dvec3(1001);
+    EXPECT_EQ(measure_target(p, 1, 0, 0, 9, 9).inner, 0) << "a lamp before it";
     p.scene[40].r = std::nan("");
     EXPECT_EQ(measure_target(p, 1, 0, 0, 9, 9).inner, 0) << "the only one within";
     EXPECT_EQ(measure_target(p, 1, 0, 0, 9, 9).pixels, 9);

@@ -80,7 +80,7 @@ void expect_measured(const Case& c, const gpu_scene::View& view, const std::vect
         EXPECT_EQ(got[t].pixels, uint32_t(want.pixels));
         EXPECT_EQ(got[t].inner, uint32_t(want.inner));
         EXPECT_EQ(got[t].around, uint32_t(want.around));
-        // 2e-6: an invocation sums up to 64 floats, the tree of 256 takes 8 more roundings.
+        // 2e-6: an invocation sums up to 16 floats, the tree of 256 takes 8 more roundings.
         const auto near = [](double a, double b) { EXPECT_NEAR(a, b, 2e-6 * std::abs(b)); };
         near(double(got[t].solid_angle), want.solid_angle);
         near(double(got[t].luminance), want.luminance);
@@ -150,7 +150,7 @@ TEST(Targets, ARectangleHasAFrameOfHalfItsShorterSide) {
     EXPECT_TRUE(empty(dvec2(std::nan("")), dvec2(20)));
     const shared::TargetRect large = render::target_rect({-1e30, -1e30}, {1e30, 1e30}, {4000, 3000});
     EXPECT_EQ(large.end, glm::uvec2(4000, 3000));
-    EXPECT_EQ(large.stride, 28u);  // 143 x 108 = 15,444 px are read; of every 27th, 149 x 112 = 16,688 were too many
+    EXPECT_EQ(large.stride, 55u);  // 73 x 55 = 4,015 px are read; of every 54th, 75 x 56 = 4,200 were too many
 }
 
 TEST(Targets, WithoutAnyThereIsNoPassAndTooManyAreRefused) {

@@ -25,10 +25,10 @@ struct TargetPixels {
 constexpr double kLeastFrame = 2;
 shared::TargetRect target_rect(glm::dvec2 low, glm::dvec2 high, VkExtent2D picture);
 
-/// shared::TargetSums of each target, a buffer. Surroundings are the pixels of its rectangle that belong to no target
-/// and are no glare sources: not brighter than shared::kGlareContrast times the log average of the picture, or its mean
-/// where that is less. Pixels that are not finite do not count. The same from run to run. Without targets there is no
-/// pass. Throws Error for more than shared::kMostTargets.
+/// shared::TargetSums of each target, a buffer. Surroundings are the pixels of its rectangle that belong to no target.
+/// Luminances of glare sources do not count, nor those that are not finite. A glare source is brighter than
+/// shared::kGlareContrast times the log average of the picture, or its mean where that is less. The same from run to
+/// run. Without targets there is no pass. Throws Error for more than shared::kMostTargets.
 graph::Resource add_targets(const FrameContext& frame, const TargetImages& images, const TargetPixels& targets);
 
 }  // namespace vesper::render

@@ -64,7 +64,7 @@ void refuse_idle(const apps::Command& program, const DriveArguments& a) {
          "channels have sizes and angles of their own (--channels)"},
         {!films && !logs && a.obstacles.empty(), {"--fps"}, "of what? give --video, --log or --obstacle"},
         {!logs, {"--probe"}, "is a column of the log: give --log"},
-        {a.obstacles.empty(), {"--visible-from", "--detection-plot"}, "of what? give --obstacle"},
+        {a.obstacles.empty(), {"--visible-from", "--detection-plot", "--hatch-unseen"}, "of what? give --obstacle"},
         {!a.headless, {"--detection-plot"}, "has a meaning only without a window (--headless)"},
         {!a.channels.empty(), {"--obstacle"}, "obstacles are measured in one picture, not in channels (--channels)"},
         {apps::Ranks::several(), {"--obstacle"}, "is not measured by several ranks"},
@@ -185,6 +185,8 @@ void add_drive(apps::Command program) {
         .shows_default();
     program.add_option("--detection-plot", a->detection_plot,
                        "Headless: FILE.png, levels of the obstacles over their distance");
+    program.add_flag("--hatch-unseen", a->hatches,
+                     "Draw stripes over obstacles of a lower level, in windows (key U), films and .png files");
     program.help_group();
     program
         .add_option("--size,-s", a->size,

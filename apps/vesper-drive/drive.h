@@ -20,6 +20,7 @@ struct DriveArguments {
     std::vector<std::string> probes, obstacles;
     double visible_from = kVisibleFrom;  ///< a visibility level
     std::string detection_plot;
+    bool hatches = false;    ///< obstacles that are not seen
     MessageSource messages;  ///< made of the following
     std::string table, trace, models, origin;
     std::string osi_udp, osi_out;  ///< [ADDRESS:]PORT to listen at; a trace to write

@@ -13,6 +13,7 @@
 #include "drive_log.h"
 #include "edge_arguments.h"
 #include "frame_relay.h"
+#include "hatching.h"
 #include "indirect_arguments.h"
 #include "io/file_gate.h"
 #include "io/image_file.h"
@@ -312,7 +313,7 @@ void run_headless(const DriveArguments& a) {
     Detections detections(obstacles, a.visible_from);
     gpu::Device device({.select = a.device});
     Session session(device, options, std::move(scenery));
-    session.watch(std::move(obstacles));
+    session.watch(std::move(obstacles)), session.find_obstacle_pixels(a.hatches);
     if (channels) check_displays(*channels, session.settings().render().display);
     if (channels) session.share_channels(ranks ? &*ranks : nullptr, a.latency);
     apps::Ranks::all().agree_on_start();
@@ -355,11 +356,12 @@ void run_headless(const DriveArguments& a) {
             progress.step();
         } else if (relay.has(index)) {
             const gpu_scene::View view = outlet.scaled().rendered(session.view(extent));
-            const render::Frame frame = session.render(view, outlet.outputs(session));
+            render::Frame frame = session.render(view, outlet.outputs(session));
             const render::RenderSettings& settings = session.settings().render();
             std::string row = outlet.logs() ? outlet.rows().next(session, view, frame) : "";
             if (outlet.logs()) row += apps::obstacle_values(session.obstacles(), frame.obstacles, settings);
             detections.add(frame.obstacles, settings.tone.observer.age);
+            hatch_unseen(frame, settings, a.visible_from);
             relay.deliver(index, outlet.take(index, session, frame, frame.lamps, row), take);
         } else {
             session.skip_frame(), outlet.rows().skip();

@@ -45,6 +45,8 @@ bool Instruments::press(Action action) {
             return toggle(kProbe);
         case Action::Controllers:
             return toggle(kControllers);
+        case Action::Obstacles:
+            return toggle(kObstacles);
         case Action::Clean:
             clean_ = !clean_, focus_ = false;
             return true;
@@ -107,6 +109,7 @@ std::vector<Change> Instruments::draw(const FrameState& now) {
     if (shows(kLamps)) draw_lamps(now, changes);
     if (shows(kProbe)) draw_probe(now);
     if (shows(kControllers)) draw_controllers(now);
+    if (shows(kObstacles)) draw_obstacles(now);
     return changes;
 }
 

@@ -25,6 +25,7 @@ struct FrameState {
     const InputDevices& hands;
     std::optional<glm::uvec2> pixel, view_pixel;  ///< of the frame and of that view, under the mouse
     double shown_per_second = 0;                  ///< pictures
+    double visible_from = 0;                      ///< of obstacles, a visibility level
     bool paused = false;
     std::string recording;  ///< file; empty: none
     std::string message;    ///< to read now; empty: none
@@ -64,7 +65,8 @@ private:
         kSwitches = 16,
         kLamps = 32,
         kProbe = 64,
-        kControllers = 128
+        kControllers = 128,
+        kObstacles = 256
     };
     bool shows(Panel panel) const { return panels_ & panel; }
     /// Place and size as of panel_place().
@@ -81,6 +83,7 @@ private:
     void draw_lamps(const FrameState&, std::vector<Change>&);
     void draw_probe(const FrameState&);
     void draw_controllers(const FrameState&);
+    void draw_obstacles(const FrameState&);
     void draw_scale();
 
     struct Past {

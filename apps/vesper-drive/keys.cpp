@@ -43,6 +43,8 @@ constexpr std::array kBindings{
     KeyBinding{Action::SunDown, GLFW_KEY_LEFT_BRACKET, 0, "[", "sun-down",
                "Sun half a degree lower; below -18 degrees: night", "Light and eye"},
     KeyBinding{Action::Shadows, GLFW_KEY_F10, 0, "F10", "shadows", "Shadows of lamps, or none", "Light and eye"},
+    KeyBinding{Action::HatchUnseen, GLFW_KEY_U, 0, "U", "hatch-unseen", "Stripes over obstacles that are not seen",
+               "Light and eye"},
 
     KeyBinding{Action::Keys, GLFW_KEY_F1, 0, "F1", "keys", "This list", "Instruments"},
     KeyBinding{Action::Clean, GLFW_KEY_F2, 0, "F2", "clean", "Nothing but the picture, or everything again",
@@ -55,6 +57,8 @@ constexpr std::array kBindings{
     KeyBinding{Action::Switches, GLFW_KEY_F6, 0, "F6", "switches", "Operator, glare, display, observer", "Instruments"},
     KeyBinding{Action::Lamps, GLFW_KEY_F7, 0, "F7", "lamps", "Lamps by group", "Instruments"},
     KeyBinding{Action::Probe, GLFW_KEY_F8, 0, "F8", "probe", "Luminance and illuminance under the mouse",
+               "Instruments"},
+    KeyBinding{Action::Obstacles, GLFW_KEY_I, 0, "I", "obstacles", "How visible the obstacles are (--obstacle)",
                "Instruments"},
     KeyBinding{Action::FalseColour, GLFW_KEY_F, 0, "F", "false-colour", "Luminance as colours", "Instruments"},
     KeyBinding{Action::Controllers, GLFW_KEY_J, 0, "J", "controllers", "Axes and buttons of what is plugged in",

@@ -130,7 +130,7 @@ render::RenderSettings Session::frame_settings() const {
     render::RenderSettings settings = settings_.render();
     const bool exact = settings_.quality().quality == "exact";
     if (!exact && !settings_.values().contains("shadow-budget")) settings.shadow_budget = shadow_budget_;
-    settings.obstacles = obstacles_;
+    settings.obstacles = obstacles_, settings.obstacle_pixels = obstacle_pixels_;
     return settings;
 }
 

@@ -93,6 +93,8 @@ public:
     /// recorded.
     void watch(std::vector<scene::Obstacle> obstacles) { obstacles_ = std::move(obstacles); }
     const std::vector<scene::Obstacle>& obstacles() const { return obstacles_; }
+    /// Whether frames have Frame::obstacle_pixels; at first not.
+    void find_obstacle_pixels(bool wanted) { obstacle_pixels_ = wanted; }
     /// What the camera of the settings sees in a picture of that size.
     gpu_scene::View view(VkExtent2D) const;
     /// Where everything stands now and how it is lit.
@@ -171,6 +173,7 @@ private:
     double eye_step_ = 0;
     uint64_t shadow_budget_ = render::kNoShadowBudget;
     std::vector<scene::Obstacle> obstacles_;
+    bool obstacle_pixels_ = false;
     std::shared_ptr<Cache> map_cache_;
     std::shared_ptr<const transport::Radiosity> radiosity_;
     std::shared_ptr<const transport::LampReflections> lamp_reflections_;  // made when first asked for

@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 #include "channel_window.h"
+#include "hatching.h"
 #include "obstacle_arguments.h"
 #include "picture_arguments.h"
 #include "print.h"
@@ -130,7 +131,7 @@ void WindowedDrive::open_session(const Drive& drive) {
     session_ = std::make_unique<Session>(*device_, start, std::move(scenery));
     if (arguments_.replay.empty()) session_->set_shadow_budget(kWindowShadowBudget);
     obstacles_ = apps::obstacles_of(session_->scenery().scene(), arguments_.obstacles, session_->settings().render());
-    session_->watch(obstacles_);
+    session_->watch(obstacles_), session_->find_obstacle_pixels(arguments_.hatches);
     if (channels_) session_->share_channels(ranks_.get(), arguments_.latency);
     watch_contacts();
     keep_maps();
@@ -384,6 +385,7 @@ void WindowedDrive::render(bool moved) {
     }
     rendered_ = extent, stale_ = false, ++frame_number_;
     instruments_.remember(*session_, frame_);
+    hatch_unseen(frame_, session_->settings().render(), arguments_.visible_from);
     if (log_) {
         try {
             if (!ranks_)
@@ -428,6 +430,7 @@ void WindowedDrive::present() {
                          .pixel = pixel,
                          .view_pixel = view_pixel,
                          .shown_per_second = pictures_per_second_,
+                         .visible_from = arguments_.visible_from,
                          .paused = paused_,
                          .recording = recording_,
                          .message = talks ? message_ : standing_message(),

@@ -61,6 +61,7 @@ private:
     void listen();
     void watch_contacts();
     bool watch_again(Session&) const;
+    void hatch(bool on);
     void keep_maps();
     void take_light();
     std::string standing_message() const;

@@ -129,6 +129,9 @@ void WindowedDrive::press(Action action) {
         case Action::Shadows:
             change("shadows", session_->settings().render().shadows ? "off" : "on");
             break;
+        case Action::HatchUnseen:
+            hatch(!arguments_.hatches);
+            break;
         case Action::Leave:
         case Action::Quit:
             window_.close();

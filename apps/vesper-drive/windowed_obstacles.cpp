@@ -14,11 +14,17 @@ bool WindowedDrive::watch_again(Session& session) const {
     try {
         std::vector<scene::Obstacle> found = apps::obstacles_of(session.scenery().scene(), arguments_.obstacles, {});
         if (!std::equal(found.begin(), found.end(), obstacles_.begin(), obstacles_.end(), same)) return false;
-        session.watch(std::move(found));
+        session.watch(std::move(found)), session.find_obstacle_pixels(arguments_.hatches);
     } catch (const Error&) {
         return false;
     }
     return true;
+}
+
+void WindowedDrive::hatch(bool on) {
+    if (obstacles_.empty()) return say("no obstacles are watched (--obstacle)");
+    arguments_.hatches = on, stale_ = true;
+    session_->find_obstacle_pixels(on);
 }
 
 }  // namespace vesper::drive

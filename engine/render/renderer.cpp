@@ -210,11 +210,15 @@ void Renderer::add_obstacles(const FrameContext& frame, const RenderSettings& se
     pending.view = frame.view;
     pending.obstacles = obstacles_in_view(settings.obstacles, poses, frame.view);
     const std::span<const std::byte> instances = frame.graph.resources()[light.surfaces.instances.index].contents;
+    pending.of_instances = obstacles_of_instances(settings.obstacles, scene_->resident, instances);
     const graph::Resource sums =
         add_targets(frame, {light.surfaces.triangle, light.luminance, chain.retina_light, chain.whole_retina},
-                    {obstacles_of_instances(settings.obstacles, scene_->resident, instances), pending.obstacles.rects});
+                    {pending.of_instances, pending.obstacles.rects});
     pending.targets =
         add_readback(frame.graph, "targets", sums, pending.obstacles.rects.size() * sizeof(shared::TargetSums));
+    const uint64_t pixels = uint64_t{frame.view.extent.width} * frame.view.extent.height;
+    pending.triangles = add_readback(frame.graph, "triangle", light.surfaces.triangle, pixels * sizeof(glm::uvec2),
+                                     settings.obstacle_pixels);
 }
 
 // Samples before the last. Lamps, maps and luminaires are those of the view itself, of which samples see other points.
@@ -318,6 +322,9 @@ std::optional<Frame> Renderer::finish() {
         measure(pending_->obstacles, sums, pending_->view);
         frame.obstacles = std::move(pending_->obstacles.seen);
     }
+    if (pending_->triangles)
+        frame.obstacle_pixels =
+            obstacles_of_pixels(frames_.executor().read_as<glm::uvec2>(pending_->triangles), pending_->of_instances);
     graph::add_times(frame.timings, pending_->earlier);
     return frame;
 }

@@ -54,6 +54,7 @@ struct RenderSettings : ToneChainSettings {
     bool lamps_alone =
         false;  ///< without ambient light, daylight, sky, retroreflection and light from outside the picture
     std::vector<scene::Obstacle> obstacles;  ///< of the scene, to be measured in the picture (Frame::obstacles)
+    bool obstacle_pixels = false;            ///< Frame::obstacle_pixels, too
 };
 
 /// With Operator::Ldr: the settings of the paper's baseline without any HDR. Otherwise the same settings.
@@ -72,8 +73,10 @@ struct Frame : ToneMapped {
         glare_sources;  ///< lamps before the eye, as if nothing stood between; none with Operator::Ldr
     std::vector<gpu_scene::OffscreenLamp>
         outside;  ///< light from beside the picture: of those, and of RenderSettings::offscreen_lamps
-    std::vector<SeenObstacle> obstacles;  ///< those of the settings; none with Operator::Ldr, Outputs::retina and
-                                          ///< Outputs::statistics
+    std::vector<SeenObstacle> obstacles;   ///< those of the settings; none with Operator::Ldr, Outputs::retina and
+                                           ///< Outputs::statistics
+    std::vector<uint8_t> obstacle_pixels;  ///< 1 + number of the obstacle that each pixel belongs to, 0: none; row by
+                                           ///< row, if the settings ask for them and there are obstacles
 };
 
 /// Renders one scene on one device. Not thread-safe; several renderers may share a device in one thread.
@@ -180,6 +183,8 @@ private:
         Frame frame;
         graph::Resource clusters, visibility;  // to be read
         graph::Resource targets;               // likewise; none without obstacles
+        graph::Resource triangles;             // likewise, if pixels of obstacles are wanted
+        std::vector<uint32_t> of_instances;    // see obstacles_of_instances()
         ObstaclesInView obstacles;
         gpu_scene::View view;
         std::vector<graph::Timing> earlier;  // of samples before the last

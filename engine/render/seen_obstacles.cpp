@@ -99,6 +99,16 @@ std::vector<uint32_t> obstacles_of_instances(const std::vector<scene::Obstacle>&
     return of_instances;
 }
 
+std::vector<uint8_t> obstacles_of_pixels(std::span<const glm::uvec2> triangles,
+                                         std::span<const uint32_t> of_instances) {
+    std::vector<uint8_t> pixels;
+    pixels.reserve(triangles.size());
+    for (const glm::uvec2& triangle : triangles)
+        pixels.push_back(triangle.x == 0 || triangle.x > of_instances.size() ? 0
+                                                                             : uint8_t(of_instances[triangle.x - 1]));
+    return pixels;
+}
+
 void measure(ObstaclesInView& all, std::span<const shared::TargetSums> sums, const gpu_scene::View& view) {
     const dvec2 pixel = glm::abs(dvec2(view.ray_scale()));
     for (size_t i = 0; i < sums.size() && i < all.seen.size(); ++i) {

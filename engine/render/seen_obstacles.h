@@ -47,6 +47,9 @@ ObstaclesInView obstacles_in_view(const std::vector<scene::Obstacle>&, const gpu
 std::vector<uint32_t> obstacles_of_instances(const std::vector<scene::Obstacle>&, const gpu_scene::GpuScene&,
                                              std::span<const std::byte> instances);
 
+/// The same of each pixel, by GBuffer::triangle.
+std::vector<uint8_t> obstacles_of_pixels(std::span<const glm::uvec2> triangles, std::span<const uint32_t> of_instances);
+
 /// Takes over what the device has measured.
 void measure(ObstaclesInView&, std::span<const shared::TargetSums> sums, const gpu_scene::View& view);
 

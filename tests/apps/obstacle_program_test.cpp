@@ -126,12 +126,25 @@ TEST_F(ObstacleDrive, WithoutLuminancesCellsAreEmpty) {
     expect_refused(replay + "--operator ldr", {"--obstacle", "ldr"});
 }
 
+TEST_F(ObstacleDrive, WhatIsNotSeenCanBeHatched) {
+    const auto film = [&](const std::string& options, const std::string& name) {
+        EXPECT_EQ(run(drive + "--seconds 0 --video " + name + "%d.png " + options), 0) << said;
+        return read_text(folder / (name + "0.png"));
+    };
+    const std::string plain = film("", "a");
+    EXPECT_EQ(film("--hatch-unseen", "b"), plain) << "it is seen";
+    EXPECT_EQ(film("--visible-from 900", "c"), plain) << "not without the option";
+    EXPECT_NE(film("--visible-from 900 --hatch-unseen", "d"), plain);
+    EXPECT_NE(film("--visible-from 900 --hatch-unseen --scale 0.5", "e"), film("--scale 0.5", "f"));
+}
+
 TEST_F(ObstacleDrive, RefusesWhatHasNoMeaning) {
     expect_refused(drive + "--obstacle dog", {"--obstacle dog"});
     expect_refused(drive + "--detection-plot p.jpg", {"--detection-plot p.jpg", ".png"});
     expect_refused(drive + "--visible-from 0", {"--visible-from"});
     expect_refused("a.gltf --headless --log l.csv --visible-from 3", {"--visible-from", "--obstacle"});
     expect_refused("a.gltf --headless --log l.csv --detection-plot p.png", {"--detection-plot", "--obstacle"});
+    expect_refused("a.gltf --headless --log l.csv --hatch-unseen", {"--hatch-unseen", "--obstacle"});
     expect_refused("a.gltf --headless --log l.csv --obstacle card --channels c.json", {"--obstacle", "--channels"});
     EXPECT_FALSE(exists("l.csv") || exists("p.png"));
 }

@@ -174,6 +174,27 @@ TEST_F(ObstaclesOfFrames, AVeilIsTheLightThatTheEyeScattersThere) {
     EXPECT_NEAR(*visible.level, vision::visibility_level(3 + seen.veil, 2 + seen.veil, {.size = 60}), 1e-3);
 }
 
+TEST_F(ObstaclesOfFrames, PixelsBelongToWhatTheirMiddleSees) {
+    Street street;
+    street.add("neighbour", 50, {1.5f, -2, -kAway + 0.1f}, {2, 0, 0}, {0, 4, 0});
+    render::RenderSettings settings;
+    settings.obstacle_pixels = true;
+    const render::Frame frame = look(street.scene, {"neighbour", "card"}, settings);
+    ASSERT_EQ(frame.obstacle_pixels.size(), size_t(kExtent.width) * kExtent.height);
+    const auto at = [&](glm::dvec2 m) {  // on the plane of the card
+        const glm::uvec2 px(glm::dvec2(kExtent.width, kExtent.height) / 2.0 +
+                            glm::dvec2(m.x, -m.y) / double(kAway) * (kExtent.height / 2.0 / std::tan(0.2)));
+        return int(frame.obstacle_pixels[px.y * kExtent.width + px.x]);
+    };
+    EXPECT_EQ(at({0, 0}), 1);
+    EXPECT_EQ(at({0.9, 1.4}), 1);
+    EXPECT_EQ(at({-1.2, 0}), 0);
+    EXPECT_EQ(at({2, 0}), 2);
+    EXPECT_EQ(at({1.25, 0}), 0) << "between them";
+    EXPECT_TRUE(look(street.scene, {"card"}).obstacle_pixels.empty());
+    EXPECT_TRUE(look(street.scene, {}, settings).obstacle_pixels.empty());
+}
+
 TEST_F(ObstaclesOfFrames, TheBaselineHasNoLuminances) {
     const Street street;
     render::RenderSettings ldr;

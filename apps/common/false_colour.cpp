@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "io/hdr_image.h"
+
 namespace vesper::apps {
 namespace {
 
@@ -71,6 +73,14 @@ ValuePicture resized(const ValuePicture& from, uint32_t width, uint32_t height) 
             to.values.push_back(static_cast<float>(sum / (double{1} * (x1 - x0) * (y1 - y0))));
         }
     return to;
+}
+
+void save_values(const std::string& file, const ValuePicture& picture, const std::string& meaning) {
+    io::HdrImage image{
+        .width = picture.width, .height = picture.height, .rgb = {}, .header = {{"vesper:unit", meaning}}};
+    image.rgb.reserve(3 * picture.values.size());
+    for (const float value : picture.values) image.rgb.insert(image.rgb.end(), 3, value);
+    io::write_exr(file, image);
 }
 
 std::vector<uint8_t> false_colours(const ValuePicture& picture, const ColourScale& scale) {

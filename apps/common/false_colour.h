@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "canvas.h"
+#include "io/image_file.h"
 
 namespace vesper::apps {
 
@@ -29,6 +30,9 @@ struct ValuePicture {
 /// Means of blocks where the picture is larger than the size wanted, repeated pixels where it is smaller; blocks with a
 /// value that is not finite are not finite.
 ValuePicture resized(const ValuePicture&, uint32_t width, uint32_t height);
+/// 32-bit OpenEXR of the values in R, G and B alike; `meaning` is its attribute vesper:unit. The file is replaced only
+/// when complete. Throws Error.
+void save_values(const std::string& file, const ValuePicture&, const std::string& meaning);
 
 /// RGBA: map_colour of each value; black for 0 and less, magenta for what is not finite.
 std::vector<uint8_t> false_colours(const ValuePicture&, const ColourScale&);

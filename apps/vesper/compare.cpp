@@ -109,18 +109,20 @@ void write_json(const CompareArguments& a, const Comparison& c) {
 
 void draw(const CompareArguments& a, const ComparedPicture& first, const Comparison& c) {
     const auto [width, height] = first.extent;
+    const apps::ValuePicture probability{width, height, c.seen.probability};
+    if (a.picture.ends_with(".exr")) return apps::save_values(a.picture, probability, "probability of detection");
     apps::ValuePicture luminance{width, height, {}};
     for (size_t i = 0; i < first.rgb.size(); i += 3)
         luminance.values.push_back(float(vesper::luminance({first.rgb[i], first.rgb[i + 1], first.rgb[i + 2]})));
     apps::ShareMap map(one_line(a.first, 60) + " and " + one_line(a.second, 60) + ": probability of detection",
-                       luminance, {width, height, c.seen.probability}, "detected");
+                       luminance, probability, "detected");
     if (c.seen.largest > 0) map.canvas().circle(map.at(c.seen.x, c.seen.y), 9, apps::CanvasColour(1), 1.5);
     map.canvas().save(a.picture);
 }
 
 void run(const CompareArguments& a) {
-    if (!a.picture.empty() && !a.picture.ends_with(".png"))
-        throw Error("-o " + one_line(a.picture) + ": a .png file is expected");
+    if (!a.picture.empty() && !a.picture.ends_with(".png") && !a.picture.ends_with(".exr"))
+        throw Error("-o " + one_line(a.picture) + ": a .png or .exr file is expected");
     const ComparedPicture first = read_compared(a.source, a.first), second = read_compared(a.source, a.second);
     io::announce_write("-o", a.picture);
     io::announce_write("--json", a.json);
@@ -146,7 +148,8 @@ void add_compare(apps::Command program) {
     command.add_option("first", a->first, "OpenEXR or Radiance picture in cd/m^2, or a PNG of display codes")
         .required();
     command.add_option("second", a->second, "The same, of the same size").required();
-    command.add_option("--output,-o", a->picture, "OUT.png: probability that a difference is detected, by pixel");
+    command.add_option("--output,-o", a->picture,
+                       "OUT.png or OUT.exr: probability that a difference is detected, by pixel");
     command.add_option("--json", a->json, "Write all figures to a JSON file");
     command
         .add_option("--fail-above", a->fail_above,

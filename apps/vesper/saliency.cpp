@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 #include "commands.h"
+#include "false_colour.h"
 #include "io/file_gate.h"
 #include "print.h"
 #include "render/tone_mapper.h"
@@ -90,7 +91,9 @@ void run(const SaliencyArguments& a) {
     const render::ToneChainSettings settings = apps::tone_settings(a.tone);
     if (settings.tone_operator == render::Operator::Ldr) throw Error("--operator ldr: it does not show luminance");
     io::announce_read(a.input);
-    if (!a.picture.ends_with(".png")) throw Error("-o " + one_line(a.picture) + ": a .png file is expected");
+    const bool values = a.picture.ends_with(".exr");
+    if (!values && !a.picture.ends_with(".png"))
+        throw Error("-o " + one_line(a.picture) + ": a .png or .exr file is expected");
     io::announce_write("-o", a.picture);
     io::announce_write("--json", a.json);
     gpu::Device device({.select = a.device});
@@ -119,7 +122,11 @@ void run(const SaliencyArguments& a) {
     const std::vector<float> light = vision::DisplayLight(settings.display).of_words(shown.display);
     found.display = mapper.map({picture.extent, light, 3, 1, picture.vertical_fov});
     compare(found, a);
-    save_saliency(a.picture, found);
+    if (values)
+        apps::save_values(a.picture, {found.scene.extent.width, found.scene.extent.height, found.scene.values},
+                          "saliency of squares of 16 x 16 px");
+    else
+        save_saliency(a.picture, found);
     if (!a.json.empty()) apps::write_text(a.json, json_of(found).dump(1) + "\n");
     print_findings(found);
 }
@@ -133,7 +140,10 @@ void add_saliency(apps::Command program) {
     a->source.angle_matters = true;
     command.add_option("picture", a->input, "An OpenEXR or Radiance picture, or a .gltf or .glb to render once")
         .required();
-    command.add_option("--output,-o", a->picture, "OUT.png: the map over the picture, with numbered places").required();
+    command
+        .add_option("--output,-o", a->picture,
+                    "OUT.png: the map over the picture, with numbered places; OUT.exr: its values")
+        .required();
     command.add_option("--json", a->json, "Write the places to a JSON file");
     command.add_option("--peaks", a->places, "How many places are looked for")
         .check(apps::range(1u, 100u))

@@ -1,4 +1,5 @@
 // `vesper compare` on pictures whose difference is known. SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -52,6 +53,23 @@ TEST_F(CompareTest, TellsWhatIsSeenFromWhatIsNot) {
     ASSERT_EQ(run("compare spot.exr spot.exr --json c.json"), 0) << said;
     EXPECT_EQ(figures()["largest_probability"], 0);
     EXPECT_TRUE(figures()["pu21_psnr_db"].is_null()) << "infinite";
+}
+
+TEST_F(CompareTest, WritesProbabilitiesByPixel) {
+    write("plain.exr", 0), write("spot.exr", 0.02);
+    ASSERT_EQ(run("compare plain.exr spot.exr --json c.json -o map.exr"), 0) << said;
+    const io::HdrImage map = io::read_exr(folder / "map.exr");
+    ASSERT_EQ(map.rgb.size(), size_t{3} * kWidth * kHeight);
+    const double largest = figures()["largest_probability"], half = figures()["share_above_0.5"];
+    EXPECT_GT(largest, 0.05);
+    EXPECT_LT(largest, 0.999);
+    EXPECT_EQ(*std::max_element(map.rgb.begin(), map.rgb.end()), float(largest));
+    const auto above = std::count_if(map.rgb.begin(), map.rgb.end(), [](float p) { return p > 0.5f; });
+    EXPECT_DOUBLE_EQ(double(above) / (3.0 * kWidth * kHeight), half);
+    const size_t middle = 3 * (size_t{kHeight / 2} * kWidth + kWidth / 2);
+    EXPECT_GT(map.rgb[middle], 0.5 * largest);
+    EXPECT_LT(map.rgb[0], 0.5 * largest) << "a corner";
+    EXPECT_EQ(map.white_luminance, 0) << "not luminance";
 }
 
 TEST_F(CompareTest, FailsForIntegration) {

@@ -1,4 +1,5 @@
 // `vesper saliency` as people run it. SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -52,6 +53,26 @@ TEST_F(SaliencyProgram, FindsTheBrightestPlaceFirst) {
     EXPECT_NE(printed.find("1 on the display"), std::string::npos) << printed;
     EXPECT_NE(printed.find("irawan: rank correlation"), std::string::npos) << printed;
     EXPECT_GT(io::decode_image(io::read_file(folder / "map.png", 1u << 28), 32768).width, 400u);
+}
+
+TEST_F(SaliencyProgram, WritesTheMapAsValues) {
+    io::HdrImage image = even(400, 300, 0.5f);
+    fill(image, 296, 72, 16, 200), fill(image, 88, 190, 16, 5);
+    write_layout(folder / "a.exr", image, {.white_luminance = 1});
+    ASSERT_EQ(run("saliency a.exr --fov 30 --peaks 2 --radius 4 -o map.exr --json found.json"), 0) << said;
+    const io::HdrImage map = io::read_exr(folder / "map.exr");
+    ASSERT_EQ(map.width, 25u);
+    ASSERT_EQ(map.height, 19u) << "300 px: the last row of squares is not full";
+    const auto greatest = size_t(std::max_element(map.rgb.begin(), map.rgb.end()) - map.rgb.begin()) / 3;
+    const nlohmann::json places = json("found.json")["places"];
+    ASSERT_EQ(places.size(), 2u);
+    const auto texel = [&](const nlohmann::json& place) {
+        return size_t(place["y_px"].get<double>() / 16) * 25 + size_t(place["x_px"].get<double>() / 16);
+    };
+    EXPECT_EQ(texel(places[0]), greatest);
+    EXPECT_NEAR(map.rgb[3 * texel(places[1])] / map.rgb[3 * greatest], places[1]["saliency"].get<double>(), 1e-6)
+        << "of the scene, not of the display";
+    EXPECT_EQ(map.white_luminance, 0) << "not luminance";
 }
 
 TEST_F(SaliencyProgram, SaysWhereNothingStandsOut) {

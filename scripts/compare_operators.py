@@ -10,7 +10,6 @@ import argparse
 import os
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import time
@@ -18,23 +17,13 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-import OpenEXR
 import pyradiance
 
-ROOT = Path(__file__).resolve().parent.parent
-HDR = ROOT.parent / "shared" / "data" / "hdr"
+from compared_pictures import HDR, ROOT, WEIGHTS, cleaned, read_exr, run, write_exr
+
 PICTURES = [HDR / "polyhaven/potsdamer_platz_1k.hdr", HDR / "polyhaven/pedestrian_overpass_1k.hdr", HDR / "polyhaven/dikhololo_night_1k.hdr",
             HDR / "openexr-images/ScanLines/Desk.exr", HDR / "openexr-images/ScanLines/CandleGlass.exr", HDR / "openexr-tests/comp_zip.exr"]
-WEIGHTS = np.array([0.212639, 0.715169, 0.072192])
 LOW_BLACK = ["--display-ambient", "0", "--display-peak", "1", "--display-black", "1e-6"]
-
-
-def run(command, **more):
-    """Runs a program; what it says on an error ends this one."""
-    done = subprocess.run([str(word) for word in command], capture_output=True, **more)
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}: {done.stderr.decode(errors='replace').strip()}")
-    return done.stdout
 
 
 def pipe(*commands):
@@ -42,22 +31,6 @@ def pipe(*commands):
     for command in commands:
         data = run(command, input=data)
     return data
-
-
-def read_exr(file):
-    channels = OpenEXR.File(str(file), separate_channels=True).channels()
-    return np.stack([channels[c].pixels.astype(np.float64) for c in "RGB"], axis=-1)
-
-
-def write_exr(file, rgb):
-    channels = {c: np.ascontiguousarray(rgb[..., i], dtype=np.float32) for i, c in enumerate("RGB")}
-    OpenEXR.File({"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}, channels).write(str(file))
-
-
-def read_picture(file):
-    if file.suffix == ".exr":
-        return read_exr(file)
-    return cv2.imread(str(file), cv2.IMREAD_ANYDEPTH | cv2.IMREAD_COLOR)[..., ::-1].astype(np.float64)
 
 
 class Comparison:
@@ -93,10 +66,6 @@ class Comparison:
         made = self.folder / "pfs.exr"
         pipe(["pfsinexr", source], list(operator), ["pfsoutexr", "--float32", "--compression", "ZIP", made])
         return read_exr(made)
-
-
-def cleaned(picture):
-    return np.maximum(np.nan_to_num(read_picture(picture), nan=0, posinf=0, neginf=0), 0)
 
 
 def bright_copy(comparison, picture):

@@ -25,11 +25,6 @@ void say(VesperError* error, const char* message) {
     }
 }
 
-template <class T>
-void give(const std::vector<T>& values, T* to) {
-    if (to) std::copy(values.begin(), values.end(), to);
-}
-
 /// Goes before what an eye remembers: what kind of bytes these are, and a sum over them.
 constexpr uint32_t kEyeBytes = 0x32455956;  // "VYE2"
 struct KeptEye {

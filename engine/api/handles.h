@@ -99,6 +99,12 @@ void give_known(T made, T* to) {
     std::memcpy(to, &made, made.size);
 }
 
+/// Copies values to where a caller wants them; null: nowhere.
+template <class T>
+void give(const std::vector<T>& values, T* to) {
+    if (to) std::copy(values.begin(), values.end(), to);
+}
+
 inline bool within(float value, float low, float high) { return value >= low && value <= high; }
 template <size_t n>
 bool finite(const float (&values)[n]) {
@@ -117,6 +123,8 @@ glm::mat4 place_of(const float* node_to_world);
 VkExtent2D extent_of(uint32_t width, uint32_t height);
 /// The edges of a picture that has any.
 std::optional<vision::ImageAngles> angles_of(const float (&edges)[4], VkExtent2D extent);
+/// A picture of the caller's in an array, checked. `angles` holds those of its edges, which the result refers to.
+render::HostPicture picture_of(const VesperPicture* given, std::optional<vision::ImageAngles>& angles);
 float seconds_of(float seconds);
 render::RenderSettings settings_of(const VesperToneSettings* given,
                                    scene::DisplayFinder& displays);  ///< null: the defaults

@@ -11,6 +11,20 @@ void check_picture(float scale, float vertical_fov, bool edges) {
 
 }  // namespace
 
+render::HostPicture picture_of(const VesperPicture* given, std::optional<vision::ImageAngles>& angles) {
+    const VesperPicture p = known(given, "a picture without its size");
+    const VkExtent2D extent = extent_of(p.width, p.height);
+    require(p.values && (p.channels == 3 || p.channels == 4), "a picture has values, of 3 or 4 channels");
+    angles = angles_of(p.edges, extent);
+    check_picture(p.scale, p.vertical_fov, angles.has_value());
+    return {.extent = extent,
+            .values = {p.values, size_t{p.width} * p.height * p.channels},
+            .channels = p.channels,
+            .scale = p.scale,
+            .vertical_fov = double(p.vertical_fov),
+            .angles = angles ? &*angles : nullptr};
+}
+
 extern "C" {
 
 VesperResult vesper_tone_mapper_create(VesperDevice* device, VesperToneMapper** mapper, VesperError* error) {
@@ -25,18 +39,9 @@ VesperResult vesper_tone_map(VesperToneMapper* mapper, const VesperToneSettings*
                              float seconds, const VesperOutputs* outputs, VesperError* error) {
     return guarded(error, [&] {
         require(mapper, VesperToneMapper::kNone);
-        const VesperPicture p = known(picture, "a picture without its size");
         const VesperOutputs to = outputs_of(outputs);
-        const VkExtent2D extent = extent_of(p.width, p.height);
-        require(p.values && (p.channels == 3 || p.channels == 4), "a picture has values, of 3 or 4 channels");
-        const auto angles = angles_of(p.edges, extent);
-        check_picture(p.scale, p.vertical_fov, angles.has_value());
-        const render::HostPicture host{.extent = extent,
-                                       .values = {p.values, size_t{p.width} * p.height * p.channels},
-                                       .channels = p.channels,
-                                       .scale = p.scale,
-                                       .vertical_fov = double(p.vertical_fov),
-                                       .angles = angles ? &*angles : nullptr};
+        std::optional<vision::ImageAngles> angles;
+        const render::HostPicture host = picture_of(picture, angles);
         const render::RenderSettings how = settings_of(settings, mapper->displays);
         const float passed = seconds_of(seconds);
         finish(*mapper);  // what it left stays should this picture fail

@@ -1,5 +1,5 @@
 /** @file
- * C++17 for vesper.h: owners of handles, and exceptions for results. SPDX-License-Identifier: MIT
+ * C++17 for vesper.h and vision.h: owners of handles, and exceptions for results. SPDX-License-Identifier: MIT
  */
 #ifndef VESPER_VESPER_HPP
 #define VESPER_VESPER_HPP
@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <vesper/vesper.h>
+#include <vesper/vision.h>
 
 /** The C interface with owners and exceptions. */
 namespace vesper::cpp {
@@ -36,6 +37,7 @@ using ToneMapper =
     std::unique_ptr<VesperToneMapper, Destroyer<vesper_tone_mapper_destroy>>;         /**< owner of a tone mapper */
 using Scene = std::unique_ptr<VesperScene, Destroyer<vesper_scene_destroy>>;          /**< owner of a scene */
 using Renderer = std::unique_ptr<VesperRenderer, Destroyer<vesper_renderer_destroy>>; /**< owner of a renderer */
+using Vision = std::unique_ptr<VesperVision, Destroyer<vesper_vision_destroy>>;       /**< owner of a vision */
 
 /** Calls a function of vesper.h, without its last argument (the error). Throws Failure. Example:
  *     call(vesper_render, renderer.get(), &settings, &view, seconds, &outputs); */

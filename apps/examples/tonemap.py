@@ -43,6 +43,16 @@ class Outputs(Sized):
                 ("display_light", c.POINTER(c.c_float)), ("report", c.c_void_p)]
 
 
+def picture_of(luminance, vertical_fov):
+    """`luminance`: height x width x 3, cd/m^2; `vertical_fov`: angle of its height, rad."""
+    values = np.ascontiguousarray(luminance, np.float32)
+    height, width, channels = values.shape
+    picture = Picture(width=width, height=height, channels=channels, values=values.ctypes.data_as(c.POINTER(c.c_float)), scale=1.0,
+                      vertical_fov=vertical_fov)
+    picture.array = values  # kept as long as the picture
+    return picture
+
+
 class ToneMapper:
     """Maps pictures, each for itself or one after the other with an eye that adapts from each to the next."""
 
@@ -72,12 +82,8 @@ class ToneMapper:
     def __exit__(self, *_):
         self.close()
 
-    def map(self, luminance, operator="irawan", seconds=None, vertical_fov=0.7, **settings):
-        """`luminance`: height x width x 3, cd/m^2. `seconds` since the picture before, which the eye still sees; None: it has seen none.
-        Returns height x width x 4 codes."""
-        values = np.ascontiguousarray(luminance, np.float32)
-        height, width, channels = values.shape
-        codes = np.empty((height, width, 4), np.uint8)
+    def settings(self, operator="irawan", **settings):
+        """The defaults, but for these."""
         tone = ToneSettings()
         self.calls.vesper_tone_settings_defaults(c.byref(tone), c.c_size_t(c.sizeof(tone)))
         tone.tone_operator = OPERATORS.index(operator)
@@ -85,10 +91,16 @@ class ToneMapper:
             if not hasattr(tone, name):
                 raise TypeError("there is no setting " + name)
             setattr(tone, name, value)
+        return tone
+
+    def map(self, luminance, operator="irawan", seconds=None, vertical_fov=0.7, **settings):
+        """`luminance`: height x width x 3, cd/m^2. `seconds` since the picture before, which the eye still sees; None: it has seen none.
+        Returns height x width x 4 codes."""
+        picture = picture_of(luminance, vertical_fov)
+        codes = np.empty((picture.height, picture.width, 4), np.uint8)
+        tone = self.settings(operator, **settings)
         if seconds is None:
             self.check(self.calls.vesper_tone_mapper_reset, self.mapper)
-        picture = Picture(width=width, height=height, channels=channels, values=values.ctypes.data_as(c.POINTER(c.c_float)), scale=1.0,
-                          vertical_fov=vertical_fov)
         outputs = Outputs(codes=codes.ctypes.data_as(c.POINTER(c.c_uint8)))
         self.check(self.calls.vesper_tone_map, self.mapper, c.byref(tone), c.byref(picture), c.c_float(seconds or 0), c.byref(outputs))
         return codes

@@ -166,6 +166,37 @@ try:
 except RuntimeError as error:
     assert "no tone mapper" in str(error), error
 PYTHON
+        "$python" examples/night_figures.py night.svg
+        "$python" - <<'PYTHON'
+import csv
+import xml.etree.ElementTree as xml
+with open("night.csv", newline="") as file:
+    rows = list(csv.DictReader(file))
+assert len(rows) == 21 and len(rows[0]) == 8, rows[0]
+# Adrian 1989 at 1 cd/m2, for 10', 0.2 s, 23 years: a threshold of 0.0807713 cd/m2.
+assert abs(float(rows[10]["background_cd_m2"]) - 1) < 1e-5 and abs(float(rows[10]["scene"]) * 0.0807713 - 0.5) < 1e-4, rows[10]
+assert len(xml.parse("night.svg").getroot().findall(".//{*}polyline")) == 7
+PYTHON
+        PYTHONPATH=examples "$python" - <<'PYTHON'
+import numpy as np
+from night_figures import Observer, Vision
+plain = np.ones((64, 48, 3))
+spot = plain.copy()
+spot[20:26, 30:36] = 3
+with Vision() as vision:
+    probability, found = vision.compare(plain, spot, 0.03)
+    assert probability.shape == (64, 48) and found.largest == probability.max() > 0.9 and abs(found.x - 33) < 5 > abs(found.y - 23)
+    aged, _ = vision.compare(plain, plain * 1.001, 0.03, Observer(age=80, pigmentation=1))
+    assert aged.max() < 0.1
+    assert vision.fidelity(spot, spot, 0.03)["lost"].max() == 0
+    assert vision.saliency(spot).shape == (4, 3)
+    assert np.allclose(vision.visibility_level(1 + 2 * 0.0807713, np.ones((2, 1))), [[2], [2]], atol=1e-4)
+    try:
+        vision.visibility_level(np.nan, 1)
+        raise SystemExit("the level of no luminance")
+    except RuntimeError as error:
+        assert "luminances are" in str(error), error
+PYTHON
         exit 0
     fi
 done

@@ -98,6 +98,22 @@ std::vector<uint8_t> false_colours(const ValuePicture& picture, const ColourScal
     return rgba;
 }
 
+std::vector<uint8_t> tinted(const ValuePicture& picture, const std::function<Tint(size_t)>& tint_of) {
+    constexpr double kGrey = 0.6;  // of the brightest pixels
+    const ColourScale scale = scale_of(picture.values);
+    std::vector<uint8_t> rgba;
+    rgba.reserve(picture.values.size() * 4);
+    for (size_t i = 0; i < picture.values.size(); ++i) {
+        const double value = double(picture.values[i]);
+        const CanvasColour grey(std::isfinite(value) ? kGrey * scale.position(value) : 0);
+        const Tint tint = tint_of(i);
+        const CanvasColour c = glm::mix(grey, tint.colour, tint.strength);
+        for (int k = 0; k < 3; ++k) rgba.push_back(static_cast<uint8_t>(c[k] * 255 + 0.5));
+        rgba.push_back(255);
+    }
+    return rgba;
+}
+
 void draw_contours(Canvas& canvas, const ValuePicture& picture, std::span<const double> levels, glm::dvec2 corner) {
     const auto value = [&](uint32_t x, uint32_t y) {
         return static_cast<double>(picture.values[size_t{y} * picture.width + x]);

@@ -1,6 +1,7 @@
 // Luminance as colours, with the scale beside it. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,6 +37,15 @@ void save_values(const std::string& file, const ValuePicture&, const std::string
 
 /// RGBA: map_colour of each value; black for 0 and less, magenta for what is not finite.
 std::vector<uint8_t> false_colours(const ValuePicture&, const ColourScale&);
+
+/// RGBA of a picture in dim greys, by the logarithm of its values, with a colour over each pixel of a strength from 0
+/// to
+/// 1. Values that are not finite are black.
+struct Tint {
+    CanvasColour colour;
+    double strength = 0;
+};
+std::vector<uint8_t> tinted(const ValuePicture&, const std::function<Tint(size_t pixel)>&);
 
 /// Where the picture goes through any of the levels, white, over a picture at a corner; not along the edges of black.
 void draw_contours(Canvas&, const ValuePicture&, std::span<const double> levels, glm::dvec2 corner);

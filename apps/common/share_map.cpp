@@ -8,7 +8,6 @@ namespace {
 
 constexpr uint32_t kLongest = 1280, kLeast = 320;  // px, of the picture on the canvas
 constexpr double kTitle = 40, kEdge = 16, kBar = 24;
-constexpr double kGrey = 0.7;  // of the brightest pixels below the colours
 
 glm::uvec2 shown_size(uint32_t width, uint32_t height) {
     const double longest = std::max(width, height);
@@ -16,18 +15,9 @@ glm::uvec2 shown_size(uint32_t width, uint32_t height) {
     return {std::max(1u, uint32_t(width * zoom)), std::max(1u, uint32_t(height * zoom))};
 }
 
-std::vector<uint8_t> blended(const ValuePicture& luminance, const ValuePicture& shares) {
-    const ColourScale scale = scale_of(luminance.values);
-    std::vector<uint8_t> rgba;
-    rgba.reserve(4 * shares.values.size());
-    for (size_t i = 0; i < shares.values.size(); ++i) {
-        const double share = std::clamp(double(shares.values[i]), 0.0, 1.0);
-        const CanvasColour grey(kGrey * scale.position(double(luminance.values[i])));
-        const CanvasColour colour = glm::mix(grey, map_colour(share), share);
-        for (int c = 0; c < 3; ++c) rgba.push_back(uint8_t(colour[c] * 255 + 0.5));
-        rgba.push_back(255);
-    }
-    return rgba;
+Tint tint_of(double share) {
+    share = std::clamp(share, 0.0, 1.0);
+    return {map_colour(share), share};
 }
 
 }  // namespace
@@ -40,14 +30,16 @@ ShareMap::ShareMap(const std::string& title, const ValuePicture& luminance, cons
               uint32_t(std::max(zoom_.y * shares.height, 160.0) + kTitle + kEdge)) {
     const glm::uvec2 size = shown_size(shares.width, shares.height);
     canvas_.text({kEdge, kTitle / 2}, title, 14);
-    canvas_.pixels(int(corner_.x), int(corner_.y), size.x, size.y,
-                   blended(resized(luminance, size.x, size.y), resized(shares, size.x, size.y)));
+    const ValuePicture shown = resized(shares, size.x, size.y);
+    canvas_.pixels(
+        int(corner_.x), int(corner_.y), size.x, size.y,
+        tinted(resized(luminance, size.x, size.y), [&](size_t i) { return tint_of(double(shown.values[i])); }));
     const glm::dvec2 bar = corner_ + glm::dvec2(size.x + 16, 26);
     const double height = std::clamp(double(size.y) - 40, 100.0, 400.0);
     canvas_.text(bar - glm::dvec2(0, 18), unit, 13);
     for (double y = 0; y < height; ++y) {
         const double share = 1 - y / height;
-        canvas_.fill(bar + glm::dvec2(0, y), {kBar, 1.5}, glm::mix(CanvasColour(kGrey / 2), map_colour(share), share));
+        canvas_.fill(bar + glm::dvec2(0, y), {kBar, 1.5}, glm::mix(CanvasColour(0.3), map_colour(share), share));
     }
     canvas_.rectangle(bar, {kBar, height}, CanvasColour(0));
     for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {

@@ -1,27 +1,29 @@
 #include "compared_picture.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "base/angle.h"
 #include "base/error.h"
+#include "base/limits.h"
+#include "base/luminance.h"
 #include "base/one_line.h"
 #include "io/file_gate.h"
 #include "io/hdr_image.h"
 #include "io/read_file.h"
 #include "print.h"
 #include "vision/display_light.h"
+#include "vision/visual_channels.h"
 
 namespace vesper::commands {
 namespace {
 
 constexpr uint64_t kMostBytes = uint64_t{1} << 30, kSignatureBytes = 16;  // of a PNG
+const io::HdrLimits kLimits{.max_pixels = scaled_limit(vision::kMostChannelPixels)};
 
 ComparedPicture codes(const CompareSource& source, const std::string& file) {
     const vision::Display display = apps::display_of(source.display);
-    const io::HdrLimits limits;
     const io::WideImage image =
-        io::decode_wide_png(io::read_file(file, kMostBytes), limits.max_side, limits.max_pixels);
+        io::decode_wide_png(io::read_file(file, kMostBytes), kLimits.max_side, kLimits.max_pixels);
     return {{image.width, image.height},
             vision::DisplayLight(display).of_wide(image.rgba),
             source.fov,
@@ -29,9 +31,9 @@ ComparedPicture codes(const CompareSource& source, const std::string& file) {
 }
 
 ComparedPicture luminances(const CompareSource& source, const std::string& file) {
-    io::HdrImage image = io::read_hdr_image(file, {}, source.layer);
+    io::HdrImage image = io::read_hdr_image(file, kLimits, source.layer);
     const apps::PictureMeaning meaning = apps::meaning_of(image, {.scale = source.scale, .fov = source.fov});
-    if (meaning.scale_source != "option" && meaning.scale_source != "header")
+    if (meaning.scale_source != "option" && !(image.white_luminance > 0))
         throw Error(one_line(file) + ": its header names no unit: --scale N says how many cd/m^2 its 1.0 is");
     for (const std::string& note : meaning.notes) apps::print_note(one_line(file) + ": " + note);
     for (float& value : image.rgb) value *= float(meaning.scale);
@@ -53,11 +55,17 @@ ComparedPicture read_compared(const CompareSource& source, const std::string& fi
         const std::string message = error.what();  // of a decoder, without the file's name
         throw Error(message.find(one_line(file)) == std::string::npos ? one_line(file) + ": " + message : message);
     }
-    const auto damaged =
-        std::count_if(picture.rgb.begin(), picture.rgb.end(), [](float v) { return !std::isfinite(v); });
+    uint64_t damaged = 0, bright = 0;  // pixels
+    for (size_t i = 0; i < picture.rgb.size(); i += 3) {
+        const double l = luminance({picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]});
+        damaged += !std::isfinite(l), bright += std::isfinite(l) && l > vision::JndScale::kMost;
+    }
     if (damaged > 0)
-        apps::print_note(one_line(file) + ": " + std::to_string(damaged) +
-                         " values are not finite: their pixels are compared as black");
+        apps::print_note(one_line(file) + ": " + std::to_string(damaged) + " pixels are not finite: compared as black");
+    if (bright > 0)
+        apps::print_note(one_line(file) + ": " + std::to_string(bright) +
+                         apps::format(" pixels have more than %g cd/m^2, of which no eye sees differences",
+                                      vision::JndScale::kMost));
     return picture;
 }
 

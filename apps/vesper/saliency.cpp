@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "arguments.h"
+#include "base/angle.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "commands.h"
@@ -20,12 +20,11 @@
 namespace vesper::commands {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 struct SaliencyArguments {
     std::string input, picture, json, device;
     unsigned threads = 0, places = 10;
     double radius = 2;  // degrees
+    bool statistics = false;
     PictureSource source;
     apps::ToneArguments tone;
 };
@@ -33,7 +32,7 @@ struct SaliencyArguments {
 std::vector<vision::Fixation> places_of(const render::SaliencyMap& map, const SaliencyFindings& found,
                                         const SaliencyArguments& a) {
     return vision::fixations({map.extent.width, map.extent.height, map.texel, map.values}, found.angles,
-                             a.radius * kDegree, a.places);
+                             a.radius * kRadiansPerDegree, a.places);
 }
 
 /// Luminances of the texel about a place.
@@ -55,12 +54,13 @@ void compare(SaliencyFindings& found, const SaliencyArguments& a) {
     found.display_places = display.size();
     for (const vision::Fixation& fixation : scene) {
         SalientPlace place{.pixels = fixation.pixels,
-                           .degrees = glm::atan(found.angles.at(fixation.pixels)) / kDegree,
+                           .degrees = glm::atan(found.angles.at(fixation.pixels)) / kRadiansPerDegree,
                            .saliency = fixation.value / scene.front().value,
                            .on_display = {}};
         measure(place, *found.picture, found.scene.texel);
         const auto same = std::ranges::find_if(display, [&](const vision::Fixation& other) {
-            return vision::angle_between(found.angles, fixation.pixels, other.pixels) <= found.radius * kDegree;
+            return vision::angle_between(found.angles, fixation.pixels, other.pixels) <=
+                   found.radius * kRadiansPerDegree;
         });
         if (same != display.end()) place.on_display = size_t(same - display.begin()) + 1;
         found.places.push_back(place);
@@ -116,7 +116,7 @@ void run(const SaliencyArguments& a) {
     }
     if (found.scene.pairs < 6)
         apps::print_note(apps::format("%s: only %u of 6 pairs of levels can be compared in less than 256 px on a side",
-                                      a.input.c_str(), found.scene.pairs));
+                                      one_line(a.input).c_str(), found.scene.pairs));
     render::ToneMapper tone(device);
     const render::ToneMapped shown = tone.map(settings, picture.host(), 0);
     const std::vector<float> light = vision::DisplayLight(settings.display).of_words(shown.display);
@@ -129,6 +129,11 @@ void run(const SaliencyArguments& a) {
         save_saliency(a.picture, found);
     if (!a.json.empty()) apps::write_text(a.json, json_of(found).dump(1) + "\n");
     print_findings(found);
+    if (!a.statistics) return;
+    double milliseconds = 0;  // of the second map: before the first, the device compiles
+    for (const graph::Timing& timing : found.display.timings)
+        if (timing.pass.starts_with("saliency ")) milliseconds += timing.milliseconds;
+    apps::print("saliency: %.1f ms on %s\n", milliseconds, device.name().c_str());
 }
 
 }  // namespace
@@ -151,6 +156,7 @@ void add_saliency(apps::Command program) {
     command.add_option("--radius", a->radius, "About a place, in which no other is looked for, degrees")
         .check(apps::between(0.1, 20.0))
         .shows_default();
+    command.add_flag("--stats", a->statistics, "Print milliseconds of the passes");
     command.add_option("--device", a->device,
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     add_source_options(command, a->source);

@@ -1,8 +1,8 @@
 // Findings of saliency as a picture and as JSON. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "base/angle.h"
 #include "false_colour.h"
 #include "print.h"
 #include "saliency.h"
@@ -26,25 +26,14 @@ double map_at(const render::SaliencyMap& map, glm::dvec2 pixels) {
 std::vector<uint8_t> heat(const SaliencyFindings& found, uint32_t width, uint32_t height) {
     const StudyPicture& picture = *found.picture;
     apps::ValuePicture full{picture.extent.width, picture.extent.height, {}};
-    for (size_t i = 0; i < size_t{full.width} * full.height; ++i) {
-        const double l = picture.luminance(i);
-        full.values.push_back(std::isfinite(l) ? float(l) : 0.0f);
-    }
-    const apps::ColourScale greys = apps::scale_of(full.values);
-    const apps::ValuePicture shown = apps::resized(full, width, height);
+    for (size_t i = 0; i < size_t{full.width} * full.height; ++i) full.values.push_back(float(picture.luminance(i)));
     const double most = *std::ranges::max_element(found.scene.values);
-    std::vector<uint8_t> rgba;
-    for (uint32_t y = 0; y < height; ++y)
-        for (uint32_t x = 0; x < width; ++x) {
-            const glm::dvec2 pixels =
-                (glm::dvec2(x, y) + 0.5) * glm::dvec2(full.width, full.height) / glm::dvec2(width, height);
-            const double share = most > 0 ? map_at(found.scene, pixels) / most : 0, place = kShares.position(share);
-            const glm::dvec3 grey(0.6 * greys.position(double(shown.values[size_t{y} * width + x])));
-            const glm::dvec3 colour = glm::mix(grey, apps::map_colour(place), 0.75 * place);
-            for (int c = 0; c < 3; ++c) rgba.push_back(uint8_t(colour[c] * 255 + 0.5));
-            rgba.push_back(255);
-        }
-    return rgba;
+    return apps::tinted(apps::resized(full, width, height), [&](size_t i) -> apps::Tint {
+        const glm::dvec2 at = glm::dvec2(double(i % width), double(i / width)) + 0.5,
+                         pixels = at * glm::dvec2(full.width, full.height) / glm::dvec2(width, height);
+        const double place = kShares.position(most > 0 ? map_at(found.scene, pixels) / most : 0);
+        return {apps::map_colour(place), 0.75 * place};
+    });
 }
 
 }  // namespace
@@ -69,9 +58,8 @@ void save_saliency(const std::string& file, const SaliencyFindings& found) {
     canvas.pixels(16, 64, width, height, heat(found, width, height));
     for (size_t i = 0; i < found.places.size(); ++i) {
         const SalientPlace& place = found.places[i];
-        const double degree =
-            std::numbers::pi / 180 /
-            vision::angle_between(found.angles, place.pixels - 0.5, place.pixels + glm::dvec2(0.5, -0.5));
+        const double degree = kRadiansPerDegree / vision::angle_between(found.angles, place.pixels - 0.5,
+                                                                        place.pixels + glm::dvec2(0.5, -0.5));
         const glm::dvec2 at = corner + place.pixels * zoom;
         const apps::CanvasColour colour = place.on_display ? apps::CanvasColour(1) : apps::CanvasColour(1, 0.35, 0.3);
         canvas.circle(at, found.radius * degree * zoom, colour, 1.5);
@@ -82,9 +70,6 @@ void save_saliency(const std::string& file, const SaliencyFindings& found) {
 }
 
 nlohmann::ordered_json json_of(const SaliencyFindings& found) {
-    double milliseconds = 0;  // of the second map: before the first, the device compiles
-    for (const graph::Timing& timing : found.display.timings)
-        if (timing.pass.starts_with("saliency ")) milliseconds += timing.milliseconds;
     nlohmann::ordered_json places = nlohmann::ordered_json::array();
     for (const SalientPlace& p : found.places) {
         places.push_back({{"x_px", p.pixels.x},
@@ -96,15 +81,10 @@ nlohmann::ordered_json json_of(const SaliencyFindings& found) {
                           {"saliency", p.saliency}});
         places.back()["on_display"] = p.on_display ? nlohmann::ordered_json(*p.on_display) : nlohmann::ordered_json();
     }
-    nlohmann::ordered_json made{{"width", found.picture->extent.width},
-                                {"height", found.picture->extent.height},
-                                {"texel_px", found.scene.texel},
-                                {"pairs_of_levels", found.scene.pairs},
-                                {"milliseconds", milliseconds},
-                                {"radius_deg", found.radius},
-                                {"places", places},
-                                {"operator", found.tone_operator},
-                                {"places_on_display", found.display_places}};
+    nlohmann::ordered_json made{{"width", found.picture->extent.width}, {"height", found.picture->extent.height},
+                                {"texel_px", found.scene.texel},        {"pairs_of_levels", found.scene.pairs},
+                                {"radius_deg", found.radius},           {"places", places},
+                                {"operator", found.tone_operator},      {"places_on_display", found.display_places}};
     made["rank_correlation"] =
         found.rank_correlation ? nlohmann::ordered_json(*found.rank_correlation) : nlohmann::ordered_json();
     return made;

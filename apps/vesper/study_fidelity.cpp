@@ -4,6 +4,7 @@
 
 #include "arguments.h"
 #include "base/error.h"
+#include "base/one_line.h"
 #include "false_colour.h"
 #include "print.h"
 #include "render/retina.h"
@@ -78,27 +79,22 @@ std::string name_of_file(const StudyPicture& picture, const std::string& display
 void save_map(const std::string& file, const StudyPicture& picture, const SeenScene& scene,
               const vision::ContrastFidelity& found) {
     constexpr uint32_t kWidest = 840;
-    constexpr double kGrey = 0.5;
-    const auto [full_width, full_height] = picture.extent;
-    const double zoom = std::min(1.0, double(kWidest) / full_width);
-    const uint32_t width = std::max(1u, uint32_t(full_width * zoom)),
-                   height = std::max(1u, uint32_t(full_height * zoom));
+    const VkExtent2D full = picture.extent;
+    const double zoom = std::min(1.0, double(kWidest) / full.width);
+    const uint32_t width = std::max(1u, uint32_t(full.width * zoom)),
+                   height = std::max(1u, uint32_t(full.height * zoom));
     const auto small = [&](const std::vector<float>& values) {
-        return apps::resized({full_width, full_height, values}, width, height).values;
+        return apps::resized({full.width, full.height, values}, width, height);
     };
-    const apps::ColourScale scale = apps::scale_of(scene.retina);
-    const std::vector<float> grey = small(scene.retina), lost = small(found.lost), invented = small(found.invented),
+    const apps::ValuePicture lost = small(found.lost), invented = small(found.invented),
                              amplified = small(found.amplified);
-    std::vector<uint8_t> rgba;
-    for (size_t i = 0; i < grey.size(); ++i) {
+    const std::vector<uint8_t> rgba = apps::tinted(small(scene.retina), [&](size_t i) -> apps::Tint {
+        const double l = double(lost.values[i]), v = double(invented.values[i]), a = double(amplified.values[i]),
+                     sum = l + v + a;
+        if (!(sum > 0)) return {};
         // One octave of six is seen as a colour, too.
-        const double l = double(lost[i]), v = double(invented[i]), a = double(amplified[i]), sum = l + v + a;
-        const double strength = std::sqrt(std::min(1.0, sum));
-        apps::CanvasColour colour(kGrey * scale.position(double(grey[i])));
-        if (sum > 0) colour = glm::mix(colour, (l * kLost + v * kInvented + a * kAmplified) / sum, strength);
-        for (int c = 0; c < 3; ++c) rgba.push_back(uint8_t(colour[c] * 255 + 0.5));
-        rgba.push_back(255);
-    }
+        return {(l * kLost + v * kInvented + a * kAmplified) / sum, std::sqrt(std::min(1.0, sum))};
+    });
     apps::Canvas canvas(std::max(width, 320u), height + 24);
     canvas.pixels(0, 0, width, height, rgba);
     double x = 4;
@@ -119,6 +115,12 @@ void study_fidelity(Study& study) {
         if (op.tone_operator != render::Operator::Ldr) all.push_back(op.tone_operator);
     const std::vector<render::Operator> ops = studied_operators(study.arguments, all, "it does not show luminance");
     const std::vector<NamedScreen> screens = screens_of(study);
+    if (study.settings.glare != render::Glare::None)
+        throw Error("--glare: light is scattered in the eye of the driver and in that of the display's observer");
+    for (const StudyPicture& picture : study.pictures)
+        if (!picture.is_absolute)
+            throw Error(one_line(picture.name) +
+                        ": its unit and its angle are needed: --scale N, cd/m^2 of its 1.0, and --fov DEGREES");
     render::SaliencyMapper saliency(study.device);
     const Eye eye(study, saliency);
     const vision::ContrastEye contrast_eye{.optics = false, .age = study.settings.scatter.eye.age};

@@ -48,7 +48,8 @@ StudyPicture loaded(const PictureSource& arguments, const std::string& input) {
             .values = std::move(image.rgb),
             .channels = 3,
             .scale = float(meaning.scale),
-            .vertical_fov = meaning.fov * std::numbers::pi / 180};
+            .vertical_fov = meaning.fov * std::numbers::pi / 180,
+            .is_absolute = meaning.fov_known && (meaning.scale_source == "option" || image.white_luminance > 0)};
 }
 
 /// Looks for the darkest and the brightest light.

@@ -19,6 +19,7 @@ struct StudyPicture {
     uint32_t channels = 3;              ///< 3, or 4 with alpha that is ignored
     float scale = 1;                    ///< cd/m^2 per unit
     double vertical_fov = 0.7;          ///< rad
+    bool is_absolute = true;            ///< neither its unit nor its angle was guessed
     double darkest = 0, brightest = 0;  ///< luminance of pixels with light, cd/m^2
 
     /// Of the i-th pixel, cd/m^2.

@@ -43,7 +43,7 @@ ContrastFidelity contrast_fidelity(const PicturePair& pair, const ContrastEye& e
     Octave octave;
     Counts counts;
     visit_channels(pair, eye, [&](const Channel& channel) {
-        if (channel.base) return;  // luminance, which is not compared
+        if (channel.band != Channel::Band::Octave) return;
         if (channel.frequency != octave.frequency) {
             if (octave.frequency > 0) judge(octave, counts);
             octave = {channel.frequency, channel.grid, std::vector<double>(channel.grid.size()),

@@ -10,7 +10,8 @@ namespace vesper::vision {
 /// Of a scene and a picture of it on a display. Each is seen by an eye that is adapted to it, so that contrast is
 /// compared and not luminance (Aydin, Mantiuk, Myszkowski and Seidel 2008, with the channels of visit_channels()).
 /// Contrast of a place in an octave of frequency is seen from kSeen thresholds on, and not seen below one threshold of
-/// a grating. By pixel the share of the octaves in which contrast is ...
+/// a grating. Luminance of regions, and what lies above the octaves, is left out. By pixel the share of the octaves in
+/// which contrast is ...
 struct ContrastFidelity {
     std::vector<float> seen;       ///< seen in the scene
     std::vector<float> lost;       ///< seen in the scene, and not on the display

@@ -8,7 +8,7 @@
 namespace vesper::vision {
 
 /// Perceptually uniform values of luminance in cd/m^2 (Mantiuk and Azimi 2021, PU21, fit "banding_glare"): 0 at 0.005
-/// cd/m^2 and below, 256 at 100, 596 at 10,000 and above.
+/// cd/m^2 and below, 256 at 100, 595 at 10,000 and above.
 double pu21(double luminance);
 
 /// Root mean square difference of log10 of luminance, cd/m^2, of which what is below 1e-4 counts as that, and what is

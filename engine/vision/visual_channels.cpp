@@ -6,6 +6,7 @@
 #include "base/angle.h"
 #include "base/budget.h"
 #include "base/error.h"
+#include "base/limits.h"
 #include "base/parallel.h"
 #include "vision/fourier.h"
 
@@ -18,7 +19,6 @@ constexpr int kOrientations = 4;
 constexpr double kCoarsest = 0.5;  // cycles/degree: octaves go down to about here
 constexpr size_t kMostOctaves = 12;
 constexpr double kMargin = 1;      // degrees, mirrored beyond the picture, at least
-constexpr size_t kBytesOfPixel = 128;  // two spectra, four pictures of a channel, and what is summed
 constexpr size_t kGains = 4096;    // of a radial function
 constexpr int kAdaptations = 256;  // luminances at which a channel's sensitivity is known
 
@@ -46,30 +46,38 @@ public:
         const size_t coarsest = size_t{1} << (octaves_ - 1), margin = size_t(std::ceil(kMargin * 2 * highest_));
         whole_ = {uint32_t(fast_length(pair.width + std::min<size_t>(margin, pair.width), coarsest)),
                   uint32_t(fast_length(pair.height + std::min<size_t>(margin, pair.height), coarsest)), 1};
-        spend(kBytesOfPixel * whole_.size());
     }
 
     void visit(const std::function<void(const Channel&)>& visit) {
-        Complexes first = jnd_spectrum(pair_.first), second = jnd_spectrum(pair_.second);
-        const Complex mean = (first[0] + second[0]) / 2.0;
-        const double below = centre(octaves_), above = highest_;
-        coarse_ = grid_of(octaves_ - 1);
-        const Radial low = [&](double u) { return u <= below ? 1 : octave_share(std::log2(u / below)); };
+        const Complexes first = jnd_spectrum(pair_.first), second = jnd_spectrum(pair_.second);
+        grid_ = grid_of(octaves_ - 1);
+        const Filter below{centre(octaves_), -1}, above{highest_, -1};
+        const Radial low = [&](double u) {
+            return u <= below.frequency ? 1 : octave_share(std::log2(u / below.frequency));
+        };
         first_ = adaptation(first, low), second_ = adaptation(second, low);
-        first[0] -= mean, second[0] -= mean;
-        show(first, second, coarse_, {below, true}, -1, low, visit);
-        for (size_t octave = octaves_; octave-- > 0;)
+        show(first, second, Channel::Band::Below, below, low, visit);
+        for (size_t octave = octaves_; octave-- > 0;) {
+            refine(grid_of(octave));
+            const Radial share = [&](double u) { return octave_share(std::log2(u / centre(octave))); };
             for (int o = 0; o < kOrientations; ++o)
-                show(
-                    first, second, grid_of(octave), {centre(octave)}, o,
-                    [&](double u) { return octave_share(std::log2(u / centre(octave))); }, visit);
-        show(
-            first, second, whole_, {above}, -1,
-            [&](double u) { return u >= above ? 1 : octave_share(std::log2(u / above)); }, visit);
+                show(first, second, Channel::Band::Octave, {centre(octave), o}, share, visit);
+        }
+        const Radial high = [&](double u) { return u >= highest_ ? 1 : octave_share(std::log2(u / highest_)); };
+        show(first, second, Channel::Band::Above, above, high, visit);
     }
 
 private:
     using Radial = std::function<double(double)>;  // share of a frequency, of its amplitude
+    struct Filter {
+        double frequency;  // at its middle
+        int orientation;   // -1: all
+    };
+    // Of a picture: frequencies are weighted at the luminance of its mean JND, and each place then at its own.
+    struct Adaptation {
+        double mean = 0;                 // cd/m^2
+        std::vector<double> logarithms;  // log10 cd/m^2, at the samples of grid_
+    };
 
     double centre(size_t octave) const { return highest_ / double(size_t{2} << octave); }
     ChannelGrid grid_of(size_t octave) const {
@@ -90,9 +98,9 @@ private:
         return spectrum_of(rows, whole_.width, whole_.height);
     }
 
-    // What a filter passes, at the samples of a grid: below the highest frequency of the grid all is 0.
-    Complexes filtered(const Complexes& spectrum, const ChannelGrid& grid, int orientation,
-                       const Radial& radial) const {
+    // What a filter passes, at the samples of grid_, whose frequencies hold it.
+    Complexes filtered(const Complexes& spectrum, int orientation, const Radial& radial) const {
+        const ChannelGrid grid = grid_;
         const double scale = 1.0 / (double(grid.step) * grid.step), most = std::sqrt(2.0) * highest_ / grid.step;
         std::vector<double> gains;
         for (size_t i = 0; i <= kGains + 1; ++i) gains.push_back(scale * radial(most * double(i) / kGains));
@@ -125,14 +133,9 @@ private:
         return cosine > 0 ? 2 * cosine * cosine * cosine / kWhole : 0;
     }
 
-    // Of a picture: frequencies are weighted at the luminance of its mean JND, and each place then at its own.
-    struct Adaptation {
-        double mean = 0;                 // cd/m^2
-        std::vector<double> logarithms;  // log10 cd/m^2, at the samples of coarse_
-    };
     Adaptation adaptation(const Complexes& spectrum, const Radial& low) const {
         Adaptation made{scale_.luminance(spectrum[0].real() / double(whole_.size())), {}};
-        for (const Complex& jnd : filtered(spectrum, coarse_, -1, low))
+        for (const Complex& jnd : filtered(spectrum, -1, low))
             made.logarithms.push_back(std::log10(scale_.luminance(jnd.real())));
         return made;
     }
@@ -144,8 +147,13 @@ private:
                scale_.peak(luminance);
     }
 
+    void refine(const ChannelGrid& grid) {
+        for (; grid_.step > grid.step; grid_ = {2 * grid_.width, 2 * grid_.height, grid_.step / 2})
+            for (Adaptation* const one : {&first_, &second_}) one->logarithms = at_half_step(one->logarithms, grid_);
+    }
+
     // From the luminance at which a filter was weighted to that of each place.
-    void adapt(Complexes& response, const ChannelGrid& grid, double frequency, const Adaptation& adaptation) const {
+    void adapt(Complexes& response, double frequency, const Adaptation& adaptation) const {
         const double low = std::log10(JndScale::kLeast), high = std::log10(JndScale::kMost);
         std::vector<double> factors;
         const double here = relative(frequency, adaptation.mean);  // 0 of waves that no optics pass
@@ -153,39 +161,41 @@ private:
             const double there = relative(frequency, std::pow(10, low + (high - low) * i / (kAdaptations - 1)));
             factors.push_back(here > 0 ? there / here : 0);
         }
-        const size_t finer = coarse_.step / grid.step;
-        in_parallel(grid.height, 8, [&](size_t begin, size_t end) {
-            for (size_t y = begin; y < end; ++y)
-                for (size_t x = 0; x < grid.width; ++x) {
-                    const double l = adaptation.logarithms[y / finer * coarse_.width + x / finer],
-                                 place = (l - low) / (high - low) * (kAdaptations - 1);
-                    const size_t i = size_t(std::clamp(place, 0.0, double(kAdaptations - 1)));
-                    response[y * grid.width + x] *= std::lerp(factors[i], factors[i + 1], place - double(i));
-                }
+        in_parallel(response.size(), kSamplesAtATime, [&](size_t begin, size_t end) {
+            for (size_t at = begin; at < end; ++at) {
+                const double place = (adaptation.logarithms[at] - low) / (high - low) * (kAdaptations - 1);
+                const size_t i = size_t(std::clamp(place, 0.0, double(kAdaptations - 1)));
+                response[at] *= std::lerp(factors[i], factors[i + 1], place - double(i));
+            }
         });
     }
 
-    struct Band {
-        double frequency;
-        bool base = false;
-    };
-    void show(const Complexes& first, const Complexes& second, const ChannelGrid& grid, const Band& band,
-              int orientation, const Radial& share, const std::function<void(const Channel&)>& visit) const {
+    // Of both pictures: weights that differ would make a difference of equal luminances.
+    Adaptation common() const {
+        Adaptation both{std::sqrt(first_.mean * second_.mean), first_.logarithms};
+        for (size_t i = 0; i < grid_.size(); ++i) both.logarithms[i] = (both.logarithms[i] + second_.logarithms[i]) / 2;
+        return both;
+    }
+
+    void show(const Complexes& first, const Complexes& second, Channel::Band band, const Filter& filter,
+              const Radial& share, const std::function<void(const Channel&)>& visit) const {
         const auto response = [&](const Complexes& spectrum, const Adaptation& adaptation) {
             const auto weighted = [&](double u) { return share(u) * relative(u, adaptation.mean); };
-            Complexes made = filtered(spectrum, grid, orientation, weighted);
-            adapt(made, grid, band.frequency, adaptation);
+            Complexes made = filtered(spectrum, filter.orientation, weighted);
+            adapt(made, filter.frequency, adaptation);
             return made;
         };
-        const Complexes a = response(first, first_), b = response(second, second_);
-        visit({band.frequency, band.base, grid, a, b});
+        const Adaptation both = band == Channel::Band::Below ? common() : Adaptation{};
+        const bool alike = band == Channel::Band::Below;
+        const Complexes a = response(first, alike ? both : first_), b = response(second, alike ? both : second_);
+        visit({band, filter.frequency, grid_, a, b});
     }
 
     const PicturePair& pair_;
     JndScale scale_;
     double highest_;  // cycles/degree that pixels can hold
     size_t octaves_;
-    ChannelGrid whole_, coarse_;
+    ChannelGrid whole_, grid_;  // of all pixels; of the channel
     Adaptation first_, second_;
 };
 
@@ -194,10 +204,12 @@ private:
 void visit_channels(const PicturePair& pair, const ContrastEye& eye, const std::function<void(const Channel&)>& visit) {
     const uint64_t pixels = uint64_t{pair.width} * pair.height;
     if (pixels == 0) throw Error("pictures without pixels cannot be compared");
+    if (pixels > scaled_limit(kMostChannelPixels))
+        throw Error("pictures of more than " + std::to_string(scaled_limit(kMostChannelPixels)) +
+                    " pixels cannot be compared");
     if (pair.first.size() != pixels || pair.second.size() != pixels) throw Error("the two pictures differ in size");
     if (!(pair.pixels_per_degree > 0) || !std::isfinite(pair.pixels_per_degree))
         throw Error("pictures that are compared need the angle that they cover");
-    const Budget budget("comparing pictures of " + std::to_string(pixels) + " pixels");
     Pyramid(pair, eye).visit(visit);
 }
 
@@ -236,13 +248,16 @@ std::vector<double> ChannelSum::pixels(uint32_t width, uint32_t height) {
 std::vector<double> foveal_means(std::span<const double> values, uint32_t width, uint32_t height,
                                  double pixels_per_degree) {
     const double radius = std::max(pixels_per_degree / 2, 0.5);
-    const auto reach = ptrdiff_t(std::min(radius, double(std::max(width, height))));
+    const double most = std::max(width, height);
+    const auto reach = ptrdiff_t(std::min(radius, most));
     std::vector<ptrdiff_t> half;  // of the row of the disc, px to either side
     double pixels = 0;
     for (ptrdiff_t dy = -reach; dy <= reach; ++dy) {
-        half.push_back(ptrdiff_t(std::sqrt(std::max(radius * radius - double(dy * dy), 0.0))));
-        pixels += double(2 * half.back() + 1);
+        const double side = std::floor(std::sqrt(std::max(radius * radius - double(dy * dy), 0.0)));
+        half.push_back(ptrdiff_t(std::min(side, most)));
+        pixels += 2 * side + 1;
     }
+    if (radius > most) pixels = kPi * radius * radius;  // rows beyond the picture count, too
     const auto w = ptrdiff_t(width), h = ptrdiff_t(height);
     std::vector<double> sums(size_t(w + 1) * height), means(values.size());  // of each row, up to a pixel
     for (ptrdiff_t y = 0; y < h; ++y)
@@ -251,6 +266,7 @@ std::vector<double> foveal_means(std::span<const double> values, uint32_t width,
     in_parallel(height, 8, [&](size_t begin, size_t end) {
         for (auto y = ptrdiff_t(begin); y < ptrdiff_t(end); ++y)
             for (ptrdiff_t x = 0; x < w; ++x) {
+                check_time();
                 double sum = 0;
                 for (ptrdiff_t row = std::max<ptrdiff_t>(y - reach, 0); row <= std::min(y + reach, h - 1); ++row) {
                     const ptrdiff_t side = half[size_t(row - y + reach)];

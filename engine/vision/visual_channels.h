@@ -29,15 +29,20 @@ struct ChannelGrid {
     bool operator==(const ChannelGrid&) const = default;
 };
 
-/// The response of one channel to both pictures, in thresholds: the magnitude of a response is 1 for a grating of the
-/// channel's frequency and orientation that is seen half of the time; its phase is that of the grating. Responses of
-/// the channels without orientation are real.
+/// The response of one channel to both pictures, in thresholds. Of an octave: its magnitude is 0.89 for a grating of
+/// the channel's frequency and orientation that is seen half of the time, and squares of the four orientations sum to
+/// 1; its phase is that of the grating. Below the octaves: the scale of JNDs of whole regions, weighted alike in both
+/// pictures. Above them: real, without orientation.
 struct Channel {
+    enum class Band : uint8_t { Below, Octave, Above };
+    Band band = Band::Octave;
     double frequency = 0;  ///< at its middle, cycles/degree
-    bool base = false;     ///< all frequencies below the octaves: differences to the mean of both pictures
     ChannelGrid grid;
     std::span<const std::complex<double>> first, second;
 };
+
+/// Of pictures that are compared, times VESPER_LIMITS: 128 bytes each.
+constexpr uint64_t kMostChannelPixels = uint64_t{1} << 24;
 
 /// Calls `visit` with each channel, from coarse to fine: the frequencies below all octaves, each octave in four
 /// orientations, the frequencies above. Luminance goes through JndScale and into a steerable pyramid (Simoncelli and
@@ -66,7 +71,8 @@ private:
     std::vector<double> values_;
 };
 
-/// Mean over the discs of a degree (the fovea) about each pixel; beyond the picture values are 0.
+/// Mean over the discs of a degree (the fovea) about each pixel; beyond the picture values are 0. Throws Error if it
+/// takes longer than a Budget has.
 std::vector<double> foveal_means(std::span<const double> values, uint32_t width, uint32_t height,
                                  double pixels_per_degree);
 

@@ -6,7 +6,7 @@ SHARED_BEGIN
 
 // Levels of halving resolution as of the luminance pyramid: texels of 2^k x 2^k px. Centres are levels 2 to 4, surrounds
 // lie 3 or 4 levels above, and maps have the texels of level 4 (Itti, Koch and Niebur 1998).
-const uint kSaliencyFinest = 2u, kSaliencyMapLevel = 4u, kSaliencyHighest = 8u;
+const uint kSaliencyFinest = 2u, kSaliencyMapLevel = 4u;
 
 // Added to the luminance that a difference is compared with, cd/m^2: the least difference that a dark-adapted eye sees
 // (Ward Larson, Rushmeier and Piatko 1997), so that far below it nothing stands out.

@@ -161,8 +161,7 @@ TEST_F(CVision, FidelityIsThatOfTheEngine) {
         EXPECT_EQ(lost, want.lost);
         EXPECT_EQ(invented, want.invented);
         EXPECT_EQ(amplified, want.amplified);
-        EXPECT_EQ(forward, vision::mean_of(lost) > 0) << "the square is lost on a flat display";
-        EXPECT_EQ(forward, vision::mean_of(invented) == 0);
+        EXPECT_EQ(forward, vision::mean_of(lost) > vision::mean_of(invented)) << "a flat display loses the square";
     }
     maps.lost = nullptr;
     EXPECT_EQ(vesper_contrast_fidelity(vision, &observer, &a, &b, &maps, &error), VESPER_OK) << error.message;

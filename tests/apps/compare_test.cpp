@@ -95,11 +95,14 @@ TEST_F(CompareTest, ReadsCodesOfADisplay) {
 
 TEST_F(CompareTest, RefusesPicturesWithoutAMeaning) {
     write("a.exr", 0), write("blind.exr", 0, false), write("relative.exr", 0, true, false);
+    io::write_exr(folder / "large.exr",
+                  {.width = 8193, .height = 2048, .rgb = std::vector<float>(8193 * 2048 * 3), .white_luminance = 1});
     io::write_png(folder / "small.png", 2, 2, std::vector<uint8_t>(16, 9));
     expect_refused("compare blind.exr blind.exr", {"--fov"});
     expect_refused("compare a.exr relative.exr", {"relative.exr", "--scale"});
     expect_refused("compare a.exr small.png", {"2 x 2"});
     expect_refused("compare a.exr missing.exr", {"missing.exr"});
+    expect_refused("compare large.exr large.exr", {"large.exr", "pixels"});
     expect_refused("compare a.exr a.exr -o map.jpg", {"map.jpg"});
     EXPECT_EQ(run("compare blind.exr a.exr"), 0) << "one of them says it: " << said;
     EXPECT_EQ(run("compare a.exr relative.exr --scale 2"), 0) << said;
@@ -111,8 +114,8 @@ TEST_F(CompareTest, NotesPixelsThatAreNotFinite) {
     damaged.header = {};  // texts that only a reader may make
     damaged.rgb[30] = std::nanf(""), damaged.rgb[300] = HUGE_VALF;
     io::write_exr(folder / "damaged.exr", damaged);
-    ASSERT_EQ(run("compare a.exr damaged.exr --json c.json"), 0) << said;
-    EXPECT_NE(said.find("2 values are not finite"), std::string::npos) << said;
+    ASSERT_EQ(run("compare damaged.exr a.exr --json c.json -o map.png"), 0) << said;
+    EXPECT_NE(said.find("2 pixels are not finite"), std::string::npos) << said;
     EXPECT_GT(figures()["largest_probability"], 0.9);
 }
 

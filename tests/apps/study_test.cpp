@@ -202,6 +202,10 @@ TEST_F(StudyProgram, FidelityTellsWhatDisplaysLose) {
     expect_page("out/fidelity.html");
     expect_refused("study fidelity street.exr --fov 3 -o out --displays desk --display projector", {"--displays"});
     expect_refused("study fidelity street.exr --fov 3 -o out --displays none.json", {"none.json"});
+    expect_refused("study fidelity street.exr --fov 3 -o out --glare cie", {"--glare"});
+    write_layout(folder / "relative.exr", street(), {});
+    EXPECT_EQ(run("study fidelity relative.exr --fov 3 -o out"), 2) << "no unit";
+    EXPECT_NE(said.find("--scale"), std::string::npos) << said;
 }
 
 TEST_F(StudyProgram, RefusesInOneLine) {

@@ -108,6 +108,56 @@ TEST(VisibleDifferences, CountTheLuminanceOfRegions) {
     EXPECT_LT(largest(uniform(10), uniform(10.02)), 0.1);
 }
 
+// Night streets have both: a difference within a region is not hidden by the luminance of others.
+TEST(VisibleDifferences, AreSeenBesideOtherLuminances) {
+    // A soft spot of 1 degree, 5 % brighter, in the middle of the left half.
+    const auto halves = [](double left, double right, double contrast) {
+        std::vector<float> picture;
+        for (uint32_t y = 0; y < kSide; ++y)
+            for (uint32_t x = 0; x < kSide; ++x) {
+                const double r2 =
+                    (std::pow(x - kSide / 4.0, 2) + std::pow(y - kSide / 2.0, 2)) / (kPerDegree * kPerDegree);
+                const double spot = contrast * std::exp(-r2 / 0.25);
+                picture.push_back(float((x < kSide / 2 ? left : right) * (1 + (x < kSide / 2 ? spot : 0))));
+            }
+        return picture;
+    };
+    EXPECT_GT(largest(halves(1, 1, 0), halves(1, 1, 0.05)), 0.9);
+    EXPECT_GT(largest(halves(1, 10, 0), halves(1, 10, 0.05)), 0.9);
+    EXPECT_GT(largest(halves(1, 1000, 0), halves(1, 1000, 0.05)), 0.9);
+    EXPECT_LT(largest(halves(1, 10, 0), halves(1, 10, 0.002)), 0.1);
+}
+
+// Eyes have no side: the same pixel on either side of an edge, and its mirror image. Adaptation is local: beside light
+// a dim place is judged by its own luminance.
+TEST(VisibleDifferences, AreThoseOfTheMirrorImage) {
+    const auto edge = [](bool mirrored, double factor) {
+        std::vector<float> picture;
+        for (uint32_t y = 0; y < kSide; ++y)
+            for (uint32_t x = 0; x < kSide; ++x) {
+                const uint32_t at = mirrored ? kSide - 1 - x : x;
+                const bool changed = at == kSide / 2 - 12 && y == kSide / 2;
+                picture.push_back(float((at < kSide / 2 ? 0.01 : 100) * (changed ? factor : 1)));
+            }
+        return picture;
+    };
+    for (const double factor : {3.0, 6.0}) {
+        const double straight = largest(edge(false, 1), edge(false, factor)),
+                     mirrored = largest(edge(true, 1), edge(true, factor));
+        EXPECT_NEAR(straight, mirrored, 0.08) << factor << ": samples of the channels lie on other pixels";
+    }
+    // Sensitivity falls with luminance: what is seen at 100 is not at 0.01 cd/m^2.
+    std::vector<float> dim = edge(false, 1), bright = dim;
+    for (int dy = -2; dy <= 2; ++dy)
+        for (int dx = -2; dx <= 2; ++dx) {
+            const size_t row = size_t(int(kSide) / 2 + dy) * kSide;
+            dim[row + size_t(int(kSide) / 4 + dx)] *= 1.06f;
+            bright[row + size_t(3 * int(kSide) / 4 + dx)] *= 1.06f;
+        }
+    EXPECT_LT(largest(edge(false, 1), dim), 0.1);
+    EXPECT_GT(largest(edge(false, 1), bright), 0.9);
+}
+
 TEST(VisibleDifferences, OlderEyesSeeLess) {
     const std::vector<float> a = uniform(1), b = disc(1, 10, 0.03);
     const auto of_age = [&](double age) {

@@ -2,6 +2,7 @@
 #include "vision/visual_channels.h"
 
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -26,7 +27,7 @@ std::vector<double> squares_of(const std::vector<float>& picture) {
                                for (uint32_t y = n / 4; y < 3 * n / 4; ++y)
                                    for (uint32_t x = n / 4; x < 3 * n / 4; ++x)
                                        sum += std::norm(channel.first[size_t{y} * channel.grid.width + x]), ++samples;
-                               squares.push_back(channel.base ? 0 : sum / samples);
+                               squares.push_back(channel.band == Channel::Band::Below ? 0 : sum / samples);
                            });
     return squares;
 }
@@ -66,17 +67,17 @@ TEST(VisualChannels, UniformPicturesHaveNoContrast) {
 
 // Luminances of sides as small as these have channels, too, and what is not a number is black.
 TEST(VisualChannels, TakeAnyPicture) {
-    for (const auto& [width, height] : {std::pair{1u, 1u}, {1u, 37u}, {41u, 3u}, {13u, 11u}})
+    for (const auto& size : {std::pair{1u, 1u}, {1u, 37u}, {41u, 3u}, {13u, 11u}})
         for (const double per_degree : {0.01, 3.0, 27.0, 1000.0}) {
-            std::vector<float> damaged(size_t{width} * height, 1);
+            std::vector<float> damaged(size_t{size.first} * size.second, 1);
             damaged[0] = std::nanf(""), damaged[damaged.size() / 2] = -HUGE_VALF;
             size_t channels = 0;
-            vision::visit_channels({width, height, per_degree, damaged, damaged}, {}, [&](const Channel& channel) {
+            vision::visit_channels({size.first, size.second, per_degree, damaged, damaged}, {}, [&](const Channel& c) {
                 ++channels;
-                ASSERT_GE(channel.grid.width * channel.grid.step, width);
-                for (size_t i = 0; i < channel.grid.size(); ++i) {
-                    ASSERT_TRUE(std::isfinite(std::abs(channel.first[i])));
-                    ASSERT_EQ(channel.first[i], channel.second[i]);
+                ASSERT_GE(c.grid.width * c.grid.step, size.first);
+                for (size_t i = 0; i < c.grid.size(); ++i) {
+                    ASSERT_TRUE(std::isfinite(std::abs(c.first[i])));
+                    ASSERT_EQ(c.first[i], c.second[i]);
                 }
             });
             EXPECT_GE(channels, 6u);
@@ -119,6 +120,11 @@ TEST(FovealMeans, AreOfDiscsOfADegree) {
     EXPECT_NEAR(means[20 * side + 20], 1 / pixels, 1e-15);
     EXPECT_NEAR(vision::foveal_means(std::vector<double>(side * side, 3.0), side, side, 20)[20 * side + 20], 3, 1e-12);
     EXPECT_EQ(vision::foveal_means(std::vector<double>{5}, 1, 1, 0.01), std::vector<double>{5});
+    // A disc that is larger than the picture: what is beyond counts as 0.
+    EXPECT_NEAR(vision::foveal_means(std::vector<double>(64 * 64, 1.0), 64, 64, 400)[32 * 64 + 32],
+                64 * 64 / (std::numbers::pi * 200 * 200), 1e-9);
+    EXPECT_NEAR(vision::foveal_means(std::vector<double>(64 * 64, 1.0), 64, 64, 127)[32 * 64 + 32],
+                64 * 64 / (std::numbers::pi * 63.5 * 63.5), 0.01);
 }
 
 TEST(Detection, IsHalfAtTheThreshold) {

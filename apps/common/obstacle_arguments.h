@@ -8,6 +8,7 @@
 #include "command_line.h"
 
 #include "render/seen_obstacles.h"
+#include "render/tone_chain.h"
 
 namespace vesper::apps {
 

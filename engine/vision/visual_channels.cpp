@@ -140,11 +140,11 @@ private:
         return made;
     }
 
-    // Sensitivity at a frequency over the peak's: 1 of a grating at the peak. Below the octaves there are no gratings
-    // but differences of whole regions, which count as the coarsest waves do.
+    // Sensitivity at a frequency over the peak's: 1 of a grating at the peak. It falls to nothing for luminance that is
+    // the same everywhere; differences of whole pictures count as half a wave across the field.
     double relative(double frequency, double luminance) const {
-        return contrast_sensitivity(std::max(frequency, centre(octaves_)), luminance, scale_.eye()) /
-               scale_.peak(luminance);
+        const double longest = 1 / (2 * scale_.eye().field);
+        return contrast_sensitivity(std::max(frequency, longest), luminance, scale_.eye()) / scale_.peak(luminance);
     }
 
     void refine(const ChannelGrid& grid) {

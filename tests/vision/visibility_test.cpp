@@ -1,6 +1,8 @@
 // Adrian's visibility of targets against computed values of the published equations. SPDX-License-Identifier: MIT
 #include "vision/visibility.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace vesper::test {

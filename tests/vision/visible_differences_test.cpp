@@ -102,10 +102,13 @@ TEST(VisibleDifferences, AreMaskedAndSymmetric) {
     EXPECT_EQ(vision::threshold_elevation(0), 1);
 }
 
-// Brighter as a whole: there is no contrast in either, but a display that is a tenth brighter is told apart.
+// Brighter as a whole: there is no contrast in either. Sensitivity at half a wave across the field of 10 degrees is 24
+// at 10 cd/m^2: a twentieth more light is the threshold.
 TEST(VisibleDifferences, CountTheLuminanceOfRegions) {
-    EXPECT_GT(largest(uniform(10), uniform(12)), 0.9);
-    EXPECT_LT(largest(uniform(10), uniform(10.02)), 0.1);
+    EXPECT_NEAR(vision::contrast_sensitivity(0.05, 10), 23.5, 0.5);
+    EXPECT_GT(largest(uniform(10), uniform(11)), 0.9);
+    EXPECT_NEAR(largest(uniform(10), uniform(10 * std::exp(1 / 23.5))), 0.5, 0.03);
+    EXPECT_LT(largest(uniform(10), uniform(10.2)), 0.1);
 }
 
 // Night streets have both: a difference within a region is not hidden by the luminance of others.

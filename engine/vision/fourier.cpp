@@ -13,17 +13,25 @@ using Complex = std::complex<double>;
 
 constexpr size_t kLinesAtATime = 16;  // at a time: their transposed columns fill lines of the cache
 
+// Of one line. The library has no transform of a single sample, which is the sample.
+void transform(Eigen::FFT<double>& fft, Complex* to, const Complex* from, size_t length, bool inverse) {
+    const auto n = Eigen::Index(length);
+    if (length == 1)
+        *to = *from;
+    else if (inverse)
+        fft.inv(to, from, n);
+    else
+        fft.fwd(to, from, n);
+}
+
 // Transforms each of `count` rows of `length`, and writes it as a column.
 Complexes transformed(const Complexes& rows, size_t length, size_t count, bool inverse) {
     Complexes columns(rows.size());
     in_parallel(count, kLinesAtATime, [&](size_t begin, size_t end) {
         Eigen::FFT<double> fft;
         Complexes block((end - begin) * length);
-        for (size_t row = begin; row < end; ++row) {
-            Complex* const to = &block[(row - begin) * length];
-            const auto n = Eigen::Index(length);
-            inverse ? fft.inv(to, &rows[row * length], n) : fft.fwd(to, &rows[row * length], n);
-        }
+        for (size_t row = begin; row < end; ++row)
+            transform(fft, &block[(row - begin) * length], &rows[row * length], length, inverse);
         for (size_t x = 0; x < length; ++x)
             for (size_t row = begin; row < end; ++row) columns[x * count + row] = block[(row - begin) * length + x];
     });
@@ -38,7 +46,7 @@ Complexes transformed_both_ways(const Complexes& lines, size_t length, size_t co
         Complexes line(count);
         for (size_t i = begin; i < end; ++i) {
             Complex* const at = &turned[i * count];
-            inverse ? fft.inv(line.data(), at, Eigen::Index(count)) : fft.fwd(line.data(), at, Eigen::Index(count));
+            transform(fft, line.data(), at, count, inverse);
             std::copy(line.begin(), line.end(), at);
         }
     });

@@ -15,7 +15,7 @@ TEST(PictureMetrics, Pu21HasItsPublishedEnds) {
     EXPECT_NEAR(vision::pu21(100), 256.38, 0.01);
     EXPECT_NEAR(vision::pu21(1), 36.544, 0.001);
     EXPECT_NEAR(vision::pu21(10000), 595.39, 0.01);
-    EXPECT_EQ(vision::pu21(0), 0);
+    EXPECT_EQ(vision::pu21(0), vision::pu21(0.005));
     EXPECT_EQ(vision::pu21(1e9), vision::pu21(1e4));
 }
 

@@ -18,14 +18,6 @@ namespace {
 
 using glm::dmat4, glm::dvec3;
 
-std::vector<std::string> names_up_from(const scene::Scene& scene, uint32_t node) {
-    constexpr size_t kMostNames = 16;
-    std::vector<std::string> names;
-    for (; node != scene::kNone && names.size() < kMostNames; node = scene.nodes[node].parent)
-        names.push_back(scene.nodes[node].name);
-    return names;
-}
-
 /// The nodes that match and have none above them that does, per node. Throws Error if there is none.
 std::vector<bool> nodes_that_match(const scene::Scene& scene, const std::string& option, const std::string& pattern) {
     std::vector<bool> found(scene.nodes.size()), within(scene.nodes.size());
@@ -33,7 +25,7 @@ std::vector<bool> nodes_that_match(const scene::Scene& scene, const std::string&
     for (uint32_t i = 0; i < scene.nodes.size(); ++i) {
         const uint32_t parent = scene.nodes[i].parent;
         within[i] = parent != scene::kNone && (within[parent] || found[parent]);
-        found[i] = !within[i] && scene::matches_path(pattern, names_up_from(scene, i));
+        found[i] = !within[i] && scene::matches_node(pattern, scene, i);
         any |= found[i];
     }
     if (!any) throw Error(option + " " + one_line(pattern) + ": no node of the scene matches it");

@@ -11,7 +11,7 @@
 
 namespace vesper::commands {
 
-/// What is where. Patterns are those of matches_path().
+/// What is where. Patterns are those of matches_node().
 struct ApproachSettings {
     std::string camera;                        ///< rides in the car; empty: the first
     std::string headlamps = "*headlamp*";      ///< nodes of the car, each with lamps at or below it

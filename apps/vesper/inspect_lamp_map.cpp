@@ -21,20 +21,12 @@ using render::LampDistances;
 
 constexpr uint32_t kSide = 512;  // texels, and px
 
-std::vector<std::string> path_of(const scene::Scene& scene, uint32_t node) {
-    constexpr size_t kDepth = 16;
-    std::vector<std::string> path;
-    for (; node != scene::kNone && path.size() < kDepth; node = scene.nodes[node].parent)
-        path.push_back(scene.nodes[node].name);
-    return path;
-}
-
 std::vector<uint32_t> lamps_named(const scene::Scene& scene, const std::string& name) {
     std::vector<uint32_t> nodes;
     for (uint32_t i = 0; i < scene.nodes.size(); ++i)
         if (const uint32_t lamp = scene.nodes[i].lamp;
             lamp != scene::kNone &&
-            (scene::matches_name(name, scene.lamps[lamp].name) || scene::matches_path(name, path_of(scene, i))))
+            (scene::matches_name(name, scene.lamps[lamp].name) || scene::matches_node(name, scene, i)))
             nodes.push_back(i);
     return nodes;
 }

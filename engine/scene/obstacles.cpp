@@ -11,15 +11,6 @@
 namespace vesper::scene {
 namespace {
 
-// Names of a node and of as many of those above it as a pattern asks for.
-std::vector<std::string> path_to(const Scene& scene, uint32_t node, const std::string& pattern) {
-    const auto depth = size_t(std::count(pattern.begin(), pattern.end(), '/')) + 1;
-    std::vector<std::string> path;
-    for (; node != kNone && path.size() < depth; node = scene.nodes[node].parent)
-        path.push_back(scene.nodes[node].name);
-    return path;
-}
-
 Bounds bounds_of(const Mesh& mesh) {
     Bounds all;
     for (const Primitive& primitive : mesh.primitives)
@@ -36,7 +27,7 @@ std::vector<Obstacle> find_obstacles(const Scene& scene, const std::vector<std::
     for (const std::string& pattern : patterns) {
         bool any = false;
         for (uint32_t i = 0; i < scene.nodes.size(); ++i) {
-            if (!has_surfaces[i] || !matches_path(pattern, path_to(scene, i, pattern))) continue;
+            if (!has_surfaces[i] || !matches_node(pattern, scene, i)) continue;
             matches[i] = any = true;
         }
         if (!any) throw Error(place + " " + one_line(pattern) + ": no node of the scene that has surfaces matches it");

@@ -21,7 +21,7 @@ struct Obstacle {
 
 constexpr size_t kMostObstacles = 64;
 
-/// The nodes that match patterns (matches_path), in their order. Nodes whose meshes all belong to obstacles below them
+/// The nodes that match patterns (matches_node), in their order. Nodes whose meshes all belong to obstacles below them
 /// are none. Throws Error for a pattern without a match that has surfaces, naming the pattern after `place`, and for
 /// more than kMostObstacles.
 std::vector<Obstacle> find_obstacles(const Scene&, const std::vector<std::string>& patterns, const std::string& place);

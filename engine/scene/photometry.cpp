@@ -258,4 +258,11 @@ bool matches_path(const std::string& pattern, const std::vector<std::string>& pa
     return false;
 }
 
+bool matches_node(const std::string& pattern, const Scene& scene, uint32_t node) {
+    const auto most = size_t(std::count(pattern.begin(), pattern.end(), '/')) + 1;  // names that can match
+    std::vector<std::string> path;
+    for (; node != kNone && path.size() < most; node = scene.nodes[node].parent) path.push_back(scene.nodes[node].name);
+    return matches_path(pattern, path);
+}
+
 }  // namespace vesper::scene

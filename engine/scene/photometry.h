@@ -111,4 +111,7 @@ bool matches_name(const std::string& pattern, const std::string& name);
 /// without '/' is compared with the node's own name. Returns at once when more names are needed than there are slashes.
 bool matches_path(const std::string& pattern, const std::vector<std::string>& path);
 
+/// The same for a node of a scene and those above it.
+bool matches_node(const std::string& pattern, const Scene&, uint32_t node);
+
 }  // namespace vesper::scene

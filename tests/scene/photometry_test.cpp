@@ -133,5 +133,20 @@ TEST(Pattern, MatchesEndsOfPaths) {
     EXPECT_FALSE(scene::matches_path("street/*", odd));
 }
 
+TEST(Pattern, MatchesNodesHoweverDeep) {
+    scene::Scene deep;
+    std::string pattern;
+    for (uint32_t i = 0; i < 40; ++i) {
+        deep.nodes.emplace_back();
+        deep.nodes[i].name = "level_" + std::to_string(i), deep.nodes[i].parent = i == 0 ? scene::kNone : i - 1;
+        pattern += (i == 0 ? "" : "/") + deep.nodes[i].name;
+    }
+    EXPECT_TRUE(scene::matches_node(pattern, deep, 39)) << "up to the root";
+    EXPECT_FALSE(scene::matches_node("*/" + pattern, deep, 39)) << "nothing is above it";
+    EXPECT_FALSE(scene::matches_node(pattern, deep, 38));
+    EXPECT_TRUE(scene::matches_node("level_7", deep, 7));
+    EXPECT_TRUE(scene::matches_node("level_?/*_8", deep, 8));
+}
+
 }  // namespace
 }  // namespace vesper::test

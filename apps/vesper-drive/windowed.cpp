@@ -386,19 +386,7 @@ void WindowedDrive::render(bool moved) {
     rendered_ = extent, stale_ = false, ++frame_number_;
     instruments_.remember(*session_, frame_);
     hatch_unseen(frame_, session_->settings().render(), arguments_.visible_from);
-    if (log_) {
-        try {
-            if (!ranks_)
-                row_ = log_->rows().next(*session_,
-                                         channels_ ? channel_view(channels_->screens[channels_->gaze], view_) : view_,
-                                         frame_) +
-                       apps::obstacle_values(obstacles_, frame_.obstacles, session_->settings().render());
-            log_->append(row_, meeting_);
-        } catch (const Error& error) {
-            log_.reset();
-            say("--log " + std::string(error.what()), true);
-        }
-    }
+    if (log_) log_frame();
     if (!channels_) return;
     const std::vector<graph::Timing> timings = std::move(frame_.timings);
     static_cast<render::ToneMapped&>(frame_) = std::move(wall.shown);

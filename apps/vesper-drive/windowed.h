@@ -62,6 +62,7 @@ private:
     void watch_contacts();
     bool watch_again(Session&) const;
     void hatch(bool on);
+    void log_frame();
     void keep_maps();
     void take_light();
     std::string standing_message() const;

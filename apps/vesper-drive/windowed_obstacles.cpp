@@ -1,4 +1,4 @@
-// Obstacles that are watched from a window. SPDX-License-Identifier: MIT
+// Obstacles that are watched from a window, and its log. SPDX-License-Identifier: MIT
 #include <algorithm>
 
 #include "base/error.h"
@@ -25,6 +25,21 @@ void WindowedDrive::hatch(bool on) {
     if (obstacles_.empty()) return say("no obstacles are watched (--obstacle)");
     arguments_.hatches = on, stale_ = true;
     session_->find_obstacle_pixels(on);
+}
+
+// A log that cannot be written ends, not the drive.
+void WindowedDrive::log_frame() {
+    try {
+        if (!ranks_)
+            row_ =
+                log_->rows().next(
+                    *session_, channels_ ? channel_view(channels_->screens[channels_->gaze], view_) : view_, frame_) +
+                apps::obstacle_values(obstacles_, frame_.obstacles, session_->settings().render());
+        log_->append(row_, meeting_);
+    } catch (const Error& error) {
+        log_.reset();
+        say("--log " + std::string(error.what()), true);
+    }
 }
 
 }  // namespace vesper::drive

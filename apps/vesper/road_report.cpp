@@ -210,8 +210,8 @@ std::string csv_of(const roads::LoadedLayout& layout, const roads::RoadLighting&
             for (const RenderedObserver& seen : rendered->observers) text += format(",%.6g", seen.counted.luminance[i]);
         if (!targets) continue;
         const roads::SmallTarget& t = targets->counted.targets[i];
-        text += format(",%.6g,%.6g,%.6g,%.6g,%.6g", t.vertical_illuminance, t.luminance, t.background, t.veil,
-                       t.visibility_level);
+        text += format(",%.6g,%.6g,%.6g,%.6g,", t.vertical_illuminance, t.luminance, t.background, t.veil) +
+                (t.visibility_level ? format("%.6g", *t.visibility_level) : "");
     }
     return text + "\n";
 }

@@ -14,29 +14,45 @@ namespace {
 
 using apps::format, apps::CanvasColour;
 
-/// Least and greatest level of all targets, and how many are darker than the road.
+/// Least and greatest level of targets, how many are darker than the road, and how many have no level.
 struct LevelRange {
-    double least = HUGE_VAL, greatest = -HUGE_VAL;
-    size_t darker = 0;
+    std::optional<double> least, greatest;
+    size_t darker = 0, unknown = 0;
 };
+
+std::string value(const char* pattern, const std::optional<double>& number) {
+    return number ? format(pattern, *number) : "-";
+}
+
+nlohmann::ordered_json json_of(const std::optional<double>& number) {
+    return number ? nlohmann::ordered_json(*number) : nlohmann::ordered_json();
+}
 
 LevelRange range_of(const roads::SmallTargetVisibility& visibility) {
     LevelRange range;
     for (const roads::SmallTarget& target : visibility.targets) {
-        range.least = std::min(range.least, target.visibility_level);
-        range.greatest = std::max(range.greatest, target.visibility_level);
-        range.darker += target.visibility_level < 0;
+        if (!target.visibility_level) {
+            ++range.unknown;
+            continue;
+        }
+        const double level = *target.visibility_level;
+        range.least = std::min(range.least.value_or(level), level);
+        range.greatest = std::max(range.greatest.value_or(level), level);
+        range.darker += level < 0;
     }
     return range;
 }
 
 std::string levels_of(const roads::SmallTargetVisibility& visibility) {
     const LevelRange range = range_of(visibility);
-    return format("VL from %.1f to %.1f, %zu of %zu targets darker than the road", range.least, range.greatest,
-                  range.darker, visibility.targets.size());
+    const std::string levels = value("%.1f", range.least), most = value("%.1f", range.greatest);
+    return "VL from " + levels + " to " + most +
+           format(", %zu of %zu targets darker than the road", range.darker, visibility.targets.size()) +
+           (range.unknown > 0 ? format(", %zu too dark to tell", range.unknown) : "");
 }
 
 // Of the map.
+const CanvasColour kUnknown(0.8);
 constexpr double kMargin = 70, kTop = 76, kFoot = 110, kCellHeight = 34, kStrongest = 10;
 
 /// White where a target cannot be seen, to orange for bright ones and to blue for dark ones.
@@ -73,9 +89,10 @@ std::string text_of(const RoadTargets& targets) {
     const roads::SmallTargetVisibility& counted = targets.counted;
     std::string text = format("\nSmall targets (IES RP-8-00): %g cm, reflectance %g, from %g m at %g years\n",
                               100 * roads::kTargetSide, counted.reflectance, roads::kTargetDistance, roads::kTargetAge);
-    text += format("  STV         %10.2f   ", counted.stv) + levels_of(counted) + "\n";
+    text += format("  STV         %10s   ", value("%.2f", counted.stv).c_str()) + levels_of(counted) + "\n";
     if (targets.standard)
-        text += format("  unoccluded  %10.2f   ", targets.standard->stv) + levels_of(*targets.standard) + "\n";
+        text += format("  unoccluded  %10s   ", value("%.2f", targets.standard->stv).c_str()) +
+                levels_of(*targets.standard) + "\n";
     return text;
 }
 
@@ -85,7 +102,8 @@ std::string grid_text_of(const roads::CalculationField& field, const RoadTargets
     for (size_t row = field.y.size(); row-- > 0;) {
         text += format("\n %7.3f", field.y[row]);
         for (size_t i = 0; i < field.x.size(); ++i)
-            text += format(" %+7.2f", targets.counted.targets[row * field.x.size() + i].visibility_level);
+            text += format(" %7s",
+                           value("%+.2f", targets.counted.targets[row * field.x.size() + i].visibility_level).c_str());
     }
     return text + "\n";
 }
@@ -93,15 +111,16 @@ std::string grid_text_of(const roads::CalculationField& field, const RoadTargets
 nlohmann::ordered_json json_of(const RoadTargets& targets) {
     const roads::SmallTargetVisibility& counted = targets.counted;
     const LevelRange range = range_of(counted);
-    nlohmann::ordered_json json = {{"stv", counted.stv},
+    nlohmann::ordered_json json = {{"stv", json_of(counted.stv)},
                                    {"reflectance", counted.reflectance},
                                    {"side_m", roads::kTargetSide},
                                    {"distance_m", roads::kTargetDistance},
                                    {"observer_age", roads::kTargetAge},
-                                   {"least_visibility_level", range.least},
-                                   {"greatest_visibility_level", range.greatest},
-                                   {"darker_targets", range.darker}};
-    if (targets.standard) json["stv_without_occluders"] = targets.standard->stv;
+                                   {"least_visibility_level", json_of(range.least)},
+                                   {"greatest_visibility_level", json_of(range.greatest)},
+                                   {"darker_targets", range.darker},
+                                   {"too_dark_targets", range.unknown}};
+    if (targets.standard) json["stv_without_occluders"] = json_of(targets.standard->stv);
     for (const roads::SmallTarget& t : counted.targets)
         json["targets"].push_back({{"x_m", t.x},
                                    {"y_m", t.y},
@@ -109,7 +128,7 @@ nlohmann::ordered_json json_of(const RoadTargets& targets) {
                                    {"luminance_cd_m2", t.luminance},
                                    {"background_cd_m2", t.background},
                                    {"veiling_luminance_cd_m2", t.veil},
-                                   {"visibility_level", t.visibility_level}});
+                                   {"visibility_level", json_of(t.visibility_level)}});
     return json;
 }
 
@@ -125,15 +144,16 @@ void write_target_map(const std::string& file, const roads::LoadedLayout& layout
     };
     canvas.text({kMargin, 24}, apps::column(layout.name, 100), 17);
     canvas.text({kMargin, 48},
-                format("Small targets of reflectance %g, seen from the left, each from %g m: STV %.2f, ",
-                       visibility.reflectance, roads::kTargetDistance, visibility.stv) +
+                format("Small targets of reflectance %g, seen from the left, each from %g m: STV %s, ",
+                       visibility.reflectance, roads::kTargetDistance, value("%.2f", visibility.stv).c_str()) +
                     levels_of(visibility),
                 13);
     double labelled = -HUGE_VAL;
     for (const roads::SmallTarget& target : visibility.targets) {
         const glm::dvec2 middle = at(target.x, target.y), half(cell / 2, kCellHeight / 2);
-        canvas.fill(middle - half, 2.0 * half + 0.5, level_colour(target.visibility_level));
-        canvas.text(middle, format("%.1f", target.visibility_level), std::min(cell / 3.2, 13.0),
+        canvas.fill(middle - half, 2.0 * half + 0.5,
+                    target.visibility_level ? level_colour(*target.visibility_level) : kUnknown);
+        canvas.text(middle, value("%.1f", target.visibility_level), std::min(cell / 3.2, 13.0),
                     apps::Canvas::Align::Centre);
     }
     for (const double x : field.x) {

@@ -30,9 +30,8 @@ SmallTarget target_at(const LoadedLayout& layout, std::span<const PlacedLuminair
     const vision::Target seen{
         .size = 60 * kDegreesPerRadian * kTargetSide / kTargetDistance, .seconds = kTargetTime, .age = kTargetAge};
     // The veil lies over both: it leaves the difference as it is and raises the threshold.
-    if (target.background + target.veil > 0)
-        target.visibility_level =
-            vision::visibility_level(target.luminance + target.veil, target.background + target.veil, seen);
+    target.visibility_level =
+        vision::bounded_visibility_level(target.luminance + target.veil, target.background + target.veil, seen);
     return target;
 }
 
@@ -42,12 +41,15 @@ void check_target_reflectance(double reflectance) {
     if (!(reflectance >= 0.01 && reflectance <= 1)) throw Error("the reflectance of targets must be from 0.01 to 1");
 }
 
-double small_target_average(std::span<const SmallTarget> targets) {
-    double least = HUGE_VAL, sum = 0;
-    for (const SmallTarget& target : targets) least = std::min(least, std::abs(target.visibility_level));
-    // Less the least, for levels whose weight would be 0.
-    for (const SmallTarget& target : targets) sum += std::pow(10, -0.1 * (std::abs(target.visibility_level) - least));
-    return least - 10 * std::log10(sum / static_cast<double>(targets.size()));
+std::optional<double> small_target_average(std::span<const SmallTarget> targets) {
+    std::vector<double> levels;
+    for (const SmallTarget& target : targets)
+        if (target.visibility_level) levels.push_back(std::abs(*target.visibility_level));
+    if (levels.empty()) return std::nullopt;
+    const double least = *std::min_element(levels.begin(), levels.end());
+    double sum = 0;
+    for (const double level : levels) sum += std::pow(10, -0.1 * (level - least));  // a weight alone could be 0
+    return least - 10 * std::log10(sum / static_cast<double>(levels.size()));
 }
 
 SmallTargetVisibility small_target_visibility(const LoadedLayout& layout, double reflectance) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "roads/road_layout.h"
@@ -23,7 +24,7 @@ void check_target_reflectance(double reflectance);
 /// background or from the eye of its observer does not shine there; sight of the target is free. Throws Error if a
 /// value is out of range.
 SmallTargetVisibility small_target_visibility(const LoadedLayout&, double reflectance = 0.5);
-/// STV of visibility levels, at least one: -10 lg of the mean of 10^(-0.1 |VL|).
-double small_target_average(std::span<const SmallTarget>);
+/// STV of visibility levels: -10 lg of the mean of 10^(-0.1 |VL|) of the targets that have one; nothing if none has.
+std::optional<double> small_target_average(std::span<const SmallTarget>);
 
 }  // namespace vesper::roads

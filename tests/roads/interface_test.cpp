@@ -56,9 +56,9 @@ TEST(RoadsInterface, CalculatesTheWorkedExample) {
 TEST(RoadsInterface, CalculatesSmallTargets) {
     const roads::SmallTargetVisibility found = roads::calculate_small_targets(plain_example());
     EXPECT_EQ(found.targets.size(), 60u);
-    EXPECT_NEAR(found.stv, 2.23, 0.005);
-    EXPECT_LT(roads::calculate_small_targets(plain_example(), 0.2).targets[34].visibility_level, 0);
-    EXPECT_GT(found.targets[34].visibility_level, 0);
+    EXPECT_NEAR(found.stv.value(), 2.23, 0.005);
+    EXPECT_LT(roads::calculate_small_targets(plain_example(), 0.2).targets[34].visibility_level.value(), 0);
+    EXPECT_GT(found.targets[34].visibility_level.value(), 0);
     EXPECT_EQ(caught([] { roads::calculate_small_targets(plain_example(), 2); }).message,
               "the reflectance of targets must be from 0.01 to 1");
     EXPECT_EQ(caught([] { roads::calculate_small_targets(plain_example(), 0); }).result, VESPER_BAD_ARGUMENT);

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -132,14 +133,15 @@ struct SmallTarget {
     double luminance = 0;            /**< Lt, cd/m^2 */
     double background = 0;           /**< Lb: of the road at its foot and above its top, cd/m^2 */
     double veil = 0;                 /**< Lv, in the eye of its observer, cd/m^2 */
-    double visibility_level = 0;     /**< VL: negative where the target is darker; 0 where road and eye are dark */
+    /** VL: negative where the target is darker. None where Lb + Lv is not from 1e-4 to 1e4 cd/m^2. */
+    std::optional<double> visibility_level = {};
 };
 
 /** Visibility of small targets on a road (IES RP-8-00; docs/small-targets.md). */
 struct SmallTargetVisibility {
     double reflectance = 0.5;         /**< of the targets, diffuse */
     std::vector<SmallTarget> targets; /**< in the order of RoadLighting::points */
-    double stv = 0;                   /**< small-target visibility: weighted average of |VL| */
+    std::optional<double> stv = {};   /**< small-target visibility: weighted average of |VL|, where there is any */
 };
 
 /** A lighting class for motorised traffic (EN 13201-2:2015, Table 1). */

@@ -7,7 +7,10 @@ SHARED_BEGIN
 const uint kMostTargets = 64u;
 const uint kTargetGroup = 256u;         // invocations for each target
 const uint kMostTargetSamples = 4096u;  // pixels that are read for each; of larger rectangles every stride-th of a row and row
-const uint kGlareContrast = 100u;       // kSourceContrast of vision/glare_report.h
+// A glare source is brighter than both: kSourceContrast of vision/glare_report.h, over the log average; and cd/m^2. What
+// headlamps light is no source, however dark the rest is: 100,000 cd give white clothes at 10 m some 250 cd/m^2, about
+// as much as shop windows have. Lamps and signs have more.
+const uint kGlareContrast = 100u, kLeastSourceLuminance = 300u;
 
 // Pixels that are read for a target: itself and its surroundings; the end is beyond them.
 struct TargetRect {

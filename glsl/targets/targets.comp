@@ -39,7 +39,7 @@ void main() {
     const TargetRect rect = rects[target];
     const uvec2 read = (rect.end - rect.first + rect.stride - 1u) / rect.stride;
     const vec4 whole = imageLoad(whole_image, ivec2(0));
-    const float brightest = float(kGlareContrast) * min(exp(whole.b), whole.r);
+    const float brightest = max(float(kLeastSourceLuminance), float(kGlareContrast) * min(exp(whole.b), whole.r));
     vec4 count = vec4(0.0), sum = vec4(0.0);
     vec2 place = vec2(0.0);
     for (uint k = mine; k < read.x * read.y; k += kTargetGroup) {

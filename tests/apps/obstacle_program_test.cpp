@@ -69,6 +69,15 @@ TEST_F(ObstacleProgram, RenderPrintsAndLogsThem) {
               std::stod(rows[0].at("visibility:card")));
 }
 
+TEST_F(ObstacleProgram, NamesStayInTheirLine) {
+    std::string text = luminous_card(15);
+    const std::string name = "\"card\"";
+    text.replace(text.find(name), name.size(), "\"ca\\nrd\"");
+    folder.write("a.gltf", text);
+    ASSERT_EQ(run(render + "--obstacle 'ca*'"), 0) << said;
+    EXPECT_TRUE(printed.starts_with("obstacle ca?rd, 15.0 m: ")) << printed;
+}
+
 TEST_F(ObstacleProgram, WhatIsNotMeasuredHasNoNumber) {
     folder.write("a.gltf", luminous_card(500));
     ASSERT_EQ(run(render + "--obstacle card --log l.csv"), 0) << said;

@@ -19,9 +19,9 @@ struct Street {
     scene::Scene scene;
     uint32_t card;
 
-    Street() {
-        add_rectangle(scene, add_material(scene, 0, kWall), {-60, -60, -kAway - 1}, {120, 0, 0}, {0, 120, 0});
-        card = add("card", kCard, {-1, -1.5f, -kAway}, {2, 0, 0}, {0, 3, 0});
+    explicit Street(float light = kCard, float wall = kWall) {
+        add_rectangle(scene, add_material(scene, 0, wall), {-60, -60, -kAway - 1}, {120, 0, 0}, {0, 120, 0});
+        card = add("card", light, {-1, -1.5f, -kAway}, {2, 0, 0}, {0, 3, 0});
     }
     uint32_t add(const char* name, float light, glm::vec3 corner, glm::vec3 along, glm::vec3 up) {
         add_rectangle(scene, add_material(scene, 0, light), corner, along, up);
@@ -115,6 +115,26 @@ TEST_F(ObstaclesOfFrames, LampsBeforeThemDoNotCount) {
     EXPECT_EQ(seen.state, State::Measured);
     EXPECT_NEAR(seen.luminance, double(kCard), 1e-5);
     EXPECT_NEAR(seen.around, double(kWall), 1e-5);
+}
+
+// What headlamps light on a road without a moon, and a pedestrian before a shop window: no glare sources.
+TEST_F(ObstaclesOfFrames, HoweverDarkTheRestIsTheyCount) {
+    for (const float wall : {0.0f, 0.002f}) {
+        const render::SeenObstacle seen = look_at(Street(1.8f, wall).scene);
+        EXPECT_EQ(seen.state, State::Measured);
+        EXPECT_NEAR(seen.luminance, 1.8, 1e-5);
+        EXPECT_NEAR(seen.around, double(wall), 1e-6);
+        EXPECT_EQ(render::visibility_of(seen, 23).level.value_or(0) > 7, wall > 0);
+    }
+    Street dark(0.5f, 0.002f);
+    dark.add("shop", 250, {-3, -4, -kAway - 0.5f}, {6, 0, 0}, {0, 8, 0});
+    const render::SeenObstacle seen = look_at(dark.scene);
+    EXPECT_EQ(seen.state, State::Measured);
+    EXPECT_NEAR(seen.luminance, 0.5, 1e-5);
+    EXPECT_NEAR(seen.around, 250, 1e-3);
+    Street sign(0.5f, 0.002f);
+    sign.add("sign", 450, {1.2f, 0.5f, -kAway - 0.5f}, {0.4f, 0, 0}, {0, 0.4f, 0});
+    EXPECT_LT(look_at(sign.scene).around, 0.1) << "a bright sign is a source, but for mixtures at its corners";
 }
 
 TEST_F(ObstaclesOfFrames, SurroundingsAreNoOtherObstacles) {

@@ -60,7 +60,7 @@ inline MeasuredTarget measure_target(const TargetPicture& p, uint32_t which, int
 }
 
 /// Luminance above which a pixel is a glare source: a hundred times the log average (of at least 1e-4 cd/m^2 each) or
-/// the mean, whichever is less.
+/// the mean, whichever is less, but at least 300 cd/m^2.
 inline double brightest_surroundings(const std::vector<dvec3>& picture) {
     double sum = 0, logarithms = 0, n = 0;
     for (const dvec3& c : picture) {
@@ -68,7 +68,7 @@ inline double brightest_surroundings(const std::vector<dvec3>& picture) {
         if (!std::isfinite(l)) continue;
         sum += l, logarithms += std::log(std::max(l, 1e-4)), ++n;
     }
-    return n > 0 ? 100 * std::min(sum / n, std::exp(logarithms / n)) : 0;
+    return n > 0 ? std::max(300.0, 100 * std::min(sum / n, std::exp(logarithms / n))) : 300;
 }
 
 }  // namespace vesper::reference

@@ -62,10 +62,11 @@ TEST(TargetsReference, SourcesAndDamagedPixelsDoNotCount) {
 }
 
 TEST(TargetsReference, AGlareSourceIsAHundredTimesTheAverage) {
-    EXPECT_NEAR(brightest_surroundings(std::vector<dvec3>(4, dvec3(0.5))), 50, 1e-9);
-    EXPECT_NEAR(brightest_surroundings({dvec3(1), dvec3(100)}), 1000, 1e-9) << "the log average";
-    EXPECT_NEAR(brightest_surroundings({dvec3(0), dvec3(0)}), 0, 1e-9) << "the mean";
-    EXPECT_NEAR(brightest_surroundings({dvec3(1), dvec3(HUGE_VAL)}), 100, 1e-9);
+    EXPECT_NEAR(brightest_surroundings(std::vector<dvec3>(4, dvec3(50))), 5000, 1e-9);
+    EXPECT_NEAR(brightest_surroundings({dvec3(20), dvec3(2000)}), 20000, 1e-9) << "the log average";
+    EXPECT_NEAR(brightest_surroundings({dvec3(30), dvec3(HUGE_VAL)}), 3000, 1e-9);
+    for (const double dark : {0.0, 0.002, 2.9})
+        EXPECT_EQ(brightest_surroundings({dvec3(dark), dvec3(dark)}), 300) << "headlamps light so much";
 }
 
 }  // namespace

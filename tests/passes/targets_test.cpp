@@ -11,22 +11,23 @@ namespace {
 
 using glm::dvec2, glm::dvec3;
 
-/// Noise: patches of instances, which belong to three targets and to none, and luminances over decades.
+/// Noise: patches of instances, which belong to three targets and to none, and luminances over decades up to `most`
+/// cd/m^2.
 struct Case {
     VkExtent2D extent{};
     std::vector<glm::uvec2> triangles;
     std::vector<glm::vec4> scene, retina;
     std::vector<uint32_t> of_instances{0, 1, 2, 1, 0, 3};
 
-    Case(VkExtent2D size, uint32_t seed) : extent(size) {
+    Case(VkExtent2D size, uint32_t seed, float most = 20) : extent(size) {
         Noise random(seed);
         for (uint32_t y = 0; y < size.height; ++y)
             for (uint32_t x = 0; x < size.width; ++x) {
                 const uint32_t patch = (x / 5 + 3 * (y / 7) + seed) % 7;  // 6: nothing is drawn
                 triangles.emplace_back(patch == 6 ? 0 : patch + 1, 12345);
                 // Some about as bright as a glare source.
-                const float light =
-                    (x + 3 * y) % 11 == 4 ? 30 + 200 * random.unit() : std::pow(10.0f, 3 * random.unit() - 2);
+                const float light = (x + 3 * y) % 11 == 4 ? 60 + most * (1 + 22 * random.unit())
+                                                          : most * std::pow(10.0f, -3 * random.unit());
                 scene.emplace_back(light, light * random.unit(), light * random.unit(), 1);
                 retina.push_back(scene.back() + 0.3f);
             }
@@ -110,6 +111,17 @@ TEST(Targets, MatchTheReferenceAtEverySize) {
         const Case c(extent, extent.width);
         const auto rects = rects_in(extent);
         expect_measured(c, looking(extent), rects, measure(rig, c, looking(extent), rects));
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// Sources are brighter than 300 cd/m^2 by night, and than a hundred times the log average by day.
+TEST(Targets, SourcesAreThoseOfTheReferenceByNightAndByDay) {
+    PassRig rig;
+    for (const float most : {0.01f, 20.0f, 2000.0f}) {
+        const Case c({131, 67}, 9, most);
+        const auto rects = rects_in(c.extent);
+        expect_measured(c, looking(c.extent), rects, measure(rig, c, looking(c.extent), rects));
     }
     EXPECT_EQ(rig.complaints(), "");
 }

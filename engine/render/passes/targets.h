@@ -27,8 +27,9 @@ shared::TargetRect target_rect(glm::dvec2 low, glm::dvec2 high, VkExtent2D pictu
 
 /// shared::TargetSums of each target, a buffer. Surroundings are the pixels of its rectangle that belong to no target.
 /// Luminances of glare sources do not count, nor those that are not finite. A glare source is brighter than
-/// shared::kGlareContrast times the log average of the picture, or its mean where that is less. The same from run to
-/// run. Without targets there is no pass. Throws Error for more than shared::kMostTargets.
+/// shared::kLeastSourceLuminance, and than shared::kGlareContrast times the log average of the picture, or its mean
+/// where that is less. The same from run to run. Without targets there is no pass. Throws Error for more than
+/// shared::kMostTargets.
 graph::Resource add_targets(const FrameContext& frame, const TargetImages& images, const TargetPixels& targets);
 
 }  // namespace vesper::render

@@ -18,12 +18,12 @@ namespace vesper::commands {
 namespace {
 
 constexpr uint64_t kMostBytes = uint64_t{1} << 30, kSignatureBytes = 16;  // of a PNG
-const io::HdrLimits kLimits{.max_pixels = scaled_limit(vision::kMostChannelPixels)};
+io::HdrLimits limits() { return {.max_pixels = scaled_limit(vision::kMostChannelPixels)}; }
 
 ComparedPicture codes(const CompareSource& source, const std::string& file) {
     const vision::Display display = apps::display_of(source.display);
     const io::WideImage image =
-        io::decode_wide_png(io::read_file(file, kMostBytes), kLimits.max_side, kLimits.max_pixels);
+        io::decode_wide_png(io::read_file(file, kMostBytes), limits().max_side, limits().max_pixels);
     return {{image.width, image.height},
             vision::DisplayLight(display).of_wide(image.rgba),
             source.fov,
@@ -31,7 +31,7 @@ ComparedPicture codes(const CompareSource& source, const std::string& file) {
 }
 
 ComparedPicture luminances(const CompareSource& source, const std::string& file) {
-    io::HdrImage image = io::read_hdr_image(file, kLimits, source.layer);
+    io::HdrImage image = io::read_hdr_image(file, limits(), source.layer);
     const apps::PictureMeaning meaning = apps::meaning_of(image, {.scale = source.scale, .fov = source.fov});
     if (meaning.scale_source != "option" && !(image.white_luminance > 0))
         throw Error(one_line(file) + ": its header names no unit: --scale N says how many cd/m^2 its 1.0 is");

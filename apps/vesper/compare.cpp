@@ -9,7 +9,6 @@
 #include "arguments.h"
 #include "base/angle.h"
 #include "base/error.h"
-#include "base/luminance.h"
 #include "base/one_line.h"
 #include "commands.h"
 #include "compared_picture.h"
@@ -37,6 +36,7 @@ struct CompareArguments {
 
 struct Comparison {
     vision::VisibleDifferences seen;
+    std::vector<float> first;  // luminances of the first picture, cd/m^2
     double pixels_per_degree = 0, log_rmse = 0, psnr = 0;
     std::optional<double> ssim;
 };
@@ -55,11 +55,11 @@ Comparison compare(const CompareArguments& a, const ComparedPicture& first, cons
     made.pixels_per_degree = render::pixels_per_degree(height, fov);
     made.seen = vision::visible_differences({width, height, made.pixels_per_degree, retina1, retina2},
                                             {.optics = !eye, .age = a.age});
-    const std::vector<float> plain1 = render::retinal_luminance(mapper, host1, {}),
-                             plain2 = render::retinal_luminance(mapper, host2, {});  // without an eye
-    made.log_rmse = vision::log_rmse(plain1, plain2);
-    made.psnr = vision::pu21_psnr(plain1, plain2);
-    made.ssim = vision::pu21_ssim(plain1, plain2, width, height);
+    made.first = render::retinal_luminance(mapper, host1, {});
+    const std::vector<float> plain = render::retinal_luminance(mapper, host2, {});  // without an eye
+    made.log_rmse = vision::log_rmse(made.first, plain);
+    made.psnr = vision::pu21_psnr(made.first, plain);
+    made.ssim = vision::pu21_ssim(made.first, plain, width, height);
     return made;
 }
 
@@ -107,15 +107,12 @@ void write_json(const CompareArguments& a, const Comparison& c) {
     apps::write_text(a.json, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
-void draw(const CompareArguments& a, const ComparedPicture& first, const Comparison& c) {
-    const auto [width, height] = first.extent;
+void draw(const CompareArguments& a, VkExtent2D extent, const Comparison& c) {
+    const auto [width, height] = extent;
     const apps::ValuePicture probability{width, height, c.seen.probability};
     if (a.picture.ends_with(".exr")) return apps::save_values(a.picture, probability, "probability of detection");
-    apps::ValuePicture luminance{width, height, {}};
-    for (size_t i = 0; i < first.rgb.size(); i += 3)
-        luminance.values.push_back(float(vesper::luminance({first.rgb[i], first.rgb[i + 1], first.rgb[i + 2]})));
     apps::ShareMap map(one_line(a.first, 60) + " and " + one_line(a.second, 60) + ": probability of detection",
-                       luminance, probability, "detected");
+                       {width, height, c.first}, probability, "detected");
     if (c.seen.largest > 0) map.canvas().circle(map.at(c.seen.x, c.seen.y), 9, apps::CanvasColour(1), 1.5);
     map.canvas().save(a.picture);
 }
@@ -132,7 +129,7 @@ void run(const CompareArguments& a) {
     const Comparison made = compare(a, first, second);
     report(a, first, second, made);
     if (!a.json.empty()) write_json(a, made);
-    if (!a.picture.empty()) draw(a, first, made);
+    if (!a.picture.empty()) draw(a, first.extent, made);
     if (made.seen.largest > a.fail_above) {
         apps::print("above --fail-above %g\n", a.fail_above);
         throw apps::Verdict{};

@@ -7,6 +7,7 @@
 #include "base/one_line.h"
 #include "false_colour.h"
 #include "print.h"
+#include "render/passes/saliency.h"
 #include "render/retina.h"
 #include "render/saliency_mapper.h"
 #include "scene/display_file.h"
@@ -56,8 +57,7 @@ public:
     }
     /// Without a map where a picture is too small for one.
     render::SaliencyMap saliency(const render::HostPicture& picture) const {
-        return std::min(picture.extent.width, picture.extent.height) < 32 ? render::SaliencyMap{}
-                                                                          : saliency_.map(picture);
+        return render::saliency_pairs(picture.extent).empty() ? render::SaliencyMap{} : saliency_.map(picture);
     }
     SeenScene scene(const StudyPicture& picture) const {
         return {retina(picture.host()), saliency(picture.host()),

@@ -3,6 +3,7 @@
 
 #include "api/handles.h"
 #include "base/angle.h"
+#include "render/passes/saliency.h"
 #include "render/retina.h"
 #include "render/saliency_mapper.h"
 #include "vision/contrast_fidelity.h"
@@ -63,8 +64,9 @@ SeenPair see(VesperVision* by, const VesperObserver* observer, const VesperPictu
     const render::HostPicture a = picture_of(first, first_angles), b = picture_of(second, second_angles);
     require(a.extent.width == b.extent.width && a.extent.height == b.extent.height,
             "pictures that are compared have one size");
+    static_assert(vision::kMostChannelPixels == 16777216);
     require(uint64_t{a.extent.width} * a.extent.height <= vision::kMostChannelPixels,
-            "pictures of at most 33554432 pixels are compared");
+            "pictures of at most 16777216 pixels are compared");
     const double density = pixels_per_degree(a);
     require(std::abs(pixels_per_degree(b) - density) <= 1e-3 * density, "pictures that are compared cover one angle");
     std::optional<gpu_scene::ScatterSettings> scatter;
@@ -125,8 +127,7 @@ VesperResult vesper_saliency(VesperVision* by, const VesperPicture* picture, flo
         require(map, "the pointer to the map of saliency is null");
         std::optional<vision::ImageAngles> angles;
         const render::HostPicture host = picture_of(picture, angles);
-        require(std::min(host.extent.width, host.extent.height) >= 32,
-                "a picture with saliency has 32 px or more on a side");
+        require(!render::saliency_pairs(host.extent).empty(), "a picture with saliency has 32 px or more on a side");
         give(by->saliency.map(host).values, map);
     });
 }

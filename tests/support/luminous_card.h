@@ -1,11 +1,9 @@
 // A card before a wall, both of their own light. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
 #include <string>
-#include <vector>
 
-#include "support/program.h"
+#include "support/luminous_square.h"
 
 namespace vesper::test {
 
@@ -13,25 +11,10 @@ namespace vesper::test {
 /// 10 m behind it a wall of 2 cd/m^2.
 inline std::string luminous_card(float away) {
     GltfFile file;
-    const auto add = [&](const char* name, double light, float left, float low, float width, float height, float z) {
-        const auto material = file.root["materials"].size();
-        file.root["materials"].push_back(
-            {{"pbrMetallicRoughness", {{"baseColorFactor", {0, 0, 0, 1}}, {"metallicFactor", 0}}},
-             {"emissiveFactor", {1, 1, 1}},
-             {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", light}}}}}});
-        const float right = left + width, high = low + height;
-        file.show(
-            {{"attributes", {{"POSITION", file.vec3({left, low, z, right, low, z, right, high, z, left, high, z})}}},
-             {"indices", file.indices(std::vector<uint16_t>{0, 1, 2, 0, 2, 3})},
-             {"material", material}},
-            {{"name", name}});
-    };
-    add("wall", 2, -100, -100, 200, 200, -away - 10);
-    add("card", 3, -1, -1.2f, 2, 3, -away);
-    file.root["nodes"].push_back({{"name", "eye"}, {"camera", 0}});
-    file.root["cameras"] = {
-        {{"type", "perspective"}, {"name", "eye"}, {"perspective", {{"yfov", 1.0}, {"znear", 0.1}}}}};
-    file.root["extensionsUsed"] = {"KHR_materials_emissive_strength"};
+    const float far = -away - 10, low = -1.2f, high = 1.8f;
+    add_luminous_square(file, "wall", {-100, -100, far, 100, -100, far, 100, 100, far, -100, 100, far}, 2);
+    add_luminous_square(file, "card", {-1, low, -away, 1, low, -away, 1, high, -away, -1, high, -away}, 3);
+    add_eye(file);
     return file.text();
 }
 

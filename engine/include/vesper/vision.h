@@ -48,7 +48,7 @@ typedef struct VesperDifferences {
 } VesperDifferences;
 
 /** Finds where an observer tells two pictures apart, as `vesper compare` does (docs/compare.md; after Mantiuk, Daly,
- * Myszkowski and Seidel 2005). Both have the same size, at most 2^25 pixels, the same angle within 0.1 %, which is
+ * Myszkowski and Seidel 2005). Both have the same size, at most 2^24 pixels, the same angle within 0.1 %, which is
  * 0.1 to 170 degrees in height, and square pixels within 1 %. `probability`: width * height values, 0 to 1, that an eye
  * that looks there detects a difference. Outputs that are null are not made. */
 VesperResult vesper_visible_differences(VesperVision* vision, const VesperObserver* observer,

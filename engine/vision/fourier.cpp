@@ -11,7 +11,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr size_t kLinesAtATime = 16;  // at a time: their transposed columns fill lines of the cache
+constexpr size_t kLinesAtATime = 16;  // their transposed columns fill lines of the cache
 
 // Of one line. The library has no transform of a single sample, which is the sample.
 void transform(Eigen::FFT<double>& fft, Complex* to, const Complex* from, size_t length, bool inverse) {

@@ -18,7 +18,7 @@ using Complex = std::complex<double>;
 constexpr int kOrientations = 4;
 constexpr double kCoarsest = 0.5;  // cycles/degree: octaves go down to about here
 constexpr size_t kMostOctaves = 12;
-constexpr double kMargin = 1;      // degrees, mirrored beyond the picture, at least
+constexpr double kReach = 2;       // degrees beyond each edge that are its mirror image: coarse channels reach so far
 constexpr size_t kGains = 4096;    // of a radial function
 constexpr int kAdaptations = 256;  // luminances at which a channel's sensitivity is known
 
@@ -43,9 +43,15 @@ public:
         : pair_(pair), scale_(eye), highest_(pair.pixels_per_degree / 2) {
         octaves_ = size_t(std::clamp(std::lround(std::log2(highest_ / kCoarsest)), 1l, long(kMostOctaves)));
         while (octaves_ > 1 && (size_t{1} << octaves_) > std::min(pair.width, pair.height)) --octaves_;
-        const size_t coarsest = size_t{1} << (octaves_ - 1), margin = size_t(std::ceil(kMargin * 2 * highest_));
-        whole_ = {uint32_t(fast_length(pair.width + std::min<size_t>(margin, pair.width), coarsest)),
-                  uint32_t(fast_length(pair.height + std::min<size_t>(margin, pair.height), coarsest)), 1};
+        const size_t coarsest = size_t{1} << (octaves_ - 1);
+        const double margins = std::ceil(2 * kReach * pair.pixels_per_degree);
+        const auto side = [&](uint32_t length) {
+            return uint32_t(fast_length(length + size_t(std::min(margins, double(length))), coarsest));
+        };
+        whole_ = {side(pair.width), side(pair.height), 1};
+        if (whole_.size() > 2 * scaled_limit(kMostChannelPixels))
+            throw Error("pictures of " + std::to_string(pair.width) + " x " + std::to_string(pair.height) +
+                        " pixels that cover so small an angle cannot be compared: make them smaller");
     }
 
     void visit(const std::function<void(const Channel&)>& visit) {

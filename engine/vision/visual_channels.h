@@ -41,7 +41,8 @@ struct Channel {
     std::span<const std::complex<double>> first, second;
 };
 
-/// Of pictures that are compared, times VESPER_LIMITS: 128 bytes each.
+/// The most pixels of pictures that are compared, times VESPER_LIMITS. With their margins, which are 2 degrees and at
+/// most half the picture on each side, they have at most twice as many, of 128 bytes each.
 constexpr uint64_t kMostChannelPixels = uint64_t{1} << 24;
 
 /// Calls `visit` with each channel, from coarse to fine: the frequencies below all octaves, each octave in four
@@ -52,7 +53,7 @@ constexpr uint64_t kMostChannelPixels = uint64_t{1} << 24;
 /// pixels, of more than kMostChannelPixels, of other sizes than they say or without an angle.
 void visit_channels(const PicturePair&, const ContrastEye&, const std::function<void(const Channel&)>& visit);
 
-/// Of loops over samples, for a thread.
+/// What a thread takes at a time of loops over samples.
 constexpr size_t kSamplesAtATime = 1u << 14;
 
 /// Values at every pixel of half the step, linear between the samples of `grid`.

@@ -88,6 +88,28 @@ TEST(VisibleDifferences, AreWhereTheyAre) {
     EXPECT_GT(found.above_95, std::numbers::pi / 4 * kPerDegree * kPerDegree / 2 / (kSide * kSide)) << "half a fovea";
 }
 
+// A strip of half a degree that is twice as bright at one edge, 200 times its threshold: seen by a fovea about it or up
+// to a degree beside it. Coarse filters reach farther, and transforms meet at the other edge.
+TEST(VisibleDifferences, EndBesideThem) {
+    std::vector<float> right = uniform(10), below = uniform(10);
+    const auto strip = uint32_t(kPerDegree / 2), coarsest = 16u;  // px; between samples of the coarsest channel
+    for (uint32_t y = 0; y < kSide; ++y)
+        for (uint32_t x = kSide - strip; x < kSide; ++x) right[y * kSide + x] = below[x * kSide + y] = 20;
+    const auto in_rows = visible_differences({kSide, kSide, kPerDegree, uniform(10), right}),
+               in_columns = visible_differences({kSide, kSide, kPerDegree, uniform(10), below});
+    for (uint32_t along = 0; along < kSide; ++along)
+        for (uint32_t away = 0; away < kSide; ++away) {
+            const float row = in_rows.probability[along * kSide + kSide - 1 - away],
+                        column = in_columns.probability[(kSide - 1 - away) * kSide + along];
+            if (away < strip) {
+                ASSERT_GT(std::min(row, column), 0.99) << away;
+            }
+            if (away > strip + 1.5 * kPerDegree + coarsest) {
+                ASSERT_EQ(std::max(row, column), 0) << away;
+            }
+        }
+}
+
 // The same order of both pictures, and what is on a grating is masked by it.
 TEST(VisibleDifferences, AreMaskedAndSymmetric) {
     const double contrast = 0.012;

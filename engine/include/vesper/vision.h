@@ -32,8 +32,8 @@ typedef struct VesperObserver {
     uint32_t size;      /**< of this structure */
     float age;          /**< years, 1 to 120 */
     float pigmentation; /**< of the iris, 0 to 1.5, as VesperToneSettings::pigmentation */
-    int32_t scattered;  /**< 1: the pictures hold the light that the eye scatters already; 0: it is added, by the CIE
-                         * total glare function */
+    int32_t scattered;  /**< 1: the pictures are those on the retina, with the scatter and blur of an eye already; 0:
+                         * they  are added, by the CIE total glare function */
 } VesperObserver;
 
 /** Differences of two pictures that an observer detects. */
@@ -49,8 +49,10 @@ typedef struct VesperDifferences {
 
 /** Finds where an observer tells two pictures apart, as `vesper compare` does (docs/compare.md; after Mantiuk, Daly,
  * Myszkowski and Seidel 2005). Both have the same size, at most 2^24 pixels, the same angle within 0.1 %, which is
- * 0.1 to 170 degrees in height, and square pixels within 1 %. `probability`: width * height values, 0 to 1, that an eye
- * that looks there detects a difference. Outputs that are null are not made. */
+ * 0.1 to 170 degrees in height, and square pixels within 1 %. Pictures of less than 4 degrees are seen with margins as
+ * large as they are, and need four times the memory and time of others: beyond 2^25 pixels with these, or a minute,
+ * the result is VESPER_FAILED. `probability`: width * height values, 0 to 1, that an eye that looks there detects a
+ * difference. Outputs that are null are not made. */
 VesperResult vesper_visible_differences(VesperVision* vision, const VesperObserver* observer,
                                         const VesperPicture* first, const VesperPicture* second, float* probability,
                                         VesperDifferences* found, VesperError* error);

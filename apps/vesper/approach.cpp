@@ -144,10 +144,12 @@ void Approach::add_beam(const photometry::Distribution& distribution, const std:
         lamp.distribution = uint32_t(scene_.distributions.size() - 1);
         const glm::dmat3 axes(rest_[headlamp]);
         const glm::dmat3 turn(glm::normalize(axes[0]), glm::normalize(axes[1]), glm::normalize(axes[2]));
+        glm::dmat3 local = glm::transpose(turn) * level;
         scene::Node node;
         node.name = name;
         node.parent = headlamp;
-        node.rotation = glm::quat(glm::normalize(glm::quat_cast(glm::transpose(turn) * level)));
+        if (glm::determinant(local) < 0) local[0] = -local[0], node.scale.x = -1;  // a mirrored headlamp; beams are not
+        node.rotation = glm::quat(glm::normalize(glm::quat_cast(local)));
         node.lamp = uint32_t(scene_.lamps.size());
         node.fixture = scene_.nodes[headlamp].fixture;
         beams_.back().push_back(uint32_t(scene_.nodes.size()));

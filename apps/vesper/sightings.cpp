@@ -10,22 +10,22 @@ namespace vesper::commands {
 std::vector<Sighting> sightings(std::span<const LevelAt> way, double level) {
     std::vector<Sighting> found;
     bool seen = false;
-    const auto turn = [&](bool now, double distance, bool at_start) {
+    const auto turn = [&](bool now, double distance, bool open) {
         if (now == seen) return;
         seen = now;
         if (now)
-            found.push_back({distance, distance, at_start, false});
+            found.push_back({.from = distance, .to = distance, .open_before = open});
         else
-            found.back().to = distance;
+            found.back().to = distance, found.back().open_after = open;
     };
     for (size_t i = 0; i < way.size(); ++i) {
         const LevelAt& here = way[i];
         if (!here.level) {
-            if (i > 0) turn(false, way[i - 1].distance, false);
+            if (i > 0) turn(false, way[i - 1].distance, true);
             continue;
         }
         if (i == 0 || !way[i - 1].level) {
-            turn(std::abs(*here.level) >= level, here.distance, i == 0);
+            turn(std::abs(*here.level) >= level, here.distance, true);
             continue;
         }
         // The line from the level before to this one, cut where it goes through the level sought and its negative.
@@ -45,15 +45,18 @@ std::vector<Sighting> sightings(std::span<const LevelAt> way, double level) {
     return found;
 }
 
-std::string words_of(std::span<const Sighting> found) {
+std::string words_of(std::span<const LevelAt> way, double level) {
+    const auto metres = [](double distance) { return apps::format("%g", std::round(10 * distance) / 10); };
     std::string words;
-    for (const Sighting& part : found) {
+    for (const Sighting& part : sightings(way, level)) {
         words += words.empty() ? "" : ", ";
-        words += part.from_start ? "beyond " : part.to_end ? "from " : "";
-        words += apps::format("%.3g", part.from);
-        words += part.to_end ? " m" : apps::format(" to %.3g m", part.to);
+        words += part.open_before ? "beyond " : part.to_end ? "from " : "";
+        words += metres(part.from) + (part.to_end ? "" : " to " + metres(part.to)) + " m";
+        words += part.open_after ? " at least" : "";
     }
-    return words.empty() ? "never" : words;
+    if (!words.empty()) return words;
+    const auto measured = std::ranges::count_if(way, [](const LevelAt& at) { return at.level.has_value(); });
+    return measured == 0 ? kNotMeasured : measured == std::ssize(way) ? "never" : "never where it is measured";
 }
 
 std::vector<glm::dvec2> level_line(std::span<const LevelAt> way, double least) {

@@ -18,6 +18,7 @@
 #include "sightings.h"
 #include "study.h"
 #include "thread_arguments.h"
+#include "vision/visibility.h"
 
 namespace vesper::commands {
 namespace {
@@ -78,6 +79,12 @@ std::vector<double> distances_of(const HeadlampArguments& a) {
     std::vector<double> distances;
     for (double k = 0; a.from - k * a.step > a.to - 1e-9 * a.from; ++k) distances.push_back(a.from - k * a.step);
     return distances;
+}
+
+/// Why an obstacle has no level.
+std::string why_without_level(const render::SeenObstacle& seen) {
+    if (const std::string why = render::words_of(seen.state); !why.empty()) return why;
+    return seen.around + seen.veil < vision::kDarkestBackground ? "too dark" : "too bright";
 }
 
 class HeadlampStudy {
@@ -166,10 +173,9 @@ void HeadlampStudy::render(const render::ToneChainSettings& tone) {
             const std::optional<double> level = measured_[i].back().visibility.level;
             const std::string name = format("beam-%zu-%s.png", c.beam + 1, lamps_of(c).c_str());
             apps::write_codes(file(name), frame, settings_.display);
-            shown_[c.beam].push_back(
-                {name, format("%g m before it, %g years%s: ", distance, c.age,
-                              has_oncoming() ? (", oncoming lamps " + lamps_of(c)).c_str() : "") +
-                           (level ? format("VL %.1f", *level) : std::string(render::words_of(seen.state)))});
+            shown_[c.beam].push_back({name, format("%g m before it, %g years%s: ", distance, c.age,
+                                                   has_oncoming() ? (", oncoming lamps " + lamps_of(c)).c_str() : "") +
+                                                (level ? format("VL %.1f", *level) : why_without_level(seen))});
         }
 }
 
@@ -178,8 +184,7 @@ std::string HeadlampStudy::not_measured(size_t condition) const {
     std::string text;
     for (const Measured& m : measured_[condition]) {
         if (m.visibility.level) continue;
-        const std::string why = render::words_of(m.seen.state);
-        text += (text.empty() ? "" : ", ") + format("%g m: ", m.distance) + (why.empty() ? "too dark" : why);
+        text += (text.empty() ? "" : ", ") + format("%g m: ", m.distance) + why_without_level(m.seen);
     }
     return text;
 }
@@ -238,7 +243,8 @@ void HeadlampStudy::write_rows() {
                             format("%g", conditions_[i].age), format("%g", m.distance), number(m.visibility.level),
                             number(m.visibility.without_veil), luminance(m.seen.luminance), luminance(m.seen.around),
                             luminance(m.seen.veil), known ? format("%.3f", m.visibility.size) : "",
-                            format("%.3f", m.seen.distance), known ? "measured" : render::words_of(m.seen.state)});
+                            format("%.3f", m.seen.distance),
+                            m.visibility.level ? "measured" : why_without_level(m.seen)});
         }
     apps::write_text(file("headlamps.csv"), csv_of(columns, rows));
 }
@@ -248,16 +254,18 @@ void HeadlampStudy::write() {
     page_.paragraph(
         format("%s, %s. The car of the camera drives towards it, from %g to %g m in steps of %g m; it stands %.2f m to "
                "the %s of the eye's way. Each of its %u headlamps shines with one of the beams, level and straight "
-               "ahead.",
+               "ahead, or as the scene has it.",
                one_line(fs::path(a.scene).filename().string()).c_str(), settings_.obstacles.front().name.c_str(),
                distances_.front(), distances_.back(), a.step, std::abs(approach_.aside()),
                approach_.aside() < 0 ? "left" : "right", approach_.headlamps()));
-    page_.paragraph(
-        format("Visibility level VL after Adrian 1989, 0.2 s, with the veil of all lamps in the eye (--glare %s). The "
-               "obstacle is seen where |VL| is at least %g. VL is negative where the obstacle is darker than what "
-               "is around it. Where VL changes its sign the obstacle has no contrast and is not seen, however near. "
-               "Between distances VL is linear.",
-               a.tone.glare.c_str(), a.level));
+    page_.paragraph(format(
+        "Visibility level VL after Adrian 1989, 0.2 s, %s. The "
+        "obstacle is seen where |VL| is at least %g. VL is negative where the obstacle is darker than what "
+        "is around it. Where VL changes its sign the obstacle has no contrast and is not seen, however near. "
+        "Between distances VL is linear.",
+        a.tone.glare == "none" ? "without the veil of lamps in the eye (--glare none)"
+                               : ("with the veil of all lamps in the eye (--glare " + a.tone.glare + ")").c_str(),
+        a.level));
     std::vector<std::vector<std::string>> rows;
     const std::vector<std::string> columns{"beam", "oncoming lamps", "age", "seen", "darker at, m", "not measured"};
     for (size_t i = 0; i < conditions_.size(); ++i) {
@@ -266,7 +274,7 @@ void HeadlampStudy::write() {
         for (const LevelAt& at : levels)
             if (at.level && *at.level < 0) darker += (darker.empty() ? "" : " ") + format("%g", at.distance);
         rows.push_back({beams_[conditions_[i].beam].name, lamps_of(conditions_[i]), format("%g", conditions_[i].age),
-                        words_of(sightings(levels, a.level)), darker, not_measured(i)});
+                        words_of(levels, a.level), darker, not_measured(i)});
     }
     page_.heading("Seen");
     page_.table(columns, rows);
@@ -276,8 +284,8 @@ void HeadlampStudy::write() {
     write_rows();
     apps::write_text(file("headlamps.html"), page_.html());
     for (const std::vector<std::string>& row : rows)
-        apps::print("%s, oncoming lamps %s, %s years: seen %s\n", row[0].c_str(), row[1].c_str(), row[2].c_str(),
-                    row[3].c_str());
+        apps::print("%s, oncoming lamps %s, %s years: %s%s\n", row[0].c_str(), row[1].c_str(), row[2].c_str(),
+                    row[3] == kNotMeasured ? "" : "seen ", row[3].c_str());
     apps::print("%s\n", file("headlamps.html").c_str());
 }
 

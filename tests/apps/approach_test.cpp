@@ -115,6 +115,24 @@ TEST(Approach, EachBeamShinesAloneLevelAndAhead) {
     EXPECT_EQ(frame.dimming[node_named(scene, "post")], 1);
 }
 
+// Cars have their right headlamp as the mirror image of the left one; its beam is not mirrored.
+TEST(Approach, BeamsOfMirroredHeadlampsAreUpright) {
+    scene::Scene mirrored = street();
+    mirrored.nodes[node_named(mirrored, "headlamp_right")].scale = {-1, 1, 1};
+    mirrored.nodes[node_named(mirrored, "headlamp_left")].scale = {2, 2, 2};
+    const Approach approach(std::move(mirrored), kPerson, {{"narrow", narrow_beam()}});
+    const gpu_scene::SceneFrame frame = approach.at(50, 0, true);
+    int beams = 0;
+    for (uint32_t i = 0; i < approach.scene().nodes.size(); ++i) {
+        if (approach.scene().nodes[i].name != "narrow") continue;
+        const glm::dmat3 lamp = scene::lamp_frame(frame.world[i]);
+        EXPECT_NEAR(glm::distance(lamp[0], dvec3(0, 0, 1)), 0, 1e-6) << "right";
+        EXPECT_NEAR(glm::distance(lamp[1], dvec3(0, 1, 0)), 0, 1e-6) << "up";
+        ++beams;
+    }
+    EXPECT_EQ(beams, 2);
+}
+
 // 20 m before the eye, in the middle: both headlamps 0.65 m up, 2 m before the origin of the car.
 TEST(Approach, ItsBeamLightsTheRoad) {
     const Approach approach(street(), kPerson, {{"narrow", narrow_beam()}});

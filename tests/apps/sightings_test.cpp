@@ -8,11 +8,11 @@
 namespace vesper::test {
 namespace {
 
-using commands::LevelAt, commands::sightings, commands::words_of;
+using commands::LevelAt, commands::words_of;
 
 constexpr std::nullopt_t kUnknown = std::nullopt;
 
-std::string seen(const std::vector<LevelAt>& way) { return words_of(sightings(way, 7)); }
+std::string seen(const std::vector<LevelAt>& way) { return words_of(way, 7); }
 
 TEST(Sightings, BeginWhereTheLineReachesTheLevel) {
     EXPECT_EQ(seen({{100, 1}, {80, 5}, {60, 9}, {40, 30}}), "from 70 m");
@@ -21,7 +21,7 @@ TEST(Sightings, BeginWhereTheLineReachesTheLevel) {
     EXPECT_EQ(seen({{100, 1}, {50, 6.9}}), "never");
     EXPECT_EQ(seen({{100, 0}, {50, 7}}), "never") << "no more than the last distance";
     EXPECT_EQ(seen({{50, 7}}), "beyond 50 m");
-    EXPECT_EQ(seen({}), "never");
+    EXPECT_EQ(seen({{1000, 7.1}, {500.04, 7}, {400, 0}}), "beyond 1000 to 500 m");
     EXPECT_EQ(seen({{100, 7}, {50, 7}}), "beyond 100 m");
 }
 
@@ -34,10 +34,15 @@ TEST(Sightings, EndWhereTheContrastIsLost) {
     EXPECT_EQ(seen({{90, 7}, {80, 0}, {70, 7}, {60, 14}}), "beyond 90 to 90 m, from 70 m");
 }
 
-TEST(Sightings, GoOnlyAsFarAsIsMeasured) {
-    EXPECT_EQ(seen({{90, 10}, {80, 10}, {70, kUnknown}, {60, 10}, {50, 10}}), "beyond 90 to 80 m, from 60 m");
-    EXPECT_EQ(seen({{90, kUnknown}, {80, 10}, {70, 10}, {60, kUnknown}}), "80 to 70 m");
-    EXPECT_EQ(seen({{90, kUnknown}, {80, kUnknown}}), "never");
+// What could not be measured is neither seen nor unseen.
+TEST(Sightings, SayWhatIsNotMeasured) {
+    EXPECT_EQ(seen({{90, 10}, {80, 10}, {70, kUnknown}, {60, 10}, {50, 10}}),
+              "beyond 90 to 80 m at least, beyond 60 m");
+    EXPECT_EQ(seen({{90, kUnknown}, {80, 10}, {70, 10}, {60, kUnknown}}), "beyond 80 to 70 m at least");
+    EXPECT_EQ(seen({{90, kUnknown}, {80, 0}, {70, 14}}), "from 75 m");
+    EXPECT_EQ(seen({{90, kUnknown}, {80, 6}}), "never where it is measured");
+    EXPECT_EQ(seen({{90, kUnknown}, {80, kUnknown}}), commands::kNotMeasured);
+    EXPECT_EQ(seen({}), commands::kNotMeasured);
 }
 
 TEST(Sightings, TheLineOfTheirPlotGoesDownBetweenTheSigns) {

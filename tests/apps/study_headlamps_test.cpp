@@ -131,10 +131,11 @@ TEST_F(StudyHeadlamps, BrighterBeamsSeeFartherAndOncomingLampsLess) {
 TEST_F(StudyHeadlamps, SaysWhereNothingCanBeMeasured) {
     ASSERT_EQ(study("--beam high.csv --ages 25 --from 50 --to 25 --step 25 --place-obstacle 0,0,-60"), 0) << said;
     for (Row row : rows("out/headlamps.csv")) EXPECT_EQ(row["oncoming"], "none");
-    EXPECT_NE(printed.find("high, oncoming lamps none, 25 years: seen from 25 m"), std::string::npos) << printed;
+    EXPECT_NE(printed.find("high, oncoming lamps none, 25 years: seen beyond 25 m"), std::string::npos) << printed;
     EXPECT_NE(read_text(folder / "out/headlamps-seen.csv").find("50 m: "), std::string::npos);
     ASSERT_EQ(study("--beam high.csv --ages 25 --from 20 --to 20 --place-obstacle 60,0,-60"), 0) << said;
-    EXPECT_NE(read_text(folder / "out/headlamps-seen.csv").find("never,,20 m: "), std::string::npos);
+    EXPECT_NE(read_text(folder / "out/headlamps-seen.csv").find("not measured,,20 m: "), std::string::npos);
+    EXPECT_NE(printed.find("high, oncoming lamps none, 25 years: not measured\n"), std::string::npos) << printed;
     EXPECT_EQ(rows("out/headlamps.csv").front()["vl"], "");
 }
 

@@ -77,8 +77,10 @@ std::string obstacle_lines(std::span<const scene::Obstacle> obstacles, std::span
         lines += format("obstacle %s, %.1f m: ", obstacles[i].name.c_str(), s.distance);
         const render::ObstacleVisibility visible = render::visibility_of(s, settings.tone.observer.age);
         if (s.state == SeenObstacle::State::Measured)
-            lines += format("%.3g arc minutes, %.4g cd/m^2 on %.4g cd/m^2, veil %.4g cd/m^2, visibility level %s, ",
-                            visible.size, s.luminance, s.around, s.veil, level(visible.level).c_str()) +
+            lines += format("%.3g arc minutes, %.4g cd/m^2 on %.4g cd/m^2, ", visible.size, s.luminance, s.around) +
+                     (settings.glare == render::Glare::Scatter
+                          ? format("veil %.4g cd/m^2, visibility level %s, ", s.veil, level(visible.level).c_str())
+                          : std::string("visibility level ")) +
                      format("without glare %s\n", level(visible.without_veil).c_str());
         else
             lines += std::string(render::words_of(s.state)) + "\n";

@@ -27,12 +27,13 @@ Detections::Detections(const std::vector<scene::Obstacle>& obstacles, double vis
     for (const scene::Obstacle& obstacle : obstacles) tracks_.push_back({obstacle.name, {}});
 }
 
-void Detections::add(std::span<const render::SeenObstacle> seen, double age) {
+void Detections::add(std::span<const render::SeenObstacle> seen, double age, bool glare) {
+    glare_ |= glare;
     for (size_t i = 0; i < tracks_.size(); ++i) {
         Moment moment{NAN, {}, {}};
         if (i < seen.size()) {
             const render::ObstacleVisibility visible = render::visibility_of(seen[i], age);
-            moment = {seen[i].distance, absolute(visible.level), absolute(visible.without_veil)};
+            moment = {seen[i].distance, glare ? absolute(visible.level) : std::nullopt, absolute(visible.without_veil)};
         }
         tracks_[i].moments.push_back(moment);
     }
@@ -41,7 +42,7 @@ void Detections::add(std::span<const render::SeenObstacle> seen, double age) {
 double Detections::Track::nearest() const {
     double nearest = HUGE_VAL;
     for (const Moment& moment : moments)
-        if (moment.with) nearest = std::min(nearest, moment.distance);
+        if (moment.with || moment.without) nearest = std::min(nearest, moment.distance);
     return nearest;
 }
 
@@ -63,7 +64,9 @@ std::string Detections::table() const {
         text += apps::column(track.name, 32) +
                 format("  %10s  %13s  %7s\n", with.c_str(), without.c_str(), nearest.c_str());
     }
-    return text + (at_once ? "+: in the first frame, so from farther away\n" : "");
+    if (at_once) text += "+: in the first frame, so from farther away\n";
+    if (!glare_) text += "no light was scattered in the eye: --glare cie tells what is seen with glare\n";
+    return text;
 }
 
 apps::LinePlot Detections::plot() const {
@@ -81,6 +84,7 @@ apps::LinePlot Detections::plot() const {
                         .rule = visible_from_};
     for (size_t i = 0; i < drawn.size(); ++i)
         for (const bool glare : {true, false}) {
+            if (glare && !glare_) continue;
             apps::PlotLine& line = plot.lines.emplace_back();
             line.name = drawn[i]->name + (glare ? "" : ", no glare"), line.dashed = !glare, line.colour = i;
             for (const Moment& moment : drawn[i]->moments) {

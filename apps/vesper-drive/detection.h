@@ -24,11 +24,13 @@ class Detections {
 public:
     Detections(const std::vector<scene::Obstacle>&, double visible_from);
 
-    /// Obstacles of the next frame, in their order; of none where nothing was measured.
-    void add(std::span<const render::SeenObstacle>, double age);
+    /// Obstacles of the next frame, in their order; of none where nothing was measured. `glare`: light was scattered in
+    /// the eye, so that levels with it are known.
+    void add(std::span<const render::SeenObstacle>, double age, bool glare);
 
     /// A line for each under a heading: the distance in the first frame in which it was seen, with glare and without,
-    /// and the least at which it was measured, m. A + stands where that was the first frame of the drive.
+    /// and the least at which it was measured, m. A + stands where that was the first frame of the drive. Says so if no
+    /// frame had glare.
     std::string table() const;
     /// Levels over distance, of the kMostDrawn that come nearest.
     static constexpr size_t kMostDrawn = 8;
@@ -48,6 +50,7 @@ private:
 
     std::vector<Track> tracks_;
     double visible_from_;
+    bool glare_ = false;  // in a frame
 };
 
 }  // namespace vesper::drive

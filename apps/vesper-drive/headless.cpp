@@ -360,7 +360,7 @@ void run_headless(const DriveArguments& a) {
             const render::RenderSettings& settings = session.settings().render();
             std::string row = outlet.logs() ? outlet.rows().next(session, view, frame) : "";
             if (outlet.logs()) row += apps::obstacle_values(session.obstacles(), frame.obstacles, settings);
-            detections.add(frame.obstacles, settings.tone.observer.age);
+            detections.add(frame.obstacles, settings.tone.observer.age, settings.glare == render::Glare::Scatter);
             hatch_unseen(frame, settings, a.visible_from);
             relay.deliver(index, outlet.take(index, session, frame, frame.lamps, row), take);
         } else {

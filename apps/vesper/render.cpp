@@ -107,7 +107,7 @@ void check_arguments(RenderArguments& arguments) {
         if (settings.shadow_budget != render::kNoShadowBudget)
             throw Error("--shadow-budget: a frame then depends on the one before; not with several ranks");
         if (settings.display_average) throw Error("--display-average is not made by several ranks");
-        if (!arguments.obstacles.empty()) throw Error("--obstacle: is not measured by several ranks");
+        if (!arguments.obstacles.empty()) throw Error("--obstacle: obstacles are not measured by several ranks");
     }
     if (apps::Ranks::own_number() != 0) return;  // the first rank alone writes these
     io::announce_write("--stats-json", arguments.statistics_file);

@@ -38,10 +38,10 @@ std::vector<std::string> row_of(const std::string& table, const std::string& nam
 
 TEST(Detection, IsTheFirstFrameWithTheLevel) {
     drive::Detections seen(named({"man", "dark", "never", "near"}), 7);
-    seen.add(std::vector{hidden(99), at(90, 0), hidden(50), at(5, 1)}, 23);
-    seen.add(std::vector{at(80, 1, 20), at(70, -0.9), hidden(40), at(4, 1)}, 23);
-    seen.add(std::vector{at(60, 1), at(50, 0), hidden(30), at(6, 1)}, 23);
-    seen.add({}, 23);  // without luminances
+    seen.add(std::vector{hidden(99), at(90, 0), hidden(50), at(5, 1)}, 23, true);
+    seen.add(std::vector{at(80, 1, 20), at(70, -0.9), hidden(40), at(4, 1)}, 23, true);
+    seen.add(std::vector{at(60, 1), at(50, 0), hidden(30), at(6, 1)}, 23, true);
+    seen.add({}, 23, true);  // without luminances
     const std::string table = seen.table();
     using Words = std::vector<std::string>;
     EXPECT_TRUE(table.starts_with("level 7 first at, m "));
@@ -60,6 +60,16 @@ TEST(Detection, IsTheFirstFrameWithTheLevel) {
     EXPECT_EQ(dark.points[1].x, 70);
     EXPECT_GT(dark.points[1].y, 7) << "whatever its sign";
     EXPECT_TRUE(std::isnan(dark.points[3].x)) << "breaks the line";
+}
+
+// Without scatter a level with glare would be one without it.
+TEST(Detection, WithGlareIsUnknownWhereNoneIsComputed) {
+    drive::Detections seen(named({"man"}), 7);
+    seen.add(std::vector{at(60, 1)}, 23, false);
+    EXPECT_EQ(row_of(seen.table(), "man"), (std::vector<std::string>{"man", "-", "60.0+", "60.0"}));
+    EXPECT_NE(seen.table().find("--glare cie"), std::string::npos);
+    ASSERT_EQ(seen.plot().lines.size(), 1u);
+    EXPECT_EQ(seen.plot().lines[0].name, "man, no glare");
 }
 
 TEST(Detection, OlderEyesNeedMore) {

@@ -45,7 +45,7 @@ protected:
 TEST_F(ObstacleProgram, RenderPrintsAndLogsThem) {
     ASSERT_EQ(run(render + "--obstacle 'c?rd' --frames 2 --log l.csv -o a%d.png --eye-out e.csv"), 0) << said;
     EXPECT_TRUE(printed.starts_with("obstacle card, 15.0 m: ")) << printed;
-    EXPECT_NE(printed.find(" arc minutes, 3 cd/m^2 on 2 cd/m^2, veil 0 cd/m^2, visibility level "), std::string::npos)
+    EXPECT_NE(printed.find(" arc minutes, 3 cd/m^2 on 2 cd/m^2, visibility level without glare "), std::string::npos)
         << printed;
     const auto rows = rows_of(read_text(folder / "l.csv"));
     ASSERT_EQ(rows.size(), 2u);

@@ -57,7 +57,7 @@ class Vision(ToneMapper):
         self.vision = c.c_void_p()
         super().close()
 
-    def compare(self, first, second, vertical_fov=0.7, observer=None):
+    def compare(self, first, second, vertical_fov, observer=None):
         """Returns height x width probabilities that an observer detects a difference, and Differences."""
         probability, found = np.empty(np.shape(first)[:2], np.float32), Differences()
         self.check(self.calls.vesper_visible_differences, self.vision, observer and c.byref(observer),
@@ -65,7 +65,7 @@ class Vision(ToneMapper):
                    floats(probability), c.byref(found))
         return probability, found
 
-    def fidelity(self, scene, shown, vertical_fov=0.7, observer=None):
+    def fidelity(self, scene, shown, vertical_fov, observer=None):
         """Returns, by name, height x width shares of the octaves in which contrast is seen in the scene, lost,
         invented and amplified."""
         maps = {name: np.empty(np.shape(scene)[:2], np.float32) for name, _ in Fidelity._fields_[1:]}

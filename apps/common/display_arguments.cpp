@@ -21,6 +21,10 @@ void add_display_options(Command command, DisplayArguments& a) {
     command.help_group();
 }
 
+bool is_given(const DisplayArguments& a) {
+    return !a.display.empty() || a.peak || a.black || a.gamma || a.ambient || a.reflection;
+}
+
 vision::Display display_of(const DisplayArguments& arguments) {
     vision::Display display =
         arguments.display.empty() ? vision::known_displays().front().display : scene::find_display(arguments.display);

@@ -15,6 +15,8 @@ struct DisplayArguments {
     std::optional<float> peak, black, gamma, ambient, reflection;  ///< in place of the display's
 };
 void add_display_options(Command, DisplayArguments&);
+/// Whether one of them is.
+bool is_given(const DisplayArguments&);
 /// Throws Error if they contradict each other.
 vision::Display display_of(const DisplayArguments&);
 

@@ -43,14 +43,23 @@ private:
     bool perspective_ = true, sound_ = true;
 };
 
-/// Angle in height that a header tells, degrees, or 0.
+/// The edges of a picture by Vesper, if its header tells them.
+std::optional<vision::ImageAngles> edges_of(const io::HdrImage& image) {
+    for (const auto& [key, value] : image.header) {
+        vision::ImageAngles angles{int(image.width), int(image.height)};
+        if (key == "vesper:tangents" && std::sscanf(value.c_str(), "%lf %lf %lf %lf", &angles.low.x, &angles.low.y,
+                                                    &angles.high.x, &angles.high.y) == 4)
+            return degrees_between(angles.low.x, angles.high.x) > 0 && degrees_between(angles.low.y, angles.high.y) > 0
+                       ? std::optional(angles)
+                       : std::nullopt;
+    }
+    return {};
+}
+
+/// Angle in height that a header of Radiance tells, degrees, or 0.
 double angle_of(const io::Header& header) {
     std::optional<RadianceView> view;
     for (const auto& [key, value] : header) {
-        double left = 0, bottom = 0, right = 0, top = 0;
-        if (key == "vesper:tangents" &&
-            std::sscanf(value.c_str(), "%lf %lf %lf %lf", &left, &bottom, &right, &top) == 4)
-            return degrees_between(bottom, top);
         if (key != "VIEW") continue;
         if (!view) view.emplace();
         view->add(value);
@@ -94,7 +103,7 @@ void find_unit(PictureMeaning& meaning, const io::HdrImage& image, const Picture
 
 }  // namespace
 
-void add_scale_options(Command command, ScaleArguments& a) {
+void add_scale_options(Command command, ScaleArguments& a, const char* help) {
     constexpr double kLeast = 1e-12, kMost = 1e12, kStops = 40;
     const Check scale(
         [=](const std::string& given) {
@@ -104,8 +113,6 @@ void add_scale_options(Command command, ScaleArguments& a) {
             return sound ? std::string() : given + format(" is neither auto nor a number from %g to %g", kLeast, kMost);
         },
         "auto|N");
-    const char* help =
-        "cd/m^2 of a picture's 1.0; auto: as its header says, or, where it names no unit, as such a scene may have";
     command.add_option("--scale", a.scale, help).check(scale).shows_default();
     command
         .add_option("--exposure", a.exposure,
@@ -136,7 +143,11 @@ PictureMeaning meaning_of(const io::HdrImage& image, const PictureRequest& reque
                 format("its header says that 1.0 is %.6g cd/m^2: --scale %.6g is taken", told, meaning.unit));
     }
     meaning.scale = (meaning.unit > 0 ? meaning.unit : 1) * std::exp2(request.scale.exposure);
-    if (const double angle = request.fov > 0 ? request.fov : angle_of(image.header); angle > 0)
+    if (request.fov == 0) meaning.angles = edges_of(image);
+    const double angle = request.fov > 0  ? request.fov
+                         : meaning.angles ? degrees_between(meaning.angles->low.y, meaning.angles->high.y)
+                                          : angle_of(image.header);
+    if (angle > 0)
         meaning.fov = angle, meaning.fov_known = true;
     else if (request.angle_matters)
         meaning.notes.push_back(format(

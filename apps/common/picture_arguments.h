@@ -1,6 +1,7 @@
 // Sizes and angles of pictures, as commands take them. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "command_line.h"
 
 #include "io/hdr_image.h"
+#include "vision/image_angles.h"
 
 namespace vesper::apps {
 
@@ -23,7 +25,9 @@ struct ScaleArguments {
     std::string scale = "auto";  ///< or cd/m^2 of a picture's 1.0
     double exposure = 0;         ///< stops that luminance is raised by
 };
-void add_scale_options(Command, ScaleArguments&);
+constexpr const char* kScaleHelp =
+    "cd/m^2 of a picture's 1.0; auto: as its header says, or, where it names no unit, as such a scene may have";
+void add_scale_options(Command, ScaleArguments&, const char* help = kScaleHelp);
 
 /// How a picture is asked for.
 struct PictureRequest {
@@ -43,8 +47,9 @@ struct PictureMeaning {
     double fov = 40;         ///< angle it covers in height, degrees: as given, as the file says (Vesper's pictures and
                              ///< Radiance's), or 40
     bool fov_known = false;  ///< and not 40 for want of an angle
-    std::vector<std::string> notes;  ///< what was taken for granted, and what of the file was passed over
-    std::string scale_note;          ///< likewise, of a unit that was found for this picture alone
+    std::optional<vision::ImageAngles> angles;  ///< of its edges, as its header has them; none where --fov is given
+    std::vector<std::string> notes;             ///< what was taken for granted, and what of the file was passed over
+    std::string scale_note;                     ///< likewise, of a unit that was found for this picture alone
 };
 PictureMeaning meaning_of(const io::HdrImage&, const PictureRequest&);
 

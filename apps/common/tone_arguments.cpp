@@ -162,9 +162,6 @@ io::Header describe_tone(const render::ToneChainSettings& settings, const render
     return header;
 }
 
-namespace {
-
-/// A gamma of 2.2 in Rec. 709 passes for sRGB, as viewers take it.
 io::PngColour png_colour_of(const vision::Display& display) {
     io::PngColour colour;
     for (const auto& [primaries, code] :
@@ -178,8 +175,6 @@ io::PngColour png_colour_of(const vision::Display& display) {
         colour.transfer = 4;
     return colour;
 }
-
-}  // namespace
 
 void write_codes(const std::string& file, const render::ToneMapped& shown, const vision::Display& display,
                  const io::Header& texts) {

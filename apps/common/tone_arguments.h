@@ -39,6 +39,8 @@ io::Header describe_tone(const render::ToneChainSettings&, const render::ToneMap
 /// Nine digits, as in headers.
 std::string digits(double value);
 
+/// What codes of a display mean, as a PNG may say. A gamma of 2.2 in Rec. 709 passes for sRGB, as viewers take it.
+io::PngColour png_colour_of(const vision::Display&);
 /// Writes the codes of a tone-mapped picture: 8 bits a channel, or 16 for a display of 10. Throws Error.
 void write_codes(const std::string& file, const render::ToneMapped&, const vision::Display&,
                  const io::Header& texts = {});

@@ -1,6 +1,7 @@
 // `vesper compare`: where an observer tells two pictures apart. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -26,6 +27,10 @@ namespace {
 
 using apps::format;
 
+// --glare, and what the report says of it.
+const std::map<std::string, const char*> kOptics{
+    {"cie", ""}, {"barten", " that scatters no light"}, {"none", ", as if pictures were on its retina"}};
+
 struct CompareArguments {
     std::string first, second, picture, json, device, glare = "cie";
     CompareSource source;
@@ -37,24 +42,27 @@ struct CompareArguments {
 struct Comparison {
     vision::VisibleDifferences seen;
     std::vector<float> first;  // luminances of the first picture, cd/m^2
+    vision::ImageAngles angles;
     double pixels_per_degree = 0, log_rmse = 0, psnr = 0;
     std::optional<double> ssim;
 };
 
 Comparison compare(const CompareArguments& a, const ComparedPicture& first, const ComparedPicture& second) {
-    const double fov = angle_of(first, second);
+    const vision::ImageAngles angles = angles_of(first, second);
     gpu::Device device({.select = a.device});
     render::ToneMapper mapper(device);
     std::optional<gpu_scene::ScatterSettings> eye;
-    if (a.glare != "none") eye = {.eye = {a.age, a.iris}};
-    const render::HostPicture host1{first.extent, first.rgb, 3, 1, fov}, host2{second.extent, second.rgb, 3, 1, fov};
+    if (a.glare == "cie") eye = {.eye = {a.age, a.iris}};
+    const render::HostPicture host1{.extent = first.extent, .values = first.rgb, .angles = &angles},
+        host2{.extent = second.extent, .values = second.rgb, .angles = &angles};
     const std::vector<float> retina1 = render::retinal_luminance(mapper, host1, eye),
                              retina2 = render::retinal_luminance(mapper, host2, eye);
     const auto [width, height] = first.extent;
     Comparison made;
-    made.pixels_per_degree = render::pixels_per_degree(height, fov);
+    made.angles = angles;
+    made.pixels_per_degree = render::pixels_per_degree(host1);
     made.seen = vision::visible_differences({width, height, made.pixels_per_degree, retina1, retina2},
-                                            {.optics = !eye, .age = a.age});
+                                            {.optics = a.glare == "barten", .age = a.age});
     made.first = render::retinal_luminance(mapper, host1, {});
     const std::vector<float> plain = render::retinal_luminance(mapper, host2, {});  // without an eye
     made.log_rmse = vision::log_rmse(made.first, plain);
@@ -63,20 +71,14 @@ Comparison compare(const CompareArguments& a, const ComparedPicture& first, cons
     return made;
 }
 
-// Of a pixel, from the middle of the picture, degrees right and up.
-glm::dvec2 direction(const Comparison& c, VkExtent2D extent) {
-    const glm::dvec2 from = glm::dvec2(c.seen.x + 0.5, c.seen.y + 0.5) - 0.5 * glm::dvec2(extent.width, extent.height);
-    const double pixel = kRadiansPerDegree / c.pixels_per_degree;
-    return {std::atan(from.x * pixel) * kDegreesPerRadian, -std::atan(from.y * pixel) * kDegreesPerRadian};
-}
-
 void report(const CompareArguments& a, const ComparedPicture& first, const ComparedPicture& second,
             const Comparison& c) {
     const auto& seen = c.seen;
-    const glm::dvec2 at = direction(c, first.extent);
+    // Degrees right and up of the axis of the eye.
+    const glm::dvec2 at = glm::atan(c.angles.at(glm::dvec2(seen.x, seen.y) + 0.5)) * kDegreesPerRadian;
     apps::print("%s: %s\n%s: %s\n", a.first.c_str(), first.source.c_str(), a.second.c_str(), second.source.c_str());
     apps::print("%u x %u px, %.4g px/degree, an eye of %.4g years%s\n", first.extent.width, first.extent.height,
-                c.pixels_per_degree, a.age, a.glare == "none" ? ", without its scatter" : "");
+                c.pixels_per_degree, a.age, kOptics.at(a.glare));
     apps::print("largest probability of detection  %.4f\n", seen.largest);
     if (seen.largest > 0)
         apps::print("  at (%u, %u), %.2f degrees %s and %.2f %s of the middle\n", seen.x, seen.y, std::abs(at.x),
@@ -96,13 +98,13 @@ void write_json(const CompareArguments& a, const Comparison& c) {
                                 {"age_years", a.age},
                                 {"glare", a.glare},
                                 {"largest_probability", seen.largest},
-                                {"x", seen.x},
-                                {"y", seen.y},
                                 {"share_above_0.5", seen.above_half},
                                 {"share_above_0.75", seen.above_75},
                                 {"share_above_0.95", seen.above_95},
                                 {"log10_rmse", c.log_rmse}};
-    json["pu21_psnr_db"] = std::isfinite(c.psnr) ? nlohmann::ordered_json(c.psnr) : nullptr;  // of equal pictures: none
+    for (const auto& [name, value] : {std::pair("x", seen.x), std::pair("y", seen.y)})
+        json[name] = seen.largest > 0 ? nlohmann::ordered_json(value) : nullptr;  // of equal pictures: none
+    json["pu21_psnr_db"] = std::isfinite(c.psnr) ? nlohmann::ordered_json(c.psnr) : nullptr;
     json["pu21_ssim"] = c.ssim ? nlohmann::ordered_json(*c.ssim) : nullptr;
     apps::write_text(a.json, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
@@ -121,6 +123,11 @@ void run(const CompareArguments& a) {
     if (!a.picture.empty() && !a.picture.ends_with(".png") && !a.picture.ends_with(".exr"))
         throw Error("-o " + one_line(a.picture) + ": a .png or .exr file is expected");
     const ComparedPicture first = read_compared(a.source, a.first), second = read_compared(a.source, a.second);
+    if (first.codes && second.codes && (a.source.scale.scale != "auto" || a.source.scale.exposure != 0))
+        throw Error("--scale and --exposure: PNG files have the luminance of their display");
+    if (first.codes && second.codes && !a.source.layer.empty()) throw Error("--layer: PNG files have no layers");
+    if (!first.codes && !second.codes && apps::is_given(a.source.display))
+        throw Error("--display: neither picture is a PNG, whose codes it would show");
     io::announce_write("-o", a.picture);
     io::announce_write("--json", a.json);
     if (first.extent.width != second.extent.width || first.extent.height != second.extent.height)
@@ -156,12 +163,15 @@ void add_compare(apps::Command program) {
         .add_option("--fov", a->source.fov,
                     "Angle that the pictures cover in height, degrees (default: as an HDR picture says)")
         .check(apps::between(0.1, 170.0));
-    apps::add_scale_options(command, a->source.scale);
+    apps::add_scale_options(command, a->source.scale,
+                            "cd/m^2 of 1.0, for HDR pictures whose header names no unit (auto: they are refused)");
     command.add_option("--layer", a->source.layer, apps::kLayerHelp);
     command.add_option("--age", a->age, "Of the observer, years").check(apps::between(1.0, 120.0)).shows_default();
     command
-        .add_option("--glare", a->glare, "Light scattered in the eye: cie, or none for pictures that have it already")
-        .check(apps::one_of({"cie", "none"}))
+        .add_option("--glare", a->glare,
+                    "Optics of the eye. cie: scatter and blur of its total glare function; barten: his blur alone; "
+                    "none: for pictures that have both already")
+        .check(apps::one_of({"cie", "barten", "none"}))
         .shows_default();
     command.add_option("--iris", a->iris, "Pigmentation of the iris, from 0 very dark to 1.2 light blue")
         .check(apps::between(0.0, 1.5))

@@ -103,7 +103,7 @@ void run(const SaliencyArguments& a) {
         .file = a.input,
         .tone_operator = apps::name_of(settings.tone_operator),
         .picture = &picture,
-        .angles = gpu_scene::angles_of(render::view_of(picture.extent, picture.vertical_fov, nullptr)),
+        .angles = gpu_scene::angles_of(render::view_of(picture.extent, picture.vertical_fov, picture.host().angles)),
         .radius = a.radius,
         .scene = {},
         .display = {},
@@ -120,7 +120,7 @@ void run(const SaliencyArguments& a) {
     render::ToneMapper tone(device);
     const render::ToneMapped shown = tone.map(settings, picture.host(), 0);
     const std::vector<float> light = vision::DisplayLight(settings.display).of_words(shown.display);
-    found.display = mapper.map({picture.extent, light, 3, 1, picture.vertical_fov});
+    found.display = mapper.map(picture.like(light, 3, 1));
     compare(found, a);
     if (values)
         apps::save_values(a.picture, {found.scene.extent.width, found.scene.extent.height, found.scene.values},

@@ -33,8 +33,12 @@ struct NamedScreen {
 std::vector<NamedScreen> screens_of(const Study& study) {
     const std::string& one = study.arguments.tone.display;
     std::vector<NamedScreen> screens;
-    for (const std::string& name : study.arguments.displays) screens.push_back({name, scene::find_display(name)});
-    if (!screens.empty() && !one.empty()) throw Error("--displays: stands in place of --display");
+    if (!study.arguments.displays.empty() && !one.empty()) throw Error("--displays: stands in place of --display");
+    for (const std::string& name : study.arguments.displays) {
+        apps::DisplayArguments described = study.arguments.tone;  // each with what --display-ambient and others change
+        described.display = name;
+        screens.push_back({name, apps::display_of(described)});
+    }
     if (screens.empty())
         screens.push_back({one.empty() ? vision::known_displays().front().name : one, study.settings.display});
     return screens;
@@ -60,8 +64,11 @@ public:
         return render::saliency_pairs(picture.extent).empty() ? render::SaliencyMap{} : saliency_.map(picture);
     }
     SeenScene scene(const StudyPicture& picture) const {
-        return {retina(picture.host()), saliency(picture.host()),
-                render::pixels_per_degree(picture.extent.height, picture.vertical_fov)};
+        try {
+            return {retina(picture.host()), saliency(picture.host()), render::pixels_per_degree(picture.host())};
+        } catch (const Error& error) {
+            throw Error(one_line(picture.name) + ": " + error.what());
+        }
     }
 
 private:
@@ -143,7 +150,7 @@ void study_fidelity(Study& study) {
         settings.tone_operator = op, settings.display = display;
         const render::ToneMapped got = study.map(picture, settings);
         const std::vector<float> light = vision::DisplayLight(display).of_words(got.display);
-        const render::HostPicture shown{picture.extent, light, 3, 1, picture.vertical_fov};
+        const render::HostPicture shown = picture.like(light, 3, 1);
         const std::vector<float> retina = eye.retina(shown);
         const vision::ContrastFidelity found = vision::contrast_fidelity(
             {picture.extent.width, picture.extent.height, scene.pixels_per_degree, scene.retina, retina}, contrast_eye);

@@ -34,6 +34,7 @@ StudyPicture rendered(const PictureSource& arguments, gpu::Device& device, const
     render::Frame made = renderer.render(render, view, frame, 0, {.display = false, .scene = true});
     StudyPicture picture{.name = {}, .extent = extent, .values = std::move(made.scene), .channels = 4};
     picture.vertical_fov = double(std::atan(view.tangent_high.y) - std::atan(view.tangent_low.y));
+    picture.angles = gpu_scene::angles_of(view);
     return picture;
 }
 
@@ -49,6 +50,7 @@ StudyPicture loaded(const PictureSource& arguments, const std::string& input) {
             .channels = 3,
             .scale = float(meaning.scale),
             .vertical_fov = meaning.fov * std::numbers::pi / 180,
+            .angles = meaning.angles,
             .is_absolute = meaning.fov_known && (meaning.scale_source == "option" || image.white_luminance > 0)};
 }
 
@@ -82,11 +84,13 @@ void add_source_options(apps::Command command, PictureSource& source) {
     apps::add_quality_option(command, source.quality);
     command.add_allow_outside();
     command.add_option("--layer", source.layer, apps::kLayerHelp);
-    apps::add_scale_options(command, source.scale);
+    apps::add_scale_options(command, source.scale,
+                            "cd/m^2 of a picture's 1.0; auto: as its header says, or, where it names no unit, as such "
+                            "a scene may have; study fidelity needs a unit");
     command
         .add_option("--fov", source.fov,
                     "Angle a picture covers in height, degrees (default: what the picture says, if Vesper or Radiance "
-                    "made it, or 40)")
+                    "made it, or 40; study fidelity needs it)")
         .check(apps::between(0.1, 170.0));
 }
 

@@ -1,6 +1,8 @@
 // Pictures to study: files, or scenes that are rendered once. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,16 +17,21 @@ namespace vesper::commands {
 struct StudyPicture {
     std::string name;  ///< what its files begin with
     VkExtent2D extent{};
-    std::vector<float> values;          ///< rows from the top
-    uint32_t channels = 3;              ///< 3, or 4 with alpha that is ignored
-    float scale = 1;                    ///< cd/m^2 per unit
-    double vertical_fov = 0.7;          ///< rad
-    bool is_absolute = true;            ///< neither its unit nor its angle was guessed
-    double darkest = 0, brightest = 0;  ///< luminance of pixels with light, cd/m^2
+    std::vector<float> values;                  ///< rows from the top
+    uint32_t channels = 3;                      ///< 3, or 4 with alpha that is ignored
+    float scale = 1;                            ///< cd/m^2 per unit
+    double vertical_fov = 0.7;                  ///< rad
+    std::optional<vision::ImageAngles> angles;  ///< of its edges, in place of vertical_fov, where they are known
+    bool is_absolute = true;                    ///< neither its unit nor its angle was guessed
+    double darkest = 0, brightest = 0;          ///< luminance of pixels with light, cd/m^2
 
     /// Of the i-th pixel, cd/m^2.
     double luminance(size_t i) const;
-    render::HostPicture host() const { return {extent, values, channels, scale, vertical_fov}; }
+    render::HostPicture host() const { return like(values, channels, scale); }
+    /// Other values that cover the same angle.
+    render::HostPicture like(std::span<const float> of, uint32_t of_channels, float of_scale) const {
+        return {extent, of, of_channels, of_scale, vertical_fov, {}, angles ? &*angles : nullptr};
+    }
 };
 
 /// How pictures are read and scenes are rendered.

@@ -27,16 +27,15 @@ static_assert(sizeof(VesperObserver) == 16 && sizeof(VesperDifferences) == 28 &&
 constexpr float kMostLuminance = 1e9f, kLeastBackground = 1e-6f;  // cd/m^2
 constexpr const char* kNoVision = "no vision";
 
-// In the middle of a picture, as of render::pixels_per_degree().
-double pixels_per_degree(const render::HostPicture& picture) {
-    double tangents = 2 * std::tan(picture.vertical_fov / 2);
+double density_of(const render::HostPicture& picture) {
     if (picture.angles) {
         const glm::dvec2 pixel = picture.angles->pixel();
         require(std::abs(pixel.x - pixel.y) <= 0.01 * pixel.y, "pixels of pictures that are compared are square");
-        tangents = pixel.y * picture.extent.height;
     }
+    const double density = render::pixels_per_degree(picture),
+                 tangents = kRadiansPerDegree * picture.extent.height / density;
     require(tangents >= 1.745e-3 && tangents <= 22.87, "pictures that are compared cover 0.1 to 170 degrees in height");
-    return kRadiansPerDegree * picture.extent.height / tangents;
+    return density;
 }
 
 // Two pictures on the retina.
@@ -67,13 +66,13 @@ SeenPair see(VesperVision* by, const VesperObserver* observer, const VesperPictu
     static_assert(vision::kMostChannelPixels == 16777216);
     require(uint64_t{a.extent.width} * a.extent.height <= vision::kMostChannelPixels,
             "pictures of at most 16777216 pixels are compared");
-    const double density = pixels_per_degree(a);
-    require(std::abs(pixels_per_degree(b) - density) <= 1e-3 * density, "pictures that are compared cover one angle");
+    const double density = density_of(a);
+    require(std::abs(density_of(b) - density) <= 1e-3 * density, "pictures that are compared cover one angle");
     std::optional<gpu_scene::ScatterSettings> scatter;
     if (!o.scattered) scatter = {.eye = {double(o.age), double(o.pigmentation)}};
     return {a.extent,
             density,
-            {.optics = !scatter, .age = double(o.age)},
+            {.optics = false, .age = double(o.age)},
             render::retinal_luminance(by->eye, a, scatter),
             render::retinal_luminance(by->eye, b, scatter)};
 }

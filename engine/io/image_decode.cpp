@@ -234,6 +234,21 @@ bool is_16_bit_png(std::span<const uint8_t> bytes) {
     return bytes.size() > 24 && bytes[24] == 16 && media_type(bytes) == "image/png";
 }
 
+std::optional<PngColour> stated_colour(std::span<const uint8_t> png) {
+    constexpr size_t kSignature = 8, kFrame = 12;  // length and name before what a chunk holds, sum behind it
+    if (media_type(png) != "image/png") return {};
+    for (size_t at = kSignature; at + kFrame <= png.size();) {
+        const size_t length =
+            size_t{png[at]} << 24 | size_t{png[at + 1]} << 16 | size_t{png[at + 2]} << 8 | png[at + 3];
+        if (length > png.size() - at - kFrame) return {};
+        const auto named = [&](const char* name) { return std::memcmp(&png[at + 4], name, 4) == 0; };
+        if (named("cICP") && length == 4) return PngColour{png[at + 8], png[at + 9]};
+        if (named("IDAT")) return {};
+        at += length + kFrame;
+    }
+    return {};
+}
+
 namespace {
 
 /// Does the job. Throws Error.

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -39,6 +40,9 @@ struct PngColour {
     bool operator==(const PngColour&) const = default;
 };
 constexpr PngColour kPngSrgb{1, 13};
+
+/// What chunk cICP of a PNG says; nothing without one, or of what is no PNG.
+std::optional<PngColour> stated_colour(std::span<const uint8_t> png);
 
 /// Named texts of a picture: attributes of an OpenEXR header, tEXt chunks of a PNG (ASCII, names of at most 79
 /// characters).

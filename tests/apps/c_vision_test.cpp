@@ -6,6 +6,7 @@
 #include <cmath>
 #include <initializer_list>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -83,10 +84,32 @@ Retinae retinae(const std::vector<float>& a, const std::vector<float>& b, float 
     return {one(a), one(b)};
 }
 
+const double kPerDegree = kHeight / (2 * std::tan(double(kFov) / 2)) * std::numbers::pi / 180;  // px
+
 VesperObserver old_eye() {
     VesperObserver observer = VESPER_INIT(VesperObserver);
     observer.age = 70, observer.pigmentation = 1.2f;
     return observer;
+}
+
+// Pictures on the retina, seen without optics, differ as those before the eye do.
+TEST_F(CVision, ScatteredPicturesAreThoseOnTheRetina) {
+    const std::vector<float> a = square(1), b = square(1.04f);
+    ASSERT_EQ(compare(described(a), described(b)), VESPER_OK) << error.message;
+    const std::vector<float> before = map;
+    EXPECT_GT(differences.largest, 0.1);
+    EXPECT_LT(differences.largest, 0.999);
+    const Retinae on = retinae(a, b, 1, gpu_scene::ScatterSettings{.eye = {23, 0.5}});
+    const auto grey = [](const std::vector<float>& luminances) {
+        std::vector<float> rgb;
+        for (const float l : luminances) rgb.insert(rgb.end(), 3, l);
+        return rgb;
+    };
+    const std::vector<float> first = grey(on.first), second = grey(on.second);
+    VesperObserver observer = VESPER_INIT(VesperObserver);
+    observer.age = 23, observer.pigmentation = 0.5f, observer.scattered = 1;
+    ASSERT_EQ(compare(described(first), described(second), &observer), VESPER_OK) << error.message;
+    for (size_t i = 0; i < map.size(); ++i) ASSERT_NEAR(map[i], before[i], 1e-3f) << "sums of three floats round";
 }
 
 // All bits, with each of the observer's numbers, and each of them changes the figures.
@@ -106,9 +129,8 @@ TEST_F(CVision, DifferencesAreThoseOfTheEngine) {
         std::optional<gpu_scene::ScatterSettings> eye;
         if (observer != &scattered) eye = {.eye = {age, observer ? double(observer->pigmentation) : 0.5}};
         const Retinae on = retinae(a, b, 0.5f, eye);
-        const auto want = vision::visible_differences(
-            {kWidth, kHeight, render::pixels_per_degree(kHeight, double(kFov)), on.first, on.second},
-            {.optics = !eye, .age = age});
+        const auto want = vision::visible_differences({kWidth, kHeight, kPerDegree, on.first, on.second},
+                                                      {.optics = false, .age = age});
         EXPECT_EQ(map, want.probability);
         EXPECT_EQ(differences.x, want.x);
         EXPECT_EQ(differences.y, want.y);
@@ -154,9 +176,8 @@ TEST_F(CVision, FidelityIsThatOfTheEngine) {
             << error.message;
         const Retinae on = retinae(forward ? scene : flat, forward ? flat : scene, 1,
                                    gpu_scene::ScatterSettings{.eye = {70, double(1.2f)}});
-        const auto want = vision::contrast_fidelity(
-            {kWidth, kHeight, render::pixels_per_degree(kHeight, double(kFov)), on.first, on.second},
-            {.optics = false, .age = 70});
+        const auto want =
+            vision::contrast_fidelity({kWidth, kHeight, kPerDegree, on.first, on.second}, {.optics = false, .age = 70});
         EXPECT_EQ(seen, want.seen);
         EXPECT_EQ(lost, want.lost);
         EXPECT_EQ(invented, want.invented);

@@ -1,6 +1,8 @@
 // `vesper compare` on pictures whose difference is known. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <map>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -53,6 +55,7 @@ TEST_F(CompareTest, TellsWhatIsSeenFromWhatIsNot) {
     ASSERT_EQ(run("compare spot.exr spot.exr --json c.json"), 0) << said;
     EXPECT_EQ(figures()["largest_probability"], 0);
     EXPECT_TRUE(figures()["pu21_psnr_db"].is_null()) << "infinite";
+    EXPECT_TRUE(figures()["x"].is_null());
 }
 
 TEST_F(CompareTest, WritesProbabilitiesByPixel) {
@@ -106,6 +109,85 @@ TEST_F(CompareTest, RefusesPicturesWithoutAMeaning) {
     expect_refused("compare a.exr a.exr -o map.jpg", {"map.jpg"});
     EXPECT_EQ(run("compare blind.exr a.exr"), 0) << "one of them says it: " << said;
     EXPECT_EQ(run("compare a.exr relative.exr --scale 2"), 0) << said;
+}
+
+// --scale is for pictures whose header names no unit.
+TEST_F(CompareTest, ScalesOnlyWhatHasNoUnit) {
+    write("a.exr", 0), write("relative.exr", 0, true, false);
+    io::HdrImage half = io::read_exr(folder / "relative.exr");
+    half.header = {};
+    for (float& value : half.rgb) value /= 2;
+    io::write_exr(folder / "half.exr", half);
+    ASSERT_EQ(run("compare a.exr half.exr --scale 2 --json c.json"), 0) << said;
+    EXPECT_EQ(figures()["largest_probability"], 0);
+    EXPECT_NE(said.find("a.exr: its header names a unit"), std::string::npos) << said;
+}
+
+// The axis of the eye is not in the middle: pixels are as large as the header says, and so is the place in degrees.
+TEST_F(CompareTest, TakesTheEdgesOfHeaders) {
+    const auto write_spot = [&](const char* name, float factor, const char* tangents) {
+        io::HdrImage image{.width = 64, .height = 64, .rgb = std::vector<float>(3 * 64 * 64, 1), .white_luminance = 1};
+        for (int c = 0; c < 3; ++c) image.rgb[size_t(3 * (10 * 64 + 40) + c)] = factor;
+        image.header = {{"vesper:tangents", tangents}};
+        io::write_exr(folder / name, image);
+    };
+    const double edge = 0.64;  // pixels of 0.01 on a plane at 1
+    const std::string off = "0 -0.16 0.64 0.48";
+    write_spot("a.exr", 1, off.c_str()), write_spot("b.exr", 100, off.c_str());
+    ASSERT_EQ(run("compare a.exr b.exr --json c.json"), 0) << said;
+    EXPECT_NEAR(figures()["pixels_per_degree"], 64 / edge * std::numbers::pi / 180, 1e-6);
+    const double right = std::atan(0.405) * 180 / std::numbers::pi,
+                 up = std::atan(0.48 - 0.105) * 180 / std::numbers::pi;
+    char place[80];
+    std::snprintf(place, sizeof place, "at (40, 10), %.2f degrees right and %.2f above", right, up);
+    EXPECT_NE(printed.find(place), std::string::npos) << printed << place;
+    write_spot("wide.exr", 1, "0 -0.16 1.28 0.48"), write_spot("middle.exr", 1, "-0.32 -0.32 0.32 0.32");
+    expect_refused("compare wide.exr wide.exr", {"not square"});
+    expect_refused("compare a.exr middle.exr", {"the pictures cover"});
+    EXPECT_EQ(run("compare a.exr middle.exr --fov 30"), 0) << said;
+}
+
+// cie blurs and scatters, barten only blurs, none does nothing: details are seen the better the less is done.
+TEST_F(CompareTest, OpticsBlur) {
+    const auto stripes = [&](const char* name, float contrast) {
+        io::HdrImage image{.width = 64, .height = 64, .rgb = {}, .white_luminance = 1};
+        for (uint32_t i = 0; i < 64 * 64; ++i) image.rgb.insert(image.rgb.end(), 3, i % 4 < 2 ? 1 + contrast : 1);
+        io::write_exr(folder / name, image);
+    };
+    stripes("plain.exr", 0), stripes("stripes.exr", 0.03f);
+    std::map<std::string, double> largest;
+    for (const std::string glare : {"cie", "barten", "none"}) {
+        ASSERT_EQ(run("compare plain.exr stripes.exr --fov 1 --json c.json --glare " + glare), 0) << said;
+        largest[glare] = figures()["largest_probability"];
+    }
+    EXPECT_GT(largest["none"], largest["barten"] + 0.05);
+    EXPECT_GT(largest["none"], largest["cie"] + 0.05);
+    EXPECT_NE(largest["cie"], largest["barten"]);
+}
+
+TEST_F(CompareTest, SaysWhatOfAPngDoesNotCount) {
+    std::vector<uint8_t> grey(size_t{32} * 32 * 4, 128);
+    io::write_png(folder / "grey.png", 32, 32, grey);
+    io::write_png(folder / "pq.png", 32, 32, grey, {9, 16});
+    ASSERT_EQ(run("compare grey.png pq.png --fov 1"), 0);
+    EXPECT_NE(said.find("pq.png: its header says"), std::string::npos) << said;
+    EXPECT_EQ(said.find("grey.png"), std::string::npos) << said;
+    write("a.exr", 0);
+    expect_refused("compare grey.png grey.png --fov 1 --scale 2", {"--scale"});
+    expect_refused("compare grey.png grey.png --fov 1 --layer x", {"--layer"});
+    expect_refused("compare a.exr a.exr --display-peak 100", {"--display"});
+}
+
+// Light below nothing would take light from its neighbours.
+TEST_F(CompareTest, NegativeLuminancesAreBlack) {
+    write("a.exr", 0);
+    io::HdrImage negative = io::read_exr(folder / "a.exr"), black = negative;
+    negative.header = {}, black.header = {};
+    for (int c = 0; c < 3; ++c) negative.rgb[size_t(300 + c)] = -1e4f, black.rgb[size_t(300 + c)] = 0;
+    io::write_exr(folder / "negative.exr", negative), io::write_exr(folder / "black.exr", black);
+    ASSERT_EQ(run("compare negative.exr black.exr --fov 2 --json c.json"), 0) << said;
+    EXPECT_EQ(figures()["largest_probability"], 0);
+    EXPECT_NE(said.find("1 pixels are not finite or of negative luminance"), std::string::npos) << said;
 }
 
 TEST_F(CompareTest, NotesPixelsThatAreNotFinite) {

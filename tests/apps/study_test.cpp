@@ -200,6 +200,13 @@ TEST_F(StudyProgram, FidelityTellsWhatDisplaysLose) {
     }
     EXPECT_GT(std::stod(first["linear"]["lost"]), 2 * std::stod(first["ward"]["lost"]) + 0.01);
     expect_page("out/fidelity.html");
+    // What describes a display changes each of --displays.
+    ASSERT_EQ(run("study fidelity street.exr --fov 3 --displays desk,projector --display-ambient 10000 --operator ward "
+                  "-o bright"),
+              0)
+        << said;
+    for (Row row : csv("bright/fidelity.csv", "picture,display,operator,seen,lost,invented,amplified,saliency"))
+        EXPECT_GT(std::stod(row["lost"]), 1.5 * std::stod(first["ward"]["lost"])) << row["display"];
     expect_refused("study fidelity street.exr --fov 3 -o out --displays desk --display projector", {"--displays"});
     expect_refused("study fidelity street.exr --fov 3 -o out --displays none.json", {"none.json"});
     expect_refused("study fidelity street.exr --fov 3 -o out --glare cie", {"--glare"});

@@ -50,6 +50,17 @@ TEST(ImageFile, SaysWhatTheCodesMean) {
     EXPECT_FALSE(contains(chunks({12, 13}), "sRGB"));
     EXPECT_FALSE(contains(chunks({}), "sRGB"));
     EXPECT_FALSE(contains(chunks({}), "cICP"));
+    const auto stated = [&](io::PngColour colour) {
+        chunks(colour);
+        return io::stated_colour(io::read_file(folder / "x.png", 1u << 20));
+    };
+    EXPECT_EQ(stated({9, 16}), std::optional(io::PngColour{9, 16}));
+    EXPECT_EQ(stated(io::kPngSrgb), std::nullopt);
+    std::vector<uint8_t> file = io::read_file(folder / "x.png", 1u << 20);
+    for (; !file.empty(); file.pop_back()) EXPECT_EQ(io::stated_colour(file), std::nullopt) << file.size();
+    chunks({9, 16}), file = io::read_file(folder / "x.png", 1u << 20);
+    std::fill(file.begin() + 8, file.begin() + 12, uint8_t{255});
+    EXPECT_EQ(io::stated_colour(file), std::nullopt) << "longer than the file";
 }
 
 TEST(ImageFile, KeepsTextsInPngs) {

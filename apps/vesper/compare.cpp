@@ -29,7 +29,7 @@ using apps::format;
 
 // --glare, and what the report says of it.
 const std::map<std::string, const char*> kOptics{
-    {"cie", ""}, {"barten", " that scatters no light"}, {"none", ", as if pictures were on its retina"}};
+    {"cie", ""}, {"none", " that scatters no light"}, {"retina", ", as pictures on its retina"}};
 
 struct CompareArguments {
     std::string first, second, picture, json, device, glare = "cie";
@@ -51,8 +51,11 @@ Comparison compare(const CompareArguments& a, const ComparedPicture& first, cons
     const vision::ImageAngles angles = angles_of(first, second);
     gpu::Device device({.select = a.device});
     render::ToneMapper mapper(device);
+    const vision::ScatteringEye scatters{a.age, a.iris};
     std::optional<gpu_scene::ScatterSettings> eye;
-    if (a.glare == "cie") eye = {.eye = {a.age, a.iris}};
+    if (a.glare == "cie") eye = {.eye = scatters};
+    vision::ContrastEye sees{.age = a.age};
+    if (a.glare != "none") sees.scatters = scatters;
     const render::HostPicture host1{.extent = first.extent, .values = first.rgb, .angles = &angles},
         host2{.extent = second.extent, .values = second.rgb, .angles = &angles};
     const std::vector<float> retina1 = render::retinal_luminance(mapper, host1, eye),
@@ -61,8 +64,7 @@ Comparison compare(const CompareArguments& a, const ComparedPicture& first, cons
     Comparison made;
     made.angles = angles;
     made.pixels_per_degree = render::pixels_per_degree(host1);
-    made.seen = vision::visible_differences({width, height, made.pixels_per_degree, retina1, retina2},
-                                            {.optics = a.glare == "barten", .age = a.age});
+    made.seen = vision::visible_differences({width, height, made.pixels_per_degree, retina1, retina2}, sees);
     made.first = render::retinal_luminance(mapper, host1, {});
     const std::vector<float> plain = render::retinal_luminance(mapper, host2, {});  // without an eye
     made.log_rmse = vision::log_rmse(made.first, plain);
@@ -169,9 +171,8 @@ void add_compare(apps::Command program) {
     command.add_option("--age", a->age, "Of the observer, years").check(apps::between(1.0, 120.0)).shows_default();
     command
         .add_option("--glare", a->glare,
-                    "Optics of the eye. cie: scatter and blur of its total glare function; barten: his blur alone; "
-                    "none: for pictures that have both already")
-        .check(apps::one_of({"cie", "barten", "none"}))
+                    "Light scattered in the eye: cie, none, or retina, for pictures that have it already")
+        .check(apps::one_of({"cie", "none", "retina"}))
         .shows_default();
     command.add_option("--iris", a->iris, "Pigmentation of the iris, from 0 very dark to 1.2 light blue")
         .check(apps::between(0.0, 1.5))

@@ -130,7 +130,8 @@ void study_fidelity(Study& study) {
                         ": its unit and its angle are needed: --scale N, cd/m^2 of its 1.0, and --fov DEGREES");
     render::SaliencyMapper saliency(study.device);
     const Eye eye(study, saliency);
-    const vision::ContrastEye contrast_eye{.optics = false, .age = study.settings.scatter.eye.age};
+    const vision::ScatteringEye& scatters = study.settings.scatter.eye;
+    const vision::ContrastEye contrast_eye{.age = scatters.age, .scatters = scatters};
     study.page.paragraph(
         format("An observer of %g years, adapted to the scene and to the display in turn. Shares of all places and "
                "octaves of frequency. Seen: contrast of at least %g thresholds in the scene. Lost: seen in the scene, "

@@ -68,11 +68,12 @@ SeenPair see(VesperVision* by, const VesperObserver* observer, const VesperPictu
             "pictures of at most 16777216 pixels are compared");
     const double density = density_of(a);
     require(std::abs(density_of(b) - density) <= 1e-3 * density, "pictures that are compared cover one angle");
+    const vision::ScatteringEye eye{double(o.age), double(o.pigmentation)};
     std::optional<gpu_scene::ScatterSettings> scatter;
-    if (!o.scattered) scatter = {.eye = {double(o.age), double(o.pigmentation)}};
+    if (!o.scattered) scatter = {.eye = eye};
     return {a.extent,
             density,
-            {.optics = false, .age = double(o.age)},
+            {.age = eye.age, .scatters = eye},
             render::retinal_luminance(by->eye, a, scatter),
             render::retinal_luminance(by->eye, b, scatter)};
 }

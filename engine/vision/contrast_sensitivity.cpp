@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/angle.h"
+#include "base/parallel.h"
 #include "vision/thresholds.h"
 
 namespace vesper::vision {
@@ -32,7 +33,8 @@ double contrast_sensitivity(double frequency, double luminance, const ContrastEy
     // Trolands, with the Stiles-Crawford effect.
     const double td = kPi / 4 * pupil * pupil * luminance * (1 - std::pow(pupil / 9.7, 2) + std::pow(pupil / 12.4, 4));
     const double blur = std::hypot(kBlur, kBlurOfPupil * pupil);
-    const double optics = eye.optics ? std::exp(-2 * kPi * kPi * blur * blur * frequency * frequency) : 1;
+    const double optics = std::exp(-2 * kPi * kPi * blur * blur * frequency * frequency) /
+                          (eye.scatters ? cie_modulation(std::max(frequency, 0.05), *eye.scatters) : 1);
     const double inhibition = -std::expm1(-std::pow(frequency / kInhibition, 2));
     const double area =
         1 / field2 + 1 / (kWidestField * kWidestField) + std::pow(frequency / kMostCycles, 2);  // 1/deg^2
@@ -42,10 +44,10 @@ double contrast_sensitivity(double frequency, double luminance, const ContrastEy
 }
 
 double peak_sensitivity(double luminance, const ContrastEye& eye) {
-    // One peak between these: thirds are left out until it is known to 0.1 %.
+    // One peak between these: thirds are left out until it is known to 0.01 %.
     double low = std::log(0.05), high = std::log(60);
     const auto at = [&](double ln) { return contrast_sensitivity(std::exp(ln), luminance, eye); };
-    while (high - low > 1e-3) {
+    while (high - low > 0.02) {
         const double a = low + (high - low) / 3, b = high - (high - low) / 3;
         (at(a) < at(b) ? low : high) = at(a) < at(b) ? a : b;
     }
@@ -55,10 +57,13 @@ double peak_sensitivity(double luminance, const ContrastEye& eye) {
 JndScale::JndScale(const ContrastEye& eye) : eye_(eye) {
     const int steps = int(std::lround(kDecades * kStepsPerDecade));
     const double step = std::log(10) / kStepsPerDecade;
-    for (int i = 0; i <= steps; ++i) {
-        peaks_.push_back(peak_sensitivity(kLeast * std::pow(10, double(i) / kStepsPerDecade), eye));
-        jnds_.push_back(i > 0 ? jnds_.back() + step * (peaks_[size_t(i - 1)] + peaks_.back()) / 2 : 0);
-    }
+    peaks_.resize(size_t(steps) + 1);
+    in_parallel(peaks_.size(), kStepsPerDecade, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i)
+            peaks_[i] = peak_sensitivity(kLeast * std::pow(10, double(i) / kStepsPerDecade), eye);
+    });
+    jnds_.push_back(0);
+    for (size_t i = 1; i < peaks_.size(); ++i) jnds_.push_back(jnds_.back() + step * (peaks_[i - 1] + peaks_[i]) / 2);
 }
 
 double JndScale::jnd(double luminance) const { return luminance > kLeast ? at(jnds_, luminance) : 0; }

@@ -3,19 +3,23 @@
 // over its mean luminance; sensitivity is 1 over the contrast that is seen half of the time.
 #pragma once
 
+#include <optional>
 #include <vector>
+
+#include "vision/glare.h"
 
 namespace vesper::vision {
 
 /// Who looks, and at how much of the visual field.
 struct ContrastEye {
-    double field = 10;   ///< side of the square field, degrees
-    bool optics = true;  ///< false: of the retina, for pictures that the optics of the eye have blurred already
-    double age = 23;     ///< years: thresholds rise by age_factor()
+    double field = 10;                           ///< side of the square field, degrees
+    double age = 23;                             ///< years: thresholds rise by age_factor()
+    std::optional<ScatteringEye> scatters = {};  ///< pictures are those on its retina, with the light that it scatters
 };
 
 /// Barten 1999, "Contrast Sensitivity of the Human Eye and its Effects on Image Quality", equation 3.26, with the
-/// constants of ITU-R BT.2246 (typical observer, 0.1 s, both eyes). 0 for frequencies or luminances of 0.
+/// constants of ITU-R BT.2246 (typical observer, 0.1 s, both eyes). 0 for frequencies or luminances of 0. Of contrast
+/// on the retina it is that over cie_modulation(): what an eye sees does not depend on how its blur is modelled.
 double contrast_sensitivity(double frequency, double luminance, const ContrastEye& eye = {});
 
 /// The largest over all frequencies.

@@ -35,6 +35,18 @@ double cie_total_glare(double t, const ScatteringEye& eye) {
     return (core + scatter + iris) / (1 + p * (0.0417 + 0.055 * a));
 }
 
+double cie_modulation(double frequency, const ScatteringEye& eye) {
+    const double a = fourth(eye.age / 70), p = eye.pigmentation, lens = 1 + 1.6 * a;
+    // Transforms of (1 + (t / width)^2)^-n with n of 3/2, 1 and 1/2, over 2 pi width^2, of x = 2 pi width frequency.
+    const auto area = [](double width) { return 2 * kPi * square(width * kRadiansPerDegree); };
+    const auto narrow = [&](double width) { return area(width) * std::exp(-2 * kPi * width * frequency); };
+    const double x = 2 * kPi * 0.1 * frequency, wide = x < 6 ? std::cyl_bessel_k(0, x) : 0;  // below 0.0013 beyond
+    const double core = (1 - 0.08 * a) * (9.2e6 * narrow(0.0046) + 1.5e5 * narrow(0.045));
+    const double scatter = lens * 400 * area(0.1) * wide;
+    const double iris = p * lens * (1300 * narrow(0.1) + 0.8 * narrow(0.1) / x);
+    return (core + scatter + iris) / (1 + p * (0.0417 + 0.055 * a));
+}
+
 double cie_general_glare(double t, const ScatteringEye& eye) {
     const double p = eye.pigmentation;
     return 10 / (t * t * t) + (5 / square(t) + 0.1 * p / t) * (1 + fourth(eye.age / 62.5)) + 2.5e-3 * p;

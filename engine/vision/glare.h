@@ -17,6 +17,10 @@ struct ScatteringEye {
 
 /// CIE total glare function (Vos and van den Berg, CIE 135/1, 1999): all angles up to 90 degrees, the core included.
 double cie_total_glare(double theta, const ScatteringEye& = {});
+/// What that leaves of the contrast of a grating, of a frequency in cycles/degree from 0.05 on: the Hankel transform of
+/// the function for small angles. What it scatters evenly over the field of view is lost to gratings of all
+/// frequencies.
+double cie_modulation(double frequency, const ScatteringEye& = {});
 /// CIE general disability glare equation (CIE 146:2002): 0.1 to 100 degrees.
 double cie_general_glare(double theta, const ScatteringEye& = {});
 /// CIE small angle equation (the same): 0.1 to 30 degrees.

@@ -57,25 +57,31 @@ public:
     void visit(const std::function<void(const Channel&)>& visit) {
         const Complexes first = jnd_spectrum(pair_.first), second = jnd_spectrum(pair_.second);
         grid_ = grid_of(octaves_ - 1);
-        const Filter below{centre(octaves_), -1}, above{highest_, -1};
-        const Radial low = [&](double u) {
-            return u <= below.frequency ? 1 : octave_share(std::log2(u / below.frequency));
-        };
+        const double lowest = centre(octaves_);
+        const Radial low = [&](double u) { return u <= lowest ? 1 : octave_share(std::log2(u / lowest)); };
         first_ = adaptation(first, low), second_ = adaptation(second, low);
-        show(first, second, Channel::Band::Below, below, low, visit);
+        // Of both pictures: weights that differ would make a difference of equal luminances.
+        const Adaptation both = common();
+        const Weights alike = weights(low, lowest, both);
+        show(first, second, {Channel::Band::Below, lowest, -1}, {&both, alike}, {&both, alike}, visit);
         for (size_t octave = octaves_; octave-- > 0;) {
             refine(grid_of(octave));
             const Radial share = [&](double u) { return octave_share(std::log2(u / centre(octave))); };
+            const Seen one{&first_, weights(share, centre(octave), first_)},
+                other{&second_, weights(share, centre(octave), second_)};
             for (int o = 0; o < kOrientations; ++o)
-                show(first, second, Channel::Band::Octave, {centre(octave), o}, share, visit);
+                show(first, second, {Channel::Band::Octave, centre(octave), o}, one, other, visit);
         }
         const Radial high = [&](double u) { return u >= highest_ ? 1 : octave_share(std::log2(u / highest_)); };
-        show(first, second, Channel::Band::Above, above, high, visit);
+        const double middle = highest_ / std::sqrt(2);  // of what pixels hold of it: from half of it on
+        show(first, second, {Channel::Band::Above, highest_, -1}, {&first_, weights(high, middle, first_)},
+             {&second_, weights(high, middle, second_)}, visit);
     }
 
 private:
     using Radial = std::function<double(double)>;  // share of a frequency, of its amplitude
     struct Filter {
+        Channel::Band band;
         double frequency;  // at its middle
         int orientation;   // -1: all
     };
@@ -83,6 +89,15 @@ private:
     struct Adaptation {
         double mean = 0;                 // cd/m^2
         std::vector<double> logarithms;  // log10 cd/m^2, at the samples of grid_
+    };
+    struct Weights {
+        std::vector<double> gains;    // by frequency, 0 to the largest of grid_ in kGains steps
+        std::vector<double> factors;  // by the logarithm of the luminance of adaptation, in kAdaptations steps
+    };
+    // By an eye in this state.
+    struct Seen {
+        const Adaptation* adaptation;
+        Weights weights;
     };
 
     double centre(size_t octave) const { return highest_ / double(size_t{2} << octave); }
@@ -104,12 +119,20 @@ private:
         return spectrum_of(rows, whole_.width, whole_.height);
     }
 
+    double largest_frequency() const { return std::sqrt(2.0) * highest_ / grid_.step; }
+    std::vector<double> gains(const Radial& radial) const {
+        const double scale = 1.0 / (double(grid_.step) * grid_.step);
+        std::vector<double> made(kGains + 2);
+        in_parallel(made.size(), 256, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) made[i] = scale * radial(largest_frequency() * double(i) / kGains);
+        });
+        return made;
+    }
+
     // What a filter passes, at the samples of grid_, whose frequencies hold it.
-    Complexes filtered(const Complexes& spectrum, int orientation, const Radial& radial) const {
+    Complexes filtered(const Complexes& spectrum, int orientation, const std::vector<double>& gains) const {
         const ChannelGrid grid = grid_;
-        const double scale = 1.0 / (double(grid.step) * grid.step), most = std::sqrt(2.0) * highest_ / grid.step;
-        std::vector<double> gains;
-        for (size_t i = 0; i <= kGains + 1; ++i) gains.push_back(scale * radial(most * double(i) / kGains));
+        const double most = largest_frequency();
         const double turn = kPi * orientation / kOrientations, cosine = std::cos(turn), sine = std::sin(turn);
         Complexes part(grid.size());
         in_parallel(grid.width, 16, [&](size_t begin, size_t end) {
@@ -141,7 +164,7 @@ private:
 
     Adaptation adaptation(const Complexes& spectrum, const Radial& low) const {
         Adaptation made{scale_.luminance(spectrum[0].real() / double(whole_.size())), {}};
-        for (const Complex& jnd : filtered(spectrum, -1, low))
+        for (const Complex& jnd : filtered(spectrum, -1, gains(low)))
             made.logarithms.push_back(std::log10(scale_.luminance(jnd.real())));
         return made;
     }
@@ -158,43 +181,44 @@ private:
             for (Adaptation* const one : {&first_, &second_}) one->logarithms = at_half_step(one->logarithms, grid_);
     }
 
-    // From the luminance at which a filter was weighted to that of each place.
-    void adapt(Complexes& response, double frequency, const Adaptation& adaptation) const {
-        const double low = std::log10(JndScale::kLeast), high = std::log10(JndScale::kMost);
-        std::vector<double> factors;
+    static double log_least() { return std::log10(JndScale::kLeast); }
+    static double log_range() { return std::log10(JndScale::kMost) - log_least(); }
+
+    // Frequencies are weighted at one luminance; factors lead from there to that of each place.
+    Weights weights(const Radial& share, double frequency, const Adaptation& adaptation) const {
+        Weights made{gains([&](double u) { return share(u) * relative(u, adaptation.mean); }), {}};
         const double here = relative(frequency, adaptation.mean);  // 0 of waves that no optics pass
         for (int i = 0; i < kAdaptations + 1; ++i) {
-            const double there = relative(frequency, std::pow(10, low + (high - low) * i / (kAdaptations - 1)));
-            factors.push_back(here > 0 ? there / here : 0);
+            const double there = relative(frequency, std::pow(10, log_least() + log_range() * i / (kAdaptations - 1)));
+            made.factors.push_back(here > 0 ? there / here : 0);
         }
-        in_parallel(response.size(), kSamplesAtATime, [&](size_t begin, size_t end) {
-            for (size_t at = begin; at < end; ++at) {
-                const double place = (adaptation.logarithms[at] - low) / (high - low) * (kAdaptations - 1);
-                const size_t i = size_t(std::clamp(place, 0.0, double(kAdaptations - 1)));
-                response[at] *= std::lerp(factors[i], factors[i + 1], place - double(i));
-            }
-        });
+        return made;
     }
 
-    // Of both pictures: weights that differ would make a difference of equal luminances.
+    Complexes response(const Complexes& spectrum, const Filter& filter, const Seen& by) const {
+        Complexes made = filtered(spectrum, filter.orientation, by.weights.gains);
+        const std::vector<double>&factors = by.weights.factors, &logarithms = by.adaptation->logarithms;
+        const double least = log_least(), range = log_range();
+        in_parallel(made.size(), kSamplesAtATime, [&](size_t begin, size_t end) {
+            for (size_t at = begin; at < end; ++at) {
+                const double place = (logarithms[at] - least) / range * (kAdaptations - 1);
+                const size_t i = size_t(std::clamp(place, 0.0, double(kAdaptations - 1)));
+                made[at] *= std::lerp(factors[i], factors[i + 1], place - double(i));
+            }
+        });
+        return made;
+    }
+
     Adaptation common() const {
         Adaptation both{std::sqrt(first_.mean * second_.mean), first_.logarithms};
         for (size_t i = 0; i < grid_.size(); ++i) both.logarithms[i] = (both.logarithms[i] + second_.logarithms[i]) / 2;
         return both;
     }
 
-    void show(const Complexes& first, const Complexes& second, Channel::Band band, const Filter& filter,
-              const Radial& share, const std::function<void(const Channel&)>& visit) const {
-        const auto response = [&](const Complexes& spectrum, const Adaptation& adaptation) {
-            const auto weighted = [&](double u) { return share(u) * relative(u, adaptation.mean); };
-            Complexes made = filtered(spectrum, filter.orientation, weighted);
-            adapt(made, filter.frequency, adaptation);
-            return made;
-        };
-        const Adaptation both = band == Channel::Band::Below ? common() : Adaptation{};
-        const bool alike = band == Channel::Band::Below;
-        const Complexes a = response(first, alike ? both : first_), b = response(second, alike ? both : second_);
-        visit({band, filter.frequency, grid_, a, b});
+    void show(const Complexes& first, const Complexes& second, const Filter& filter, const Seen& one, const Seen& other,
+              const std::function<void(const Channel&)>& visit) const {
+        const Complexes a = response(first, filter, one), b = response(second, filter, other);
+        visit({filter.band, filter.frequency, grid_, a, b});
     }
 
     const PicturePair& pair_;
@@ -266,9 +290,11 @@ std::vector<double> foveal_means(std::span<const double> values, uint32_t width,
     if (radius > most) pixels = kPi * radius * radius;  // rows beyond the picture count, too
     const auto w = ptrdiff_t(width), h = ptrdiff_t(height);
     std::vector<double> sums(size_t(w + 1) * height), means(values.size());  // of each row, up to a pixel
-    for (ptrdiff_t y = 0; y < h; ++y)
-        for (ptrdiff_t x = 0; x < w; ++x)
-            sums[size_t(y * (w + 1) + x + 1)] = sums[size_t(y * (w + 1) + x)] + values[size_t(y * w + x)];
+    in_parallel(height, 8, [&](size_t begin, size_t end) {
+        for (auto y = ptrdiff_t(begin); y < ptrdiff_t(end); ++y)
+            for (ptrdiff_t x = 0; x < w; ++x)
+                sums[size_t(y * (w + 1) + x + 1)] = sums[size_t(y * (w + 1) + x)] + values[size_t(y * w + x)];
+    });
     in_parallel(height, 8, [&](size_t begin, size_t end) {
         for (auto y = ptrdiff_t(begin); y < ptrdiff_t(end); ++y)
             for (ptrdiff_t x = 0; x < w; ++x) {

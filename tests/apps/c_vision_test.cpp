@@ -92,9 +92,9 @@ VesperObserver old_eye() {
     return observer;
 }
 
-// Pictures on the retina, seen without optics, differ as those before the eye do.
+// Pictures on the retina differ as those before the eye do.
 TEST_F(CVision, ScatteredPicturesAreThoseOnTheRetina) {
-    const std::vector<float> a = square(1), b = square(1.04f);
+    const std::vector<float> a = square(1), b = square(1.02f);
     ASSERT_EQ(compare(described(a), described(b)), VESPER_OK) << error.message;
     const std::vector<float> before = map;
     EXPECT_GT(differences.largest, 0.1);
@@ -125,12 +125,12 @@ TEST_F(CVision, DifferencesAreThoseOfTheEngine) {
     for (const VesperObserver* observer :
          std::initializer_list<const VesperObserver*>{nullptr, &old, &scattered, &dark}) {
         ASSERT_EQ(compare(first, second, observer), VESPER_OK) << error.message;
-        const double age = observer ? 70 : 23;
+        const double age = observer ? 70 : 23, iris = observer ? double(observer->pigmentation) : 0.5;
         std::optional<gpu_scene::ScatterSettings> eye;
-        if (observer != &scattered) eye = {.eye = {age, observer ? double(observer->pigmentation) : 0.5}};
+        if (observer != &scattered) eye = {.eye = {age, iris}};
         const Retinae on = retinae(a, b, 0.5f, eye);
         const auto want = vision::visible_differences({kWidth, kHeight, kPerDegree, on.first, on.second},
-                                                      {.optics = false, .age = age});
+                                                      {.age = age, .scatters = vision::ScatteringEye{age, iris}});
         EXPECT_EQ(map, want.probability);
         EXPECT_EQ(differences.x, want.x);
         EXPECT_EQ(differences.y, want.y);
@@ -176,8 +176,8 @@ TEST_F(CVision, FidelityIsThatOfTheEngine) {
             << error.message;
         const Retinae on = retinae(forward ? scene : flat, forward ? flat : scene, 1,
                                    gpu_scene::ScatterSettings{.eye = {70, double(1.2f)}});
-        const auto want =
-            vision::contrast_fidelity({kWidth, kHeight, kPerDegree, on.first, on.second}, {.optics = false, .age = 70});
+        const auto want = vision::contrast_fidelity({kWidth, kHeight, kPerDegree, on.first, on.second},
+                                                    {.age = 70, .scatters = vision::ScatteringEye{70, double(1.2f)}});
         EXPECT_EQ(seen, want.seen);
         EXPECT_EQ(lost, want.lost);
         EXPECT_EQ(invented, want.invented);

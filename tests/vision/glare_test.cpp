@@ -43,6 +43,23 @@ void near(double got, double want, double theta) {
     EXPECT_NEAR(got / want, 1, 1e-5) << "at " << theta << " degrees";
 }
 
+// The integral of the function times J0, in rings of a fiftieth of its angle; it is known to four digits, and the part
+// from 30 degrees on changes its sign within a degree.
+TEST(Glare, ModulationIsItsHankelTransform) {
+    for (const vision::ScatteringEye& eye : {vision::ScatteringEye{23, 0.5}, vision::ScatteringEye{70, 1.2}})
+        for (const double frequency : {0.1, 0.5, 2.0, 8.0, 30.0}) {
+            double sum = 0;
+            constexpr double kDegree = M_PI / 180;
+            for (double theta = 1e-5; theta < 30;) {
+                const double step = std::min(theta / 50, 0.02 / frequency), middle = theta + step / 2;
+                sum += vision::cie_total_glare(middle, eye) * std::cyl_bessel_j(0, 2 * M_PI * frequency * middle) * 2 *
+                       M_PI * middle * kDegree * step * kDegree;
+                theta += step;
+            }
+            EXPECT_NEAR(vision::cie_modulation(frequency, eye), sum, 2e-3) << frequency;
+        }
+}
+
 TEST(Glare, HasThePublishedValues) {
     for (const Row& r : kTable) {
         near(vision::cie_total_glare(r.theta, {24, 0.5}), r.total24, r.theta);

@@ -9,6 +9,7 @@
 #include "picture_arguments.h"
 #include "print.h"
 #include "render/renderer.h"
+#include "scene/placement.h"
 #include "scene_notes.h"
 #include "shared/photometry.h"
 
@@ -20,6 +21,8 @@ bool is_scene(const std::string& name) { return name.ends_with(".gltf") || name.
 /// Renders the scene once.
 StudyPicture rendered(const PictureSource& arguments, gpu::Device& device, const render::ToneChainSettings& settings,
                       const std::string& input) {
+    if (arguments.shadows.budget != render::kNoShadowBudget)
+        throw Error("--shadow-budget has no meaning here: no frame follows another");
     const VkExtent2D extent = apps::parse_size(arguments.size);
     scene::LoadedScene loaded = scene::read_gltf(input);
     apps::print_notes(apps::notes_of(loaded, input));
@@ -31,7 +34,17 @@ StudyPicture rendered(const PictureSource& arguments, gpu::Device& device, const
     static_cast<render::ToneChainSettings&>(render) = settings;
     apps::set_edges(arguments.edges, render);
     apps::set_quality(arguments.quality, render);
+    apps::set_shadows(arguments.shadows, render);
+    apps::set_indirect(arguments.indirect, render);
+    const std::shared_ptr<Cache> cache = apps::shadow_cache(arguments.shadows.cache);
+    renderer.keep_maps(cache);
+    const std::vector<bool> moving = scene::animated_nodes(loaded.scene);
+    if (render.indirect) renderer.set_radiosity(apps::gathered(loaded.scene, frame.world, moving, cache.get()));
+    if (render.moving_reflections)
+        renderer.set_lamp_reflections(
+            std::make_shared<const transport::LampReflections>(loaded.scene, frame.world, moving));
     render::Frame made = renderer.render(render, view, frame, 0, {.display = false, .scene = true});
+    apps::print_cache_note(made.maps.note);
     StudyPicture picture{.name = {}, .extent = extent, .values = std::move(made.scene), .channels = 4};
     picture.vertical_fov = double(std::atan(view.tangent_high.y) - std::atan(view.tangent_low.y));
     picture.angles = gpu_scene::angles_of(view);
@@ -82,6 +95,8 @@ void add_source_options(apps::Command command, PictureSource& source) {
         .shows_default();
     apps::add_edge_options(command, source.edges);
     apps::add_quality_option(command, source.quality);
+    apps::add_shadow_options(command, source.shadows);
+    apps::add_indirect_options(command, source.indirect);
     command.add_allow_outside();
     command.add_option("--layer", source.layer, apps::kLayerHelp);
     apps::add_scale_options(command, source.scale,

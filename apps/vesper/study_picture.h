@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "edge_arguments.h"
+#include "indirect_arguments.h"
 #include "picture_arguments.h"
 #include "quality_arguments.h"
 #include "render/tone_mapper.h"
+#include "shadow_arguments.h"
 
 namespace vesper::commands {
 
@@ -40,6 +42,8 @@ struct PictureSource {
     double start = 0;                        ///< s, of a scene
     apps::EdgeArguments edges;               ///< of a scene
     apps::QualityArguments quality;          ///< of a scene
+    apps::ShadowArguments shadows;           ///< of a scene
+    apps::IndirectArguments indirect;        ///< of a scene
     std::string layer;                       ///< of OpenEXR files, see read_hdr_image
     apps::ScaleArguments scale;              ///< of a picture
     double fov = 0;                          ///< angle a picture covers in height, degrees; 0: as its file says, or 40

@@ -11,6 +11,7 @@
 #include "io/hdr_image.h"
 #include "io/image_file.h"
 #include "support/program.h"
+#include "vision/visibility.h"
 
 namespace vesper::test {
 namespace {
@@ -164,6 +165,33 @@ TEST_F(CompareTest, GratingsAreSeenWithAnyModelOfBlur) {
     EXPECT_GT(largest["none"], 0.1);
     EXPECT_NEAR(largest["cie"], largest["none"], 0.1);
     EXPECT_GT(largest["retina"], largest["none"] + 0.05);
+}
+
+// The whole way, with the light that the eye scatters: Adrian 1989, k = 1, 2 s, 23 years, within a factor of 1.6.
+TEST_F(CompareTest, ThresholdsOfDiscsAreThoseOfAdrian) {
+    constexpr uint32_t kPixels = 160;  // px, 4 degrees
+    const auto write_disc = [&](const char* name, double minutes, double contrast) {
+        io::HdrImage image{.width = kPixels, .height = kPixels, .rgb = {}, .white_luminance = 1};
+        const double radius = minutes / 60 * kPixels / 4 / 2;
+        for (uint32_t y = 0; y < kPixels; ++y)
+            for (uint32_t x = 0; x < kPixels; ++x) {
+                int inside = 0;
+                for (int i = 0; i < 64; ++i)
+                    inside += std::hypot(x + (i % 8 + 0.5) / 8 - kPixels / 2.0, y + (i / 8 + 0.5) / 8 - kPixels / 2.0) <
+                              radius;
+                image.rgb.insert(image.rgb.end(), 3, float(1 + contrast * inside / 64));
+            }
+        io::write_exr(folder / name, image);
+    };
+    write_disc("plain.exr", 1, 0);
+    for (const double minutes : {4.0, 10.0, 30.0}) {
+        const double threshold = vision::target_threshold(1, {.size = minutes, .seconds = 2, .probability = 1});
+        for (const double factor : {1 / 1.4, 1.6}) {
+            write_disc("disc.exr", minutes, factor * threshold);
+            ASSERT_EQ(run("compare plain.exr disc.exr --fov 4 --json c.json"), 0) << said;
+            EXPECT_EQ(figures()["largest_probability"] > 0.5, factor > 1) << minutes << "', " << factor;
+        }
+    }
 }
 
 TEST_F(CompareTest, SaysWhatOfAPngDoesNotCount) {

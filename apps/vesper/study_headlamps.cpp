@@ -83,7 +83,7 @@ std::vector<double> distances_of(const HeadlampArguments& a) {
 
 /// Why an obstacle has no level.
 std::string why_without_level(const render::SeenObstacle& seen) {
-    if (const std::string why = render::words_of(seen.state); !why.empty()) return why;
+    if (std::string why = render::words_of(seen.state); !why.empty()) return why;
     return seen.around + seen.veil < vision::kDarkestBackground ? "too dark" : "too bright";
 }
 

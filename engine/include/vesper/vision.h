@@ -32,8 +32,8 @@ typedef struct VesperObserver {
     uint32_t size;      /**< of this structure */
     float age;          /**< years, 1 to 120 */
     float pigmentation; /**< of the iris, 0 to 1.5, as VesperToneSettings::pigmentation */
-    int32_t scattered;  /**< 1: the pictures are those on the retina, with the scatter and blur of an eye already; 0:
-                         * they  are added, by the CIE total glare function */
+    int32_t scattered;  /**< 1: the pictures are those on the retina, with the light that this eye scatters already; 0:
+                         * it is added, by the CIE total glare function */
 } VesperObserver;
 
 /** Differences of two pictures that an observer detects. */

@@ -55,4 +55,11 @@ std::shared_ptr<const transport::Radiosity> gathered(const scene::Scene& scene, 
     return std::make_shared<const transport::Radiosity>(std::move(*radiosity));
 }
 
+void give_indirect(render::Renderer& renderer, const render::RenderSettings& settings, const scene::Scene& scene,
+                   std::span<const glm::dmat4> world, const std::vector<bool>& moving, Cache* cache) {
+    if (settings.indirect) renderer.set_radiosity(gathered(scene, world, moving, cache));
+    if (settings.moving_reflections)
+        renderer.set_lamp_reflections(std::make_shared<const transport::LampReflections>(scene, world, moving));
+}
+
 }  // namespace vesper::apps

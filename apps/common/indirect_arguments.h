@@ -24,5 +24,8 @@ void set_indirect(const IndirectArguments&, render::RenderSettings&);
 /// Shows its progress, and says if the cache fails.
 std::shared_ptr<const transport::Radiosity> gathered(const scene::Scene&, std::span<const glm::dmat4> world,
                                                      const std::vector<bool>& moving, Cache* cache);
+/// Gives a renderer what these settings want of it: that, and what surfaces at rest reflect of lamps that move.
+void give_indirect(render::Renderer&, const render::RenderSettings&, const scene::Scene&,
+                   std::span<const glm::dmat4> world, const std::vector<bool>& moving, Cache* cache);
 
 }  // namespace vesper::apps

@@ -62,12 +62,8 @@ public:
           seconds_(scene::animation_length(scene) > 0 ? scene::animation_length(scene) : kStanding),
           renderer_(device, scene) {
         renderer_.keep_maps(plan.map_cache);
-        if (plan.render.indirect)
-            renderer_.set_radiosity(apps::gathered(scene, scene::world_transforms(scene, 0),
-                                                   scene::animated_nodes(scene), plan.map_cache.get()));
-        if (plan.render.moving_reflections)
-            renderer_.set_lamp_reflections(std::make_shared<const transport::LampReflections>(
-                scene, scene::world_transforms(scene, 0), scene::animated_nodes(scene)));
+        apps::give_indirect(renderer_, plan.render, scene, scene::world_transforms(scene, 0),
+                            scene::animated_nodes(scene), plan.map_cache.get());
     }
 
     /// Renders every channel at a part [0, 1) of the path, `step` s after the frame before.

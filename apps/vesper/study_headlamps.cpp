@@ -148,11 +148,7 @@ void HeadlampStudy::render(const render::ToneChainSettings& tone) {
     renderer.keep_maps(cache);
     make_folder(arguments_.folder);
     const gpu_scene::SceneFrame first = approach_.at(distances_.front(), 0, false);
-    if (settings_.indirect)
-        renderer.set_radiosity(apps::gathered(approach_.scene(), first.world, first.moving, cache.get()));
-    if (settings_.moving_reflections)
-        renderer.set_lamp_reflections(
-            std::make_shared<const transport::LampReflections>(approach_.scene(), first.world, first.moving));
+    apps::give_indirect(renderer, settings_, approach_.scene(), first.world, first.moving, cache.get());
     measured_.resize(conditions_.size()), shown_.resize(beams_.size());
     apps::Progress progress("rendering", unsigned(distances_.size() * conditions_.size()));
     for (const double distance : distances_)

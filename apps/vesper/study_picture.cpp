@@ -38,11 +38,7 @@ StudyPicture rendered(const PictureSource& arguments, gpu::Device& device, const
     apps::set_indirect(arguments.indirect, render);
     const std::shared_ptr<Cache> cache = apps::shadow_cache(arguments.shadows.cache);
     renderer.keep_maps(cache);
-    const std::vector<bool> moving = scene::animated_nodes(loaded.scene);
-    if (render.indirect) renderer.set_radiosity(apps::gathered(loaded.scene, frame.world, moving, cache.get()));
-    if (render.moving_reflections)
-        renderer.set_lamp_reflections(
-            std::make_shared<const transport::LampReflections>(loaded.scene, frame.world, moving));
+    apps::give_indirect(renderer, render, loaded.scene, frame.world, scene::animated_nodes(loaded.scene), cache.get());
     render::Frame made = renderer.render(render, view, frame, 0, {.display = false, .scene = true});
     apps::print_cache_note(made.maps.note);
     StudyPicture picture{.name = {}, .extent = extent, .values = std::move(made.scene), .channels = 4};

@@ -42,7 +42,7 @@ void judge(const Octave& octave, Counts& counts) {
 ContrastFidelity contrast_fidelity(const PicturePair& pair, const ContrastEye& eye) {
     Octave octave;
     Counts counts;
-    visit_channels(pair, eye, [&](const Channel& channel) {
+    visit_channels(pair, JndScale(eye), [&](const Channel& channel) {
         if (channel.band != Channel::Band::Octave) return;
         if (channel.frequency != octave.frequency) {
             if (octave.frequency > 0) judge(octave, counts);

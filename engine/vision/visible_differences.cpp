@@ -37,8 +37,7 @@ std::vector<float> largest_in_rows(const std::vector<float>& rows, size_t width,
 }
 
 // By pixel, the largest difference of the two pictures within a square of kBeside on each side, JND.
-std::vector<float> largest_around(const PicturePair& pair, const ContrastEye& eye) {
-    const JndScale scale(eye);
+std::vector<float> largest_around(const PicturePair& pair, const JndScale& scale) {
     std::vector<float> differences(pair.first.size());
     in_parallel(differences.size(), kSamplesAtATime, [&](size_t begin, size_t end) {
         const auto jnd = [&](float l) { return scale.jnd(std::isfinite(l) ? double(l) : 0); };
@@ -57,11 +56,12 @@ double threshold_elevation(double response) {
 
 VisibleDifferences visible_differences(const PicturePair& pair, const ContrastEye& eye) {
     const Budget budget("comparing pictures");
+    const JndScale scale(eye);
     ChannelSum sum;
     std::vector<float> around;
-    visit_channels(pair, eye, [&](const Channel& channel) {
+    visit_channels(pair, scale, [&](const Channel& channel) {
         const ChannelGrid& grid = channel.grid;
-        if (around.empty()) around = largest_around(pair, eye);  // of a pair that can be compared
+        if (around.empty()) around = largest_around(pair, scale);  // of a pair that can be compared
         std::vector<double>& powers = sum.at(grid);
         const bool masked = channel.band != Channel::Band::Below;  // luminance of a region is no contrast
         in_parallel(grid.height, 8, [&](size_t begin, size_t end) {
@@ -72,7 +72,8 @@ VisibleDifferences visible_differences(const PicturePair& pair, const ContrastEy
                                       std::min<size_t>(x * grid.step, pair.width - 1);
                     const std::complex<double> difference = channel.first[i] - channel.second[i];
                     // What coarse filters carry there from afar does not count.
-                    const double most = kMostGain * double(around[at]), size = std::min(std::abs(difference), most);
+                    const double most = kMostGain * double(around[at]),
+                                 size = std::min(std::sqrt(std::norm(difference)), most);
                     if (!(size * size > kLeastSquare)) continue;
                     const double mask = std::sqrt(std::min(std::norm(channel.first[i]), std::norm(channel.second[i])));
                     powers[i] += power_of_contrast(masked ? size / threshold_elevation(mask) : size);

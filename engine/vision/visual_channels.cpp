@@ -39,8 +39,8 @@ size_t source_of(size_t i, size_t length, size_t whole) {
 
 class Pyramid {
 public:
-    Pyramid(const PicturePair& pair, const ContrastEye& eye)
-        : pair_(pair), scale_(eye), highest_(pair.pixels_per_degree / 2) {
+    Pyramid(const PicturePair& pair, const JndScale& scale)
+        : pair_(pair), scale_(scale), highest_(pair.pixels_per_degree / 2) {
         octaves_ = size_t(std::clamp(std::lround(std::log2(highest_ / kCoarsest)), 1l, long(kMostOctaves)));
         while (octaves_ > 1 && (size_t{1} << octaves_) > std::min(pair.width, pair.height)) --octaves_;
         const size_t coarsest = size_t{1} << (octaves_ - 1);
@@ -222,7 +222,7 @@ private:
     }
 
     const PicturePair& pair_;
-    JndScale scale_;
+    const JndScale& scale_;
     double highest_;  // cycles/degree that pixels can hold
     size_t octaves_;
     ChannelGrid whole_, grid_;  // of all pixels; of the channel
@@ -231,7 +231,7 @@ private:
 
 }  // namespace
 
-void visit_channels(const PicturePair& pair, const ContrastEye& eye, const std::function<void(const Channel&)>& visit) {
+void visit_channels(const PicturePair& pair, const JndScale& scale, const std::function<void(const Channel&)>& visit) {
     const uint64_t pixels = uint64_t{pair.width} * pair.height;
     if (pixels == 0) throw Error("pictures without pixels cannot be compared");
     if (pixels > scaled_limit(kMostChannelPixels))
@@ -240,7 +240,7 @@ void visit_channels(const PicturePair& pair, const ContrastEye& eye, const std::
     if (pair.first.size() != pixels || pair.second.size() != pixels) throw Error("the two pictures differ in size");
     if (!(pair.pixels_per_degree > 0) || !std::isfinite(pair.pixels_per_degree))
         throw Error("pictures that are compared need the angle that they cover");
-    Pyramid(pair, eye).visit(visit);
+    Pyramid(pair, scale).visit(visit);
 }
 
 std::vector<double> at_half_step(std::span<const double> values, const ChannelGrid& grid) {
@@ -311,8 +311,8 @@ std::vector<double> foveal_means(std::span<const double> values, uint32_t width,
     return means;
 }
 
-double power_of_contrast(std::complex<double> contrast) {
-    const double c = std::sqrt(std::norm(contrast));
+double power_of_contrast(double contrast) {
+    const double c = std::abs(contrast);
     return c * c * c * std::sqrt(c);  // 3.5
 }
 

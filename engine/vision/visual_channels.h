@@ -46,12 +46,12 @@ struct Channel {
 constexpr uint64_t kMostChannelPixels = uint64_t{1} << 24;
 
 /// Calls `visit` with each channel, from coarse to fine: the frequencies below all octaves, each octave in four
-/// orientations, the frequencies above. Luminance goes through JndScale and into a steerable pyramid (Simoncelli and
-/// Freeman 1995), whose squared responses sum to that of the picture, and whose oriented responses are pairs of a
-/// quadrature (Portilla and Simoncelli 2000). Each response is weighted by the sensitivity at its frequency to the
-/// local luminance of adaptation, which is the coarsest channel of each picture. Throws Error for pictures without
-/// pixels, of more than kMostChannelPixels, of other sizes than they say or without an angle.
-void visit_channels(const PicturePair&, const ContrastEye&, const std::function<void(const Channel&)>& visit);
+/// orientations, the frequencies above. Luminance goes through the scale of an eye and into a steerable pyramid
+/// (Simoncelli and Freeman 1995), whose squared responses sum to that of the picture, and whose oriented responses are
+/// pairs of a quadrature (Portilla and Simoncelli 2000). Each response is weighted by the sensitivity at its frequency
+/// to the local luminance of adaptation, which is the coarsest channel of each picture. Throws Error for pictures
+/// without pixels, of more than kMostChannelPixels, of other sizes than they say or without an angle.
+void visit_channels(const PicturePair&, const JndScale&, const std::function<void(const Channel&)>& visit);
 
 /// What a thread takes at a time of loops over samples.
 constexpr size_t kSamplesAtATime = 1u << 14;
@@ -80,7 +80,7 @@ std::vector<double> foveal_means(std::span<const double> values, uint32_t width,
 /// Probability of detection of a contrast in thresholds: 1 - 2^-|c|^kPsychometricSlope (Nachmias 1981); of several
 /// independent ones the powers are summed first.
 constexpr double kPsychometricSlope = 3.5;
-double power_of_contrast(std::complex<double> contrast);  ///< |c|^kPsychometricSlope
-double detection_probability(double powers);              ///< of the sum
+double power_of_contrast(double contrast);    ///< |c|^kPsychometricSlope
+double detection_probability(double powers);  ///< of the sum
 
 }  // namespace vesper::vision

@@ -20,7 +20,7 @@ constexpr double kChannelsPerDegree = 32;  // px
 // Mean of the squared responses to the first picture in its middle, of each channel.
 std::vector<double> squares_of(const std::vector<float>& picture) {
     std::vector<double> squares;
-    vision::visit_channels({kChannelSide, kChannelSide, kChannelsPerDegree, picture, picture}, {},
+    vision::visit_channels({kChannelSide, kChannelSide, kChannelsPerDegree, picture, picture}, vision::JndScale({}),
                            [&](const Channel& channel) {
                                const uint32_t n = kChannelSide / channel.grid.step;
                                double sum = 0, samples = 0;
@@ -67,19 +67,21 @@ TEST(VisualChannels, UniformPicturesHaveNoContrast) {
 
 // Luminances of sides as small as these have channels, too, and what is not a number is black.
 TEST(VisualChannels, TakeAnyPicture) {
+    const vision::JndScale scale({});
     for (const auto& size : {std::pair{1u, 1u}, {1u, 37u}, {41u, 3u}, {13u, 11u}})
         for (const double per_degree : {0.01, 3.0, 27.0, 1000.0}) {
             std::vector<float> damaged(size_t{size.first} * size.second, 1);
             damaged[0] = std::nanf(""), damaged[damaged.size() / 2] = -HUGE_VALF;
             size_t channels = 0;
-            vision::visit_channels({size.first, size.second, per_degree, damaged, damaged}, {}, [&](const Channel& c) {
-                ++channels;
-                ASSERT_GE(c.grid.width * c.grid.step, size.first);
-                for (size_t i = 0; i < c.grid.size(); ++i) {
-                    ASSERT_TRUE(std::isfinite(std::abs(c.first[i])));
-                    ASSERT_EQ(c.first[i], c.second[i]);
-                }
-            });
+            vision::visit_channels({size.first, size.second, per_degree, damaged, damaged}, scale,
+                                   [&](const Channel& c) {
+                                       ++channels;
+                                       ASSERT_GE(c.grid.width * c.grid.step, size.first);
+                                       for (size_t i = 0; i < c.grid.size(); ++i) {
+                                           ASSERT_TRUE(std::isfinite(std::abs(c.first[i])));
+                                           ASSERT_EQ(c.first[i], c.second[i]);
+                                       }
+                                   });
             EXPECT_GE(channels, 6u);
         }
 }
@@ -88,7 +90,7 @@ TEST(VisualChannels, RefusePicturesThatCannotBeCompared) {
     const std::vector<float> four(4, 1), three(3, 1);
     const auto none = [](const Channel&) {};
     const auto said = [&](const PicturePair& pair) {
-        return complaint_of([&] { vision::visit_channels(pair, {}, none); });
+        return complaint_of([&] { vision::visit_channels(pair, vision::JndScale({}), none); });
     };
     EXPECT_TRUE(contains(said({2, 2, 10, four, three}), "differ in size"));
     EXPECT_TRUE(contains(said({2, 2, 0, four, four}), "angle"));

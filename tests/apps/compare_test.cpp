@@ -10,6 +10,7 @@
 
 #include "io/hdr_image.h"
 #include "io/image_file.h"
+#include "support/gratings.h"
 #include "support/program.h"
 #include "vision/visibility.h"
 
@@ -172,15 +173,8 @@ TEST_F(CompareTest, ThresholdsOfDiscsAreThoseOfAdrian) {
     constexpr uint32_t kPixels = 160;  // px, 4 degrees
     const auto write_disc = [&](const char* name, double minutes, double contrast) {
         io::HdrImage image{.width = kPixels, .height = kPixels, .rgb = {}, .white_luminance = 1};
-        const double radius = minutes / 60 * kPixels / 4 / 2;
-        for (uint32_t y = 0; y < kPixels; ++y)
-            for (uint32_t x = 0; x < kPixels; ++x) {
-                int inside = 0;
-                for (int i = 0; i < 64; ++i)
-                    inside += std::hypot(x + (i % 8 + 0.5) / 8 - kPixels / 2.0, y + (i / 8 + 0.5) / 8 - kPixels / 2.0) <
-                              radius;
-                image.rgb.insert(image.rgb.end(), 3, float(1 + contrast * inside / 64));
-            }
+        for (const float l : disc(kPixels, minutes / 60 * kPixels / 4 / 2, 1, contrast))
+            image.rgb.insert(image.rgb.end(), 3, l);
         io::write_exr(folder / name, image);
     };
     write_disc("plain.exr", 1, 0);

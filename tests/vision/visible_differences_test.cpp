@@ -21,19 +21,8 @@ constexpr double kPerDegree = 40;  // px
 
 std::vector<float> uniform(double luminance) { return std::vector<float>(size_t{kSide} * kSide, float(luminance)); }
 
-// A disc in the middle; pixels at its edge hold their share of it.
 std::vector<float> disc(double background, double minutes, double contrast) {
-    std::vector<float> picture;
-    const double radius = minutes / 60 * kPerDegree / 2, middle = kSide / 2;
-    for (uint32_t y = 0; y < kSide; ++y)
-        for (uint32_t x = 0; x < kSide; ++x) {
-            double inside = 0;
-            for (int i = 0; i < 64; ++i)
-                inside +=
-                    std::hypot(double(x) + (i % 8 + 0.5) / 8 - middle, double(y) + (i / 8 + 0.5) / 8 - middle) < radius;
-            picture.push_back(float(background * (1 + contrast * inside / 64)));
-        }
-    return picture;
+    return test::disc(kSide, minutes / 60 * kPerDegree / 2, background, contrast);
 }
 
 std::vector<float> waves(double background, double cycles, double contrast) {

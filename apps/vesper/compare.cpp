@@ -83,8 +83,8 @@ void report(const CompareArguments& a, const ComparedPicture& first, const Compa
                 c.pixels_per_degree, a.age, kOptics.at(a.glare));
     apps::print("largest probability of detection  %.4f\n", seen.largest);
     if (seen.largest > 0)
-        apps::print("  at (%u, %u), %.2f degrees %s and %.2f %s of the middle\n", seen.x, seen.y, std::abs(at.x),
-                    at.x < 0 ? "left" : "right", std::abs(at.y), at.y < 0 ? "below" : "above");
+        apps::print("  at (%u, %u), %.2f degrees %s and %.2f %s of the axis of the eye\n", seen.x, seen.y,
+                    std::abs(at.x), at.x < 0 ? "left" : "right", std::abs(at.y), at.y < 0 ? "below" : "above");
     apps::print("pixels above 50, 75 and 95 %%       %.4g, %.4g and %.4g %%\n", 100 * seen.above_half,
                 100 * seen.above_75, 100 * seen.above_95);
     apps::print("RMSE of log10 luminance           %.4g\n", c.log_rmse);

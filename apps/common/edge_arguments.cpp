@@ -1,4 +1,5 @@
 #include "edge_arguments.h"
+#include "render/passes/samples.h"
 
 namespace vesper::apps {
 

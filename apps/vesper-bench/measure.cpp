@@ -1,4 +1,5 @@
 #include "measure.h"
+#include "gpu_scene/cameras.h"
 
 #include <algorithm>
 #include <cmath>

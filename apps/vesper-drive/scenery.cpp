@@ -1,4 +1,5 @@
 #include "scenery.h"
+#include "gpu_scene/cameras.h"
 
 #include <algorithm>
 #include <array>

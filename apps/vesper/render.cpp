@@ -11,6 +11,7 @@
 #include "frame_files.h"
 #include "frame_relay.h"
 #include "glare_arguments.h"
+#include "gpu_scene/cameras.h"
 #include "indirect_arguments.h"
 #include "io/file_gate.h"
 #include "io/growing_file.h"

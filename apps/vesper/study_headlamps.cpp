@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 #include "beam_plot.h"
+#include "gpu_scene/cameras.h"
 #include "indirect_arguments.h"
 #include "io/file_gate.h"
 #include "picture_arguments.h"

@@ -1,4 +1,5 @@
 #include "study_picture.h"
+#include "gpu_scene/cameras.h"
 
 #include <algorithm>
 #include <cmath>

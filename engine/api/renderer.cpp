@@ -2,7 +2,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "api/handles.h"
+#include "gpu_scene/cameras.h"
 #include "io/cache_folder.h"
+#include "render/passes/samples.h"
 #include "render/quality.h"
 #include "scene/placement.h"
 #include "transport/kept_radiosity.h"

@@ -367,9 +367,11 @@ void Device::submit(const VkSubmitInfo2& work, VkFence fence, std::string_view w
     const VkResult result = vkQueueSubmit2(queue_, 1, &work, fence);
     if (unlock_) unlock_();
     check(result, what);
+    ++use_.submissions;
 }
 
 void Device::wait(VkFence fence) const {
+    ++use_.waits;
     const VkResult waited = vkWaitForFences(device_, 1, &fence, VK_TRUE, UINT64_MAX);
     if (waited != VK_SUCCESS) settle(fence);  // what was submitted uses what goes now
     check(waited, "waiting for the device");

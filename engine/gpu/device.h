@@ -86,6 +86,8 @@ struct DeviceUse {
     uint64_t bytes = 0, peak_bytes = 0;  ///< of its memory: allocated now, and at most at any time
     uint32_t pipelines = 0;              ///< made
     double pipeline_ms = 0;  ///< in the driver's calls that make them; some drivers compile later, at first use
+    uint64_t submissions = 0, waits = 0;  ///< calls
+    uint64_t objects = 0;                 ///< made: buffers, images, views, pieces of memory
 };
 
 /// One line per Vulkan device of the machine, for `--device`.

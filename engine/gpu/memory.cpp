@@ -23,6 +23,7 @@ OwnedMemory allocate(const Device& device, uint64_t bytes, uint32_t memory_type)
     VkDeviceMemory memory = VK_NULL_HANDLE;
     check(vkAllocateMemory(device.handle(), &info, nullptr, &memory),
           "allocating " + std::to_string(bytes >> 20) + " MiB on " + device.name());
+    ++device.use().objects;
     return {device, memory, bytes};
 }
 
@@ -30,7 +31,23 @@ OwnedBuffer make_buffer(const Device& device, uint64_t bytes, VkBufferUsageFlags
     const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = bytes, .usage = usage};
     VkBuffer buffer = VK_NULL_HANDLE;
     check(vkCreateBuffer(device.handle(), &info, nullptr, &buffer), "making a buffer");
-    return {device.handle(), buffer};
+    ++device.use().objects;
+    return {device, buffer};
+}
+
+VkBufferView OwnedBuffer::texels(VkFormat format, uint64_t offset, uint64_t bytes) const {
+    for (const View& v : views_)
+        if (v.format == format && v.offset == offset && v.bytes == bytes) return v.view.get();
+    const VkBufferViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
+                                      .buffer = get(),
+                                      .format = format,
+                                      .offset = offset,
+                                      .range = bytes};
+    VkBufferView view = VK_NULL_HANDLE;
+    check(vkCreateBufferView(device_->handle(), &info, nullptr, &view), "viewing a texel buffer");
+    ++device_->use().objects;
+    views_.push_back({format, offset, bytes, {device_->handle(), view}});
+    return view;
 }
 
 VkImageCreateInfo image_info(VkFormat format, VkExtent2D extent, uint32_t levels, VkImageUsageFlags usage) {
@@ -52,6 +69,7 @@ OwnedImage make_image(const Device& device, const VkImageCreateInfo& info) {
                     " is too large for " + device.name() + ", which takes " + std::to_string(limit) + " px a side");
     VkImage image = VK_NULL_HANDLE;
     check(vkCreateImage(device.handle(), &info, nullptr, &image), "making an image");
+    ++device.use().objects;
     return {device.handle(), image};
 }
 
@@ -67,6 +85,7 @@ OwnedImageView make_view(const Device& device, VkImage image, VkFormat format, u
                                      .subresourceRange = {aspect_of(format), 0, levels, 0, 1}};
     VkImageView view = VK_NULL_HANDLE;
     check(vkCreateImageView(device.handle(), &info, nullptr, &view), "viewing an image");
+    ++device.use().objects;
     return {device.handle(), view};
 }
 

@@ -9,11 +9,33 @@
 
 namespace vesper::gpu {
 
-using OwnedBuffer = Owned<VkBuffer, vkDestroyBuffer>;
 using OwnedImage = Owned<VkImage, vkDestroyImage>;
 using OwnedImageView = Owned<VkImageView, vkDestroyImageView>;
 using OwnedBufferView = Owned<VkBufferView, vkDestroyBufferView>;
 using OwnedSampler = Owned<VkSampler, vkDestroySampler>;
+
+/// Sole owner of a buffer, and of the views of its texels.
+class OwnedBuffer {
+public:
+    OwnedBuffer() = default;
+    OwnedBuffer(const Device& device, VkBuffer buffer) : device_(&device), buffer_(device.handle(), buffer) {}
+
+    VkBuffer get() const { return buffer_.get(); }
+    explicit operator bool() const { return bool(buffer_); }
+    /// Texels of `bytes` from `offset` on: a view that is made when it is asked for first, and lives as long as the
+    /// buffer. Throws Error.
+    VkBufferView texels(VkFormat format, uint64_t offset, uint64_t bytes) const;
+
+private:
+    struct View {
+        VkFormat format;
+        uint64_t offset, bytes;
+        OwnedBufferView view;
+    };
+    const Device* device_ = nullptr;
+    Owned<VkBuffer, vkDestroyBuffer> buffer_;
+    mutable std::vector<View> views_;
+};
 
 /// Sole owner of a piece of device memory, of which the device keeps account.
 class OwnedMemory {
@@ -52,6 +74,7 @@ public:
     HostBuffer(const Device& device, uint64_t bytes, VkBufferUsageFlags usage, Direction direction);
 
     VkBuffer buffer() const { return buffer_.get(); }
+    const OwnedBuffer& owned() const { return buffer_; }
     uint64_t bytes() const { return bytes_; }
     std::byte* data() const { return data_; }
     void flush() const;       ///< makes host writes visible to the next submission

@@ -61,11 +61,11 @@ GpuScatter::GpuScatter(const gpu::Device& device, const ScatterSettings& setting
     const auto upload = [&](const auto& values, gpu::OwnedBuffer& buffer) {
         const auto bytes = std::as_bytes(std::span(values));
         buffer = upload_buffer(device, arena_, bytes, kTexelUsage);
-        return Texels{buffer.get(), bytes.size()};
+        return bytes.size();
     };
-    taps_texels_ = upload(padded_taps(fit), taps_);
-    top_texels_ = upload(transposed(fit.top, size_t(fit.top_rows().x * fit.top_rows().y)), top_);
-    edge_texels_ = upload(fit.edge.kept, edge_);
+    taps_bytes_ = upload(padded_taps(fit), taps_);
+    top_bytes_ = upload(transposed(fit.top, size_t(fit.top_rows().x * fit.top_rows().y)), top_);
+    edge_bytes_ = upload(fit.edge.kept, edge_);
 }
 
 std::vector<glm::vec4> GpuScatter::lamps_of(int level, const std::vector<OffscreenLamp>& lamps) const {

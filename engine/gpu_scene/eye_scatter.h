@@ -43,7 +43,7 @@ public:
 
     /// A buffer of texels.
     struct Texels {
-        VkBuffer buffer;
+        const gpu::OwnedBuffer& buffer;
         uint64_t bytes;
     };
     const ScatterSettings& settings() const { return settings_; }
@@ -53,9 +53,11 @@ public:
     glm::ivec2 nodes() const { return nodes_; }
     const vision::EdgeLight::Axis& edge_x() const { return edge_x_; }
     const vision::EdgeLight::Axis& edge_y() const { return edge_y_; }
-    Texels taps() const { return taps_texels_; }  ///< rgba32f, node by node, level by level (shared/eye_scatter.h)
-    Texels edge() const { return edge_texels_; }  ///< r32f, EdgeLight::kept
-    Texels top() const { return top_texels_; }    ///< rgba32f, for each texel that gives those that take, by four
+    Texels taps() const {
+        return {taps_, taps_bytes_};
+    }  ///< rgba32f, node by node, level by level (shared/eye_scatter.h)
+    Texels edge() const { return {edge_, edge_bytes_}; }  ///< r32f, EdgeLight::kept
+    Texels top() const { return {top_, top_bytes_}; }  ///< rgba32f, for each texel that gives those that take, by four
 
     /// Lamps whose light begins at a level, two texels each (shared/eye_scatter.h).
     std::vector<glm::vec4> lamps_of(int level, const std::vector<OffscreenLamp>&) const;
@@ -72,7 +74,7 @@ private:
     glm::ivec2 nodes_{2};
     gpu::Arena arena_;
     gpu::OwnedBuffer taps_, top_, edge_;
-    Texels taps_texels_{}, top_texels_{}, edge_texels_{};
+    uint64_t taps_bytes_ = 0, top_bytes_ = 0, edge_bytes_ = 0;
 };
 
 /// Keeps the fits of the last views, since most frames have the same.

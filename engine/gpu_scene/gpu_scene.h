@@ -57,10 +57,10 @@ public:
     const std::vector<Part>& parts() const { return parts_; }
     const std::vector<Placement>& placements() const { return placements_; }
     const std::vector<Surface>& surfaces() const { return surfaces_; }
-    VkBuffer vertices() const { return vertices_.get(); }
-    VkBuffer indices() const { return indices_.get(); }
+    const gpu::OwnedBuffer& vertices() const { return vertices_; }
+    const gpu::OwnedBuffer& indices() const { return indices_; }
     /// shared::Facet for each vertex, of the triangle that it is the first of (LeadingVertices).
-    VkBuffer facets() const { return facets_.get(); }
+    const gpu::OwnedBuffer& facets() const { return facets_; }
     uint64_t vertex_count() const { return vertex_count_; }
     uint64_t index_count() const { return index_count_; }
     /// Depth of the farthest point of any instance along the view axis, m; at least 0.

@@ -20,7 +20,7 @@ using Origin = FrameGraph::Origin;
 
 /// What the live steps do with a resource over the frame.
 struct Life {
-    uint32_t first = ~0u, last = 0;  ///< steps
+    uint32_t first = ~0u, last = 0;  ///< steps, counted from 1; 0: before them
     AccessSet accesses;
 
     bool used() const { return first != ~0u; }
@@ -40,13 +40,13 @@ Stage stage_of(PassKind kind) {
 }
 
 /// True if nothing of the earlier contents survives. Fragments store only where they fall, and targets load.
-bool replaces(PassKind kind, Access access) {
-    return access == Access::CopyTarget || (access == Access::Store && kind == PassKind::Dispatch);
+bool replaces(PassKind kind, const Use& use) {
+    return use.access == Access::CopyTarget || use.renew || (use.access == Access::Store && kind == PassKind::Dispatch);
 }
 
 /// True if earlier contents matter to this use.
-bool needs_contents(PassKind kind, Access access) {
-    return access != Access::Store ? !replaces(kind, access) : kind == PassKind::Raster;
+bool needs_contents(PassKind kind, const Use& use) {
+    return use.access != Access::Store ? !replaces(kind, use) : kind == PassKind::Raster;
 }
 
 /// Adds up what the uses of a pass move.
@@ -54,10 +54,13 @@ void count_bytes(const FrameGraph& graph, Plan::Step& step) {
     const PassInfo& pass = graph.passes()[step.pass];
     std::set<uint32_t> read, written;
     for (size_t i = 0; i < pass.uses.size(); ++i) {
-        const auto& [resource, access, clear] = pass.uses[i];
+        const Use& use = pass.uses[i];
+        const auto [resource, access] = std::pair(use.resource, use.access);
         const uint64_t bytes = packed_bytes(graph.resources()[resource.index].shape);
         const bool target = access == Access::ColorTarget || access == Access::DepthTarget;
-        const bool reads = target ? !step.first_use[i] : access != Access::Store && access != Access::CopyTarget;
+        const bool reads = target
+                               ? !step.first_use[i] && !use.renew
+                               : access != Access::Store && access != Access::CopyTarget && access != Access::CopyPart;
         if (reads && read.insert(resource.index).second) step.bytes_read += bytes;
         if (writes(access) && written.insert(resource.index).second) step.bytes_written += bytes;
     }
@@ -89,9 +92,9 @@ std::vector<bool> find_live_passes(const FrameGraph& graph) {
                                       [&](const Use& use) { return writes(use.access) && wanted[use.resource.index]; });
         if (!live[p]) continue;
         for (const Use& use : pass.uses)
-            if (replaces(pass.kind, use.access)) wanted[use.resource.index] = false;
+            if (replaces(pass.kind, use)) wanted[use.resource.index] = false;
         for (const Use& use : pass.uses)
-            if (needs_contents(pass.kind, use.access)) wanted[use.resource.index] = true;
+            if (needs_contents(pass.kind, use)) wanted[use.resource.index] = true;
     }
     return live;
 }
@@ -115,8 +118,8 @@ std::vector<Life> lay_out_steps(const FrameGraph& graph, Plan& plan) {
             Life& life = lives[use.resource.index];
             const ResourceInfo& r = resources[use.resource.index];
             plan.steps.back().first_use.push_back(!life.used() && !FrameGraph::is_filled(r.origin));
-            life.first = std::min(life.first, step);
-            life.last = step;
+            life.first = std::min(life.first, step + 1);
+            life.last = step + 1;
             life.accesses.add(stage_of(pass.kind), use.access);
             uint32_t& usage = plan.usage[use.resource.index];
             if (r.shape.is_image()) {
@@ -134,7 +137,8 @@ std::vector<Life> lay_out_steps(const FrameGraph& graph, Plan& plan) {
     for (Plan::Step& step : plan.steps) count_bytes(graph, step);
     for (size_t i = 0; i < resources.size(); ++i) {
         // Whoever keeps a transient looks at it after the frame.
-        if (resources[i].kept && lives[i].used()) lives[i].last = static_cast<uint32_t>(plan.steps.size()) - 1;
+        if (resources[i].kept && lives[i].used()) lives[i].last = static_cast<uint32_t>(plan.steps.size());
+        if (resources[i].reserved_usage) lives[i].first = 0, plan.usage[i] |= resources[i].reserved_usage;
         // The halves of a history change places every frame.
         if (resources[i].origin == Origin::HistoryCurrent)
             plan.usage[i] = plan.usage[resources[i].partner] |= plan.usage[i];

@@ -1,6 +1,7 @@
 #include "graph/executor.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <utility>
 
@@ -10,6 +11,7 @@
 namespace vesper::graph {
 namespace {
 
+constexpr size_t kSpareTransients = 64;    // of other frames
 constexpr uint64_t kSliceAlignment = 256;  // at least every minimum offset alignment Vulkan allows a device to ask for
 constexpr VkBufferUsageFlags kHostUsage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
@@ -18,20 +20,21 @@ constexpr VkBufferUsageFlags kHostUsage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_
 
 uint64_t aligned(uint64_t value, uint64_t alignment) { return (value + alignment - 1) / alignment * alignment; }
 
-bool is_texel(uint32_t usage) {
-    return usage & (VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT);
+// Room of an upload, for what grows from frame to frame.
+uint64_t with_room(uint64_t bytes) {
+    constexpr uint64_t kLeast = 1u << 12u, kLarge = 1u << 20u;
+    return aligned(bytes < kLarge ? std::bit_ceil(std::max(2 * bytes, kLeast)) : bytes + bytes / 4, kSliceAlignment);
 }
+// Places of uploads that the last frame did not have are given up where they take more than this.
+constexpr uint64_t kMostIdleBytes = 16u << 20u;
 
-gpu::OwnedBufferView view_texels(const gpu::Device& device, VkBuffer buffer, VkFormat format, uint64_t offset,
-                                 uint64_t bytes) {
-    const VkBufferViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
-                                      .buffer = buffer,
-                                      .format = format,
-                                      .offset = offset,
-                                      .range = bytes};
-    VkBufferView view = VK_NULL_HANDLE;
-    gpu::check(vkCreateBufferView(device.handle(), &info, nullptr, &view), "viewing a texel buffer");
-    return {device.handle(), view};
+// Makes a buffer that is too small larger, and one that is much too large smaller.
+void fit(const gpu::Device& device, gpu::HostBuffer& buffer, uint64_t bytes, gpu::HostBuffer::Direction direction) {
+    constexpr uint64_t kSpare = 4u << 20u;
+    const uint64_t wanted = bytes + std::min(2 * bytes, 3 * kSpare) + kSpare;
+    if (buffer.bytes() >= bytes && buffer.bytes() <= 2 * wanted + kMostIdleBytes) return;
+    buffer = {};
+    buffer = gpu::HostBuffer(device, wanted, kHostUsage, direction);
 }
 
 }  // namespace
@@ -209,66 +212,60 @@ void Executor::enter_slot() {
     if (next == slots_.size()) slots_.push_back(std::make_unique<FrameSlot>(device_));
     slot_ = slots_[next].get();
     slot_->wait();
-    slot_->texels.clear(), slot_->views.clear();
+    slot_->views.clear();
 }
 
-void Executor::place(const FrameGraph& graph) {
-    // Everything the transients' objects are made from; names and contents of passes may change freely.
-    std::string key = std::to_string(graph.resources().size());
-    for (const Plan::Heap& heap : plan_.heaps)
-        key += " h" + std::to_string(heap.bytes) + "," + std::to_string(heap.memory_types);
-    for (const Plan::Placement& p : plan_.placements) {
-        const Shape& s = graph.resources()[p.resource].shape;
-        for (const uint64_t part :
-             {uint64_t(p.resource), uint64_t(p.heap), p.offset, uint64_t(s.format), uint64_t(s.extent.width),
-              uint64_t(s.extent.height), s.bytes, uint64_t(plan_.usage[p.resource])})
-            key += " " + std::to_string(part);
-    }
-    if (key == placed_key_) return;
+bool Executor::is_placed(const FrameGraph& graph, const Plan::Placement& p) const {
+    const FrameGraph::ResourceInfo& info = graph.resources()[p.resource];
+    const auto found = transients_.find(info.name);
+    if (found == transients_.end()) return false;
+    const Transient& t = found->second;
+    return t.shape == info.shape && t.usage == plan_.usage[p.resource] && t.heap == p.heap && t.offset == p.offset;
+}
 
-    wait();  // what is under way uses what goes now
-    placed_key_.clear();
-    resources_.clear();
+// Transients that this frame does not have stay, for a frame that has them again.
+void Executor::place(const FrameGraph& graph) {
     // Memory stays where it is large enough, and not more than twice so.
     const auto suffices = [](const Plan::Heap& had, const Plan::Heap& wanted) {
         return had.memory_types == wanted.memory_types && had.bytes >= wanted.bytes && had.bytes / 2 <= wanted.bytes;
     };
-    if (!std::ranges::equal(allocated_, plan_.heaps, suffices)) {
+    const bool has_room = std::ranges::equal(allocated_, plan_.heaps, suffices);
+    const bool all_placed =
+        has_room && std::ranges::all_of(plan_.placements, [&](const auto& p) { return is_placed(graph, p); });
+    if (!all_placed) wait();  // what is under way uses what goes now
+    if (!has_room || transients_.size() > 2 * plan_.placements.size() + kSpareTransients) transients_.clear();
+    if (!has_room) {
         heaps_.clear(), allocated_.clear();
         for (const Plan::Heap& heap : plan_.heaps)
             heaps_.push_back(gpu::allocate(
                 device_, heap.bytes, device_.memory_type(heap.memory_types, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)));
         allocated_ = plan_.heaps;
     }
-    resources_.resize(graph.resources().size());
+    resources_.assign(graph.resources().size(), {});
     for (const Plan::Placement& p : plan_.placements) {
-        const Shape& shape = graph.resources()[p.resource].shape;
-        const uint32_t usage = plan_.usage[p.resource];
+        const FrameGraph::ResourceInfo& info = graph.resources()[p.resource];
+        if (!is_placed(graph, p)) make_transient(info, p);
+        const Transient& t = transients_.at(info.name);
         Realized& r = resources_[p.resource];
-        if (shape.is_image()) {
-            r.owned_image = gpu::make_image(device_, gpu::image_info(shape.format, shape.extent, 1, usage));
-            gpu::check(vkBindImageMemory(device_.handle(), r.owned_image.get(), heaps_[p.heap].get(), p.offset),
-                       "placing an image");
-            r.owned_view = gpu::make_view(device_, r.owned_image.get(), shape.format);
-            r.image = r.owned_image.get(), r.view = r.owned_view.get(), r.aspect = gpu::aspect_of(shape.format);
-        } else {
-            r.owned_buffer = gpu::make_buffer(device_, shape.bytes, usage);
-            gpu::check(vkBindBufferMemory(device_.handle(), r.owned_buffer.get(), heaps_[p.heap].get(), p.offset),
-                       "placing a buffer");
-            if (is_texel(usage))
-                r.owned_texels = view_texels(device_, r.owned_buffer.get(), shape.format, 0, shape.bytes);
-            r.texels = r.owned_texels.get();
-            r.buffer = r.owned_buffer.get(), r.bytes = shape.bytes;
-        }
+        r.image = t.image.get(), r.view = t.view.get(), r.aspect = gpu::aspect_of(info.shape.format);
+        r.buffer = &t.buffer, r.bytes = r.viewed_bytes = info.shape.bytes;
     }
-    placed_key_ = std::move(key);
 }
 
-// Texels of a buffer that is not the resource's own are viewed for one frame.
-void Executor::view_borrowed(Realized& r, VkFormat format, uint32_t usage) {
-    r.texels = r.buffer && is_texel(usage)
-                   ? slot_->texels.emplace_back(view_texels(device_, r.buffer, format, r.offset, r.bytes)).get()
-                   : VK_NULL_HANDLE;
+void Executor::make_transient(const FrameGraph::ResourceInfo& info, const Plan::Placement& p) {
+    transients_.erase(info.name);
+    Transient t{info.shape, plan_.usage[p.resource], p.heap, p.offset, {}, {}, {}};
+    if (info.shape.is_image()) {
+        t.image = gpu::make_image(device_, gpu::image_info(info.shape.format, info.shape.extent, 1, t.usage));
+        gpu::check(vkBindImageMemory(device_.handle(), t.image.get(), heaps_[p.heap].get(), p.offset),
+                   "placing an image");
+        t.view = gpu::make_view(device_, t.image.get(), info.shape.format);
+    } else {
+        t.buffer = gpu::make_buffer(device_, info.shape.bytes, t.usage);
+        gpu::check(vkBindBufferMemory(device_.handle(), t.buffer.get(), heaps_[p.heap].get(), p.offset),
+                   "placing a buffer");
+    }
+    transients_.emplace(info.name, std::move(t));
 }
 
 void Executor::realize_histories(const FrameGraph& graph) {
@@ -289,8 +286,7 @@ void Executor::realize_histories(const FrameGraph& graph) {
         for (const auto& [index, half] : {std::pair{i, past->current}, std::pair{info.partner, 1 - past->current}}) {
             Realized& r = resources_[index];
             r.image = past->images[half].get(), r.view = past->views[half].get();
-            r.buffer = past->buffers[half].get(), r.offset = 0, r.bytes = info.shape.bytes;
-            view_borrowed(r, info.shape.format, usage);
+            r.buffer = &past->buffers[half], r.bytes = r.viewed_bytes = info.shape.bytes;
         }
     }
 }
@@ -311,26 +307,35 @@ void Executor::find_turning(const FrameGraph& graph) {
             turning_.push_back(histories_.at(graph.resources()[i].name).get());
 }
 
+// An upload keeps its place from frame to frame, with room to grow, so that the views of its texels stay.
 void Executor::realize_uploads(const FrameGraph& graph) {
-    uint64_t total = 0;
-    for (const auto& info : graph.resources())
-        if (info.origin == FrameGraph::Origin::Upload) total = aligned(total, kSliceAlignment) + info.contents.size();
+    uint64_t idle = upload_end_;
+    for (const auto& [name, place] : upload_places_)
+        if (place.last_frame == frame_) idle -= place.bytes;
+    if (idle > kMostIdleBytes) upload_places_.clear(), upload_end_ = 0;
+    ++frame_;
+    for (const auto& info : graph.resources()) {
+        if (info.origin != FrameGraph::Origin::Upload) continue;
+        UploadPlace& place = upload_places_[info.name];
+        place.last_frame = frame_;
+        if (place.bytes >= info.contents.size()) continue;
+        place.offset = upload_end_, place.bytes = with_room(info.contents.size());
+        upload_end_ += place.bytes;
+    }
+    if (upload_end_ == 0) return;
     gpu::HostBuffer& uploads = slot_->uploads;
-    if (uploads.bytes() < total)
-        uploads = gpu::HostBuffer(device_, aligned(total * 3 / 2, kSliceAlignment), kHostUsage,
-                                  gpu::HostBuffer::Direction::ToDevice);
-    uint64_t offset = 0;
+    fit(device_, uploads, upload_end_, gpu::HostBuffer::Direction::ToDevice);
     for (uint32_t i = 0; i < graph.resources().size(); ++i) {
         const auto& info = graph.resources()[i];
         if (info.origin != FrameGraph::Origin::Upload) continue;
-        offset = aligned(offset, kSliceAlignment);
-        std::memcpy(uploads.data() + offset, info.contents.data(), info.contents.size());
+        const UploadPlace& place = upload_places_.at(info.name);
+        std::memcpy(uploads.data() + place.offset, info.contents.data(), info.contents.size());
         Realized& r = resources_[i];
-        r.buffer = uploads.buffer(), r.offset = offset, r.bytes = info.contents.size();
-        view_borrowed(r, info.shape.format, plan_.usage[i]);
-        offset += r.bytes;
+        r.buffer = &uploads.owned(), r.offset = place.offset, r.bytes = info.contents.size();
+        const uint64_t most = device_.limits().maxTexelBufferElements * texel_bytes(info.shape.format);
+        r.viewed_bytes = std::max(std::min(place.bytes, most), r.bytes);
     }
-    if (total) uploads.flush();
+    uploads.flush();
 }
 
 void Executor::realize_externals(const FrameGraph& graph) {
@@ -339,8 +344,7 @@ void Executor::realize_externals(const FrameGraph& graph) {
         const bool lasting = info.origin == FrameGraph::Origin::Lasting;
         if ((info.origin != FrameGraph::Origin::External && !lasting) || info.external_image.image) continue;
         Realized& r = resources_[i];
-        r.buffer = info.buffer, r.offset = 0, r.bytes = info.shape.bytes;
-        view_borrowed(r, info.shape.format, plan_.usage[i]);
+        r.buffer = info.buffer, r.bytes = r.viewed_bytes = info.shape.bytes;
     }
 }
 
@@ -362,8 +366,7 @@ void Executor::realize_readbacks(const FrameGraph& graph) {
     for (const auto& info : graph.resources())
         if (info.origin == FrameGraph::Origin::Readback) total = aligned(total, kSliceAlignment) + info.shape.bytes;
     gpu::HostBuffer& readbacks = slot_->readbacks;
-    if (readbacks.bytes() < total)
-        readbacks = gpu::HostBuffer(device_, total, kHostUsage, gpu::HostBuffer::Direction::FromDevice);
+    if (total) fit(device_, readbacks, total, gpu::HostBuffer::Direction::FromDevice);
     slot_->places.clear();
     uint64_t offset = 0;
     for (uint32_t i = 0; i < graph.resources().size(); ++i) {
@@ -371,7 +374,7 @@ void Executor::realize_readbacks(const FrameGraph& graph) {
         if (info.origin != FrameGraph::Origin::Readback) continue;
         offset = aligned(offset, kSliceAlignment);
         Realized& r = resources_[i];
-        r.buffer = readbacks.buffer(), r.offset = offset, r.bytes = info.shape.bytes;
+        r.buffer = &readbacks.owned(), r.offset = offset, r.bytes = r.viewed_bytes = info.shape.bytes;
         slot_->places[i] = {r.offset, r.bytes};
         offset += r.bytes;
     }

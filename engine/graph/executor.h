@@ -64,12 +64,26 @@ private:
     struct Realized;  // what stands for one resource in this frame
     class FrameRecording;
     struct Past;  // both halves of a history
+    struct UploadPlace {
+        uint64_t offset = 0, bytes = 0;
+        uint64_t last_frame = 0;  // that has the upload
+    };
+    // The objects of a transient, and where they lie.
+    struct Transient {
+        Shape shape;
+        uint32_t usage, heap;
+        uint64_t offset;
+        gpu::OwnedImage image;
+        gpu::OwnedImageView view;
+        gpu::OwnedBuffer buffer;
+    };
 
     void check_sizes(const FrameGraph& graph) const;
     void enter_slot();
     void place(const FrameGraph& graph);
     void find_turning(const FrameGraph& graph);
-    void view_borrowed(Realized& resource, VkFormat format, uint32_t usage);
+    bool is_placed(const FrameGraph& graph, const Plan::Placement& placement) const;
+    void make_transient(const FrameGraph::ResourceInfo& info, const Plan::Placement& placement);
     void realize_histories(const FrameGraph& graph);
     void realize_uploads(const FrameGraph& graph);
     void realize_externals(const FrameGraph& graph);
@@ -80,7 +94,7 @@ private:
     void record_border(const FrameGraph& graph, Border border) const;
     void record_clearing() const;
     void record_barriers(const std::vector<Plan::Barrier>& barriers) const;
-    void record_dispatch(const FrameGraph::PassInfo& pass) const;
+    void record_dispatch(const FrameGraph& graph, const FrameGraph::PassInfo& pass) const;
     void record_raster(const FrameGraph& graph, const Plan::Step& step) const;
 
     gpu::Device& device_;
@@ -91,8 +105,11 @@ private:
     std::vector<Past*> turned_, turning_;  // by the last frame; by the one that is being submitted
     std::vector<Past*> cleared_;           // by it
     std::vector<gpu::OwnedMemory> heaps_;
-    std::vector<Plan::Heap> allocated_;  // what they are
-    std::string placed_key_;             // what the transients were made for
+    std::vector<Plan::Heap> allocated_;                 // what they are
+    std::map<std::string, Transient> transients_;       // in `heaps_`, by name
+    std::map<std::string, UploadPlace> upload_places_;  // in FrameSlot::uploads, by name
+    uint64_t upload_end_ = 0;
+    uint64_t frame_ = 0;  // number of the last one
     gpu::OwnedSampler sampler_;
     std::vector<std::unique_ptr<FrameSlot>> slots_;
     FrameSlot* slot_ = nullptr;  // of the last frame, or of the one that is being submitted

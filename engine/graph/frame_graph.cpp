@@ -55,7 +55,7 @@ std::string in_quotes(std::string_view name) { return "'" + std::string(name) + 
 
 bool is_target(Access access) { return access == Access::ColorTarget || access == Access::DepthTarget; }
 bool is_read_first(Access access) {
-    return access != Access::Store && access != Access::CopyTarget && !is_target(access);
+    return access != Access::Store && access != Access::CopyTarget && access != Access::CopyPart && !is_target(access);
 }
 
 bool allowed(PassKind kind, Access access) {
@@ -73,6 +73,7 @@ bool allowed(PassKind kind, Access access) {
             return kind == PassKind::Raster;
         case Access::CopySource:
         case Access::CopyTarget:
+        case Access::CopyPart:
             return kind == PassKind::Transfer;
         case Access::HostRead:
             return false;
@@ -231,21 +232,39 @@ Resource FrameGraph::transient(std::string_view name, const Shape& shape) {
     return add(name, shape, Origin::Transient);
 }
 
+Resource FrameGraph::reserved(std::string_view name, const Shape& shape, std::initializer_list<Access> uses) {
+    const Resource resource = add(name, shape, Origin::Transient);
+    uint32_t usage = 0;
+    for (const Access access : uses) {
+        usage |= shape.is_image() ? image_usage_of(access) : buffer_usage_of(access, false);
+        if (shape.format != VK_FORMAT_UNDEFINED && !shape.is_image()) usage |= buffer_usage_of(access, true);
+    }
+    if (usage == 0) throw Error("reserved resource " + in_quotes(name) + " has no uses");
+    resources_.back().reserved_usage = usage;
+    return resource;
+}
+
 Resource FrameGraph::upload(std::string_view name, std::span<const std::byte> contents, VkFormat texel) {
     const Resource resource = add(name, buffer_shape(contents.size(), texel), Origin::Upload);
     resources_.back().contents.assign(contents.begin(), contents.end());
     return resource;
 }
 
-Resource FrameGraph::external(std::string_view name, VkBuffer buffer, uint64_t bytes, VkFormat texel) {
-    const Resource resource = add(name, buffer_shape(bytes, texel), Origin::External);
-    resources_.back().buffer = buffer;
+Resource FrameGraph::upload(std::string_view name, std::vector<std::byte>&& contents) {
+    const Resource resource = add(name, buffer_shape(contents.size()), Origin::Upload);
+    resources_.back().contents = std::move(contents);
     return resource;
 }
 
-Resource FrameGraph::lasting(std::string_view name, VkBuffer buffer, uint64_t bytes, VkFormat texel) {
+Resource FrameGraph::external(std::string_view name, const gpu::OwnedBuffer& buffer, uint64_t bytes, VkFormat texel) {
+    const Resource resource = add(name, buffer_shape(bytes, texel), Origin::External);
+    resources_.back().buffer = &buffer;
+    return resource;
+}
+
+Resource FrameGraph::lasting(std::string_view name, const gpu::OwnedBuffer& buffer, uint64_t bytes, VkFormat texel) {
     const Resource resource = add(name, buffer_shape(bytes, texel), Origin::Lasting);
-    resources_.back().buffer = buffer;
+    resources_.back().buffer = &buffer;
     return resource;
 }
 
@@ -384,6 +403,38 @@ void FrameGraph::copy(std::string_view name, Resource from, Resource to) {
             vkCmdCopyBuffer(frame.commands(), frame.buffer(from), frame.buffer(to), 1, &region);
         };
     }
+    add_pass(std::move(pass));
+}
+
+void FrameGraph::copy(std::string_view name, Resource from, Resource to, std::vector<Region> regions) {
+    PassInfo pass{std::string(name),
+                  PassKind::Transfer,
+                  {{from, Access::CopySource}, {to, Access::CopyPart}},
+                  nullptr,
+                  {},
+                  {},
+                  0,
+                  {}};
+    if (from.index >= resources_.size()) fail(pass, "has no valid resource to copy from");
+    if (to.index >= resources_.size()) fail(pass, "has no valid resource to copy to");
+    const ResourceInfo &source = resources_[from.index], &target = resources_[to.index];
+    if (source.shape.is_image() || target.shape.is_image())
+        fail(pass, "copies parts of an image; only buffers have any");
+    if (regions.empty()) fail(pass, "copies nothing");
+    for (const Region& region : regions)
+        if (region.bytes == 0 || region.bytes > source.shape.bytes || region.bytes > target.shape.bytes ||
+            region.from > source.shape.bytes - region.bytes || region.to > target.shape.bytes - region.bytes)
+            fail(pass, "copies " + std::to_string(region.bytes) + " bytes from " + std::to_string(region.from) +
+                           " of " + in_quotes(source.name) + " to " + std::to_string(region.to) + " of " +
+                           in_quotes(target.name) + ", which have " + std::to_string(source.shape.bytes) + " and " +
+                           std::to_string(target.shape.bytes));
+    pass.record = [from, to, parts = std::move(regions)](const Recording& frame) {
+        std::vector<VkBufferCopy> copies;
+        copies.reserve(parts.size());
+        for (const Region& part : parts)
+            copies.push_back({frame.offset(from) + part.from, frame.offset(to) + part.to, part.bytes});
+        vkCmdCopyBuffer(frame.commands(), frame.buffer(from), frame.buffer(to), uint32_t(copies.size()), copies.data());
+    };
     add_pass(std::move(pass));
 }
 

@@ -16,7 +16,8 @@
 
 namespace vesper::gpu {
 class GraphicsPipeline;
-}
+class OwnedBuffer;
+}  // namespace vesper::gpu
 namespace vesper::graph {
 
 /// A handle on a declared resource: copy it, pass it, compare it. Valid for the graph that made it.
@@ -66,12 +67,18 @@ struct Use {
     Resource resource;
     Access access;
     VkClearValue clear{};  ///< of a target or a cleared buffer, on its first use in the frame
+    bool renew = false;    ///< of a target: it is cleared on this use, too
 };
 
 inline Use sample(Resource r) { return {r, Access::Sample}; }
 inline Use load(Resource r) { return {r, Access::Load}; }
 inline Use store(Resource r) { return {r, Access::Store}; }
 inline Use update(Resource r) { return {r, Access::Update}; }
+
+/// Part of a buffer that is copied to another, bytes.
+struct Region {
+    uint64_t from = 0, to = 0, bytes = 0;
+};
 
 /// Workgroups of a dispatch.
 struct Groups {
@@ -122,10 +129,11 @@ public:
         std::string name;
         Shape shape;
         Origin origin = Origin::Transient;
-        uint32_t partner = ~0u;            ///< of a history: the other half
-        std::vector<std::byte> contents;   ///< of an upload
-        VkBuffer buffer = VK_NULL_HANDLE;  ///< of an external or lasting buffer
-        ExternalImage external_image;      ///< of an external image or a target
+        uint32_t partner = ~0u;                    ///< of a history: the other half
+        std::vector<std::byte> contents;           ///< of an upload
+        const gpu::OwnedBuffer* buffer = nullptr;  ///< of an external or lasting buffer
+        ExternalImage external_image;              ///< of an external image or a target
+        uint32_t reserved_usage = 0;               ///< of a reserved transient: VkImageUsageFlags or VkBufferUsageFlags
         bool kept = false;
     };
     /// Whether a resource of this origin holds something before any pass of the frame has written it.
@@ -148,16 +156,24 @@ public:
 
     /// A resource that lives within the frame and shares memory with others that do not overlap it.
     Resource transient(std::string_view name, const Shape& shape);
+    /// A transient that has its place from the start of the frame on, also in frames in which no pass uses it: passes
+    /// that only some frames have change no place of other resources, and nothing is made for them. `uses`: all that
+    /// passes of any frame do with it.
+    Resource reserved(std::string_view name, const Shape& shape, std::initializer_list<Access> uses);
     /// A buffer the host fills before the frame. `contents` is copied; at least one byte.
     Resource upload(std::string_view name, std::span<const std::byte> contents, VkFormat texel = VK_FORMAT_UNDEFINED);
     template <class T>
     Resource upload(std::string_view name, const std::vector<T>& values, VkFormat texel = VK_FORMAT_UNDEFINED) {
         return upload(name, std::as_bytes(std::span(values)), texel);
     }
-    /// A buffer that the engine does not own and that was filled before the frame; passes may only read it.
-    Resource external(std::string_view name, VkBuffer buffer, uint64_t bytes, VkFormat texel = VK_FORMAT_UNDEFINED);
+    /// The same without a copy.
+    Resource upload(std::string_view name, std::vector<std::byte>&& contents);
+    /// A buffer that was filled before the frame; passes may only read it. It must outlive the frame.
+    Resource external(std::string_view name, const gpu::OwnedBuffer& buffer, uint64_t bytes,
+                      VkFormat texel = VK_FORMAT_UNDEFINED);
     /// A buffer that outlives the frame with all that passes change in it. The frame is made for those passes, too.
-    Resource lasting(std::string_view name, VkBuffer buffer, uint64_t bytes, VkFormat texel = VK_FORMAT_UNDEFINED);
+    Resource lasting(std::string_view name, const gpu::OwnedBuffer& buffer, uint64_t bytes,
+                     VkFormat texel = VK_FORMAT_UNDEFINED);
     /// An external image, filled by what was handed to the queue earlier.
     Resource external(std::string_view name, const ExternalImage& image);
     /// An external image that passes write; it is kept. Its former content is lost.
@@ -193,6 +209,8 @@ public:
     /// Copies an image or buffer, tightly packed, into a buffer of the same size; or a buffer into an image; or the
     /// bits of an image into another of the same extent and bytes.
     void copy(std::string_view name, Resource from, Resource to);
+    /// Copies parts of a buffer to another, which keeps the rest. Parts must not overlap in `to`.
+    void copy(std::string_view name, Resource from, Resource to, std::vector<Region> regions);
 
     /// The frame is made for this resource; passes that do not contribute to a kept one are not run.
     void keep(Resource resource);

@@ -1,5 +1,7 @@
 #include "graph/frame_slot.h"
 
+#include <bit>
+
 namespace vesper::graph {
 
 FrameSlot::FrameSlot(const gpu::Device& d) : device(d), commands(d), descriptors(d), fence(gpu::make_fence(d)) {}
@@ -8,13 +10,15 @@ void FrameSlot::begin(uint32_t timestamps) {
     commands.begin();
     descriptors.reset();
     if (query_capacity < timestamps) {
+        const uint32_t count = std::bit_ceil(2 * timestamps);  // for frames with more passes, too
         const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                          .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                         .queryCount = timestamps};
+                                         .queryCount = count};
         VkQueryPool raw = VK_NULL_HANDLE;
         gpu::check(vkCreateQueryPool(device.handle(), &info, nullptr, &raw), "making timestamps");
         queries = {device.handle(), raw};
-        query_capacity = timestamps;
+        query_capacity = count;
+        ++device.use().objects;
     }
     if (timestamps) vkCmdResetQueryPool(commands, queries.get(), 0, timestamps);
 }

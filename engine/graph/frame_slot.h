@@ -41,7 +41,6 @@ struct FrameSlot {
     };
     std::map<uint32_t, Slice> places;  // in `readbacks`, by resource
     std::vector<Timing> timings;
-    std::vector<gpu::OwnedBufferView> texels;
     std::vector<gpu::OwnedImageView> views;
     gpu::CommandBuffer commands;
     gpu::Descriptors descriptors;

@@ -19,12 +19,13 @@ enum class Access : uint8_t {
     ColorTarget,  ///< colour attachment
     DepthTarget,  ///< depth attachment, tested and written
     CopySource,
-    CopyTarget,  ///< also cleared
+    CopyTarget,  ///< written whole by a copy, or cleared
+    CopyPart,    ///< written in part by a copy; the rest stays
     HostRead,    ///< read by the host after the frame
     Vertices,    ///< read as vertex, instance or index data
     Arguments,   ///< read as how many workgroups a dispatch has, or vertices a draw
 };
-constexpr uint32_t kAccessCount = 11;
+constexpr uint32_t kAccessCount = 12;
 
 /// Who touches it: dispatches, draws and copies run in different stages.
 enum class Stage : uint8_t { Compute, Graphics, Transfer, Host };

@@ -5,19 +5,14 @@
 
 namespace vesper::graph {
 
-// A transient owns its objects; everything else borrows them from a history, the slot of the frame or an external
-// owner.
+// Of a transient, a history, the slot of the frame or an external owner.
 struct Executor::Realized {
-    gpu::OwnedImage owned_image;
-    gpu::OwnedImageView owned_view;
-    gpu::OwnedBuffer owned_buffer;
-    gpu::OwnedBufferView owned_texels;
-    VkBufferView texels = VK_NULL_HANDLE;
     VkImage image = VK_NULL_HANDLE;
     VkImageView view = VK_NULL_HANDLE;
-    VkBuffer buffer = VK_NULL_HANDLE;
     VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
+    const gpu::OwnedBuffer* buffer = nullptr;
     uint64_t offset = 0, bytes = 0;
+    uint64_t viewed_bytes = 0;  // of its texels, at least `bytes`: the same in all frames where it can be
 };
 
 }  // namespace vesper::graph

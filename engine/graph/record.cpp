@@ -14,7 +14,7 @@ public:
     }
     VkImage image(Resource r) const override { return executor_.resources_[r.index].image; }
     VkImageView view(Resource r) const override { return executor_.resources_[r.index].view; }
-    VkBuffer buffer(Resource r) const override { return executor_.resources_[r.index].buffer; }
+    VkBuffer buffer(Resource r) const override { return executor_.resources_[r.index].buffer->get(); }
     uint64_t offset(Resource r) const override { return executor_.resources_[r.index].offset; }
 
 private:
@@ -43,7 +43,7 @@ void Executor::record(const FrameGraph& graph, bool among_others) {
         record_barriers(step.barriers);
         switch (pass.kind) {
             case FrameGraph::PassKind::Dispatch:
-                record_dispatch(pass);
+                record_dispatch(graph, pass);
                 break;
             case FrameGraph::PassKind::Raster:
                 record_raster(graph, step);
@@ -96,7 +96,7 @@ void Executor::record_barriers(const std::vector<Plan::Barrier>& barriers) const
         gpu::pipeline_barrier(slot_->commands, images, memory.srcStageMask ? &memory : nullptr);
 }
 
-void Executor::record_dispatch(const FrameGraph::PassInfo& pass) const {
+void Executor::record_dispatch(const FrameGraph& graph, const FrameGraph::PassInfo& pass) const {
     const gpu::Kernel& kernel = static_cast<const gpu::Kernel&>(*pass.kernel);
     vkCmdBindPipeline(slot_->commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
     const size_t bound = kernel.bindings.size();
@@ -105,10 +105,13 @@ void Executor::record_dispatch(const FrameGraph::PassInfo& pass) const {
     std::vector<VkBufferView> texels(bound);
     std::vector<VkWriteDescriptorSet> writes;
     for (uint32_t i = 0; i < bound; ++i) {
-        const Realized& r = resources_[pass.uses[i].resource.index];
+        const Use& use = pass.uses[i];
+        const Realized& r = resources_[use.resource.index];
         images[i] = {sampler_.get(), r.view, VK_IMAGE_LAYOUT_GENERAL};
-        buffers[i] = {r.buffer, r.offset, r.bytes};
-        texels[i] = r.texels;
+        if (r.buffer) buffers[i] = {r.buffer->get(), r.offset, r.bytes};
+        if (kernel.bindings[i] == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER ||
+            kernel.bindings[i] == VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER)
+            texels[i] = r.buffer->texels(graph.resources()[use.resource.index].shape.format, r.offset, r.viewed_bytes);
         writes.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                           .dstBinding = i,
                           .descriptorCount = 1,
@@ -123,7 +126,7 @@ void Executor::record_dispatch(const FrameGraph::PassInfo& pass) const {
                            pass.push.data());
     if (!pass.is_indirect()) return vkCmdDispatch(slot_->commands, pass.groups.x, pass.groups.y, pass.groups.z);
     const Realized& arguments = resources_[pass.uses.back().resource.index];
-    vkCmdDispatchIndirect(slot_->commands, arguments.buffer, arguments.offset + pass.arguments_offset);
+    vkCmdDispatchIndirect(slot_->commands, arguments.buffer->get(), arguments.offset + pass.arguments_offset);
 }
 
 void Executor::record_raster(const FrameGraph& graph, const Plan::Step& step) const {
@@ -139,7 +142,7 @@ void Executor::record_raster(const FrameGraph& graph, const Plan::Step& step) co
             .sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
             .imageView = resources_[use.resource.index].view,
             .imageLayout = layout_of(use.access),
-            .loadOp = step.first_use[i] ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD,
+            .loadOp = step.first_use[i] || use.renew ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD,
             .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
             .clearValue = use.clear};
         if (use.access == Access::ColorTarget)

@@ -8,7 +8,7 @@
 
 namespace vesper::render {
 
-DirectionalMaps::DirectionalMaps(gpu::Device& device, const gpu_scene::GpuScene& resident,
+DirectionalMaps::DirectionalMaps(const gpu::Device& device, const gpu_scene::GpuScene& resident,
                                  const std::vector<gpu_scene::PlacedLamp>& lamps,
                                  const gpu_scene::DirectionalPlan& plan)
     : resident_(resident),
@@ -16,10 +16,7 @@ DirectionalMaps::DirectionalMaps(gpu::Device& device, const gpu_scene::GpuScene&
       plan_(plan),
       first_(uint32_t(lamps.size()) - plan.lamps),
       arena_(device),
-      levels_(plan.lamps * shared::kDirectionalLevels),
-      kernels_(device),
-      pipelines_(device),
-      executor_(device) {
+      levels_(plan.lamps * shared::kDirectionalLevels) {
     if (plan.lamps == 0) return;
     if (plan.side == 0)
         throw Error("shadows of " + std::to_string(plan.lamps) + " directional lights take maps of more than " +
@@ -58,17 +55,20 @@ uint32_t DirectionalMaps::plan(const gpu_scene::LampList& list, const gpu_scene:
     return uint32_t(to_draw_.size());
 }
 
-void DirectionalMaps::draw(const gpu_scene::SceneFrame& poses) {
-    graph::FrameGraph graph;
-    const graph::Resource distances =
-        graph.lasting("directional distances", distances_.get(), plan_.texels() * sizeof(uint16_t));
-    add_directional_maps({graph, kernels_, pipelines_, {}}, resident_, poses, to_draw_, plan_.side, distances);
-    executor_.run(graph);
+void DirectionalMaps::forget() {
+    std::ranges::fill(levels_, Level{});
     to_draw_.clear();
 }
 
-DirectionalMapsOfFrame DirectionalMaps::maps(graph::FrameGraph& graph, const gpu_scene::LampList& list,
-                                             const gpu_scene::SceneFrame& poses, const gpu_scene::View& view) const {
+DirectionalMapsOfFrame DirectionalMaps::declare(const FrameContext& frame, const gpu_scene::LampList& list,
+                                                const gpu_scene::SceneFrame& poses, const gpu_scene::View& view) {
+    if (plan_.lamps == 0) return {};
+    graph::FrameGraph& graph = frame.graph;
+    const graph::Resource distances =
+        graph.lasting("directional distances", distances_, plan_.texels() * sizeof(uint16_t), VK_FORMAT_R16_SFLOAT);
+    add_directional_maps(frame, resident_, poses, to_draw_, plan_.side, distances,
+                         add_level_scratch(graph, plan_.side));
+    to_draw_.clear();
     std::vector<shared::DirectionalMap> lamps;
     for (uint32_t i = list.placed(); i < list.lamps.size(); ++i) {
         const gpu_scene::PlacedLamp& placed = lamps_[list.indices[i]];
@@ -77,10 +77,7 @@ DirectionalMapsOfFrame DirectionalMaps::maps(graph::FrameGraph& graph, const gpu
                                                    double(placed.lamp.angular_diameter), view));
     }
     if (lamps.empty()) return {};
-    return {graph.upload("directional maps", lamps, VK_FORMAT_R32G32B32A32_SFLOAT),
-            graph.external("directional distances", distances_.get(), plan_.texels() * sizeof(uint16_t),
-                           VK_FORMAT_R16_SFLOAT),
-            used_, plan_.side};
+    return {graph.upload("directional maps", lamps, VK_FORMAT_R32G32B32A32_SFLOAT), distances, used_, plan_.side};
 }
 
 }  // namespace vesper::render

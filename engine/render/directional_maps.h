@@ -3,10 +3,7 @@
 
 #include <vector>
 
-#include "gpu/graphics_pipeline.h"
-#include "gpu/kernel_cache.h"
 #include "gpu_scene/directional_maps.h"
-#include "graph/executor.h"
 #include "render/passes/directional_map.h"
 #include "render/passes/directional_visibility.h"
 
@@ -17,17 +14,18 @@ namespace vesper::render {
 class DirectionalMaps {
 public:
     /// Throws Error where there are too many directional lamps.
-    DirectionalMaps(gpu::Device& device, const gpu_scene::GpuScene& resident,
+    DirectionalMaps(const gpu::Device& device, const gpu_scene::GpuScene& resident,
                     const std::vector<gpu_scene::PlacedLamp>& lamps, const gpu_scene::DirectionalPlan& plan);
 
-    /// Finds which levels are out of date for a frame; returns how many.
+    /// Finds which levels are out of date for a frame; returns how many. Host work only.
     uint32_t plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses, const gpu_scene::View& view);
-    /// Draws them, while no frame uses any map, and waits. Throws Error.
-    void draw(const gpu_scene::SceneFrame& poses);
-    /// The maps of the directional lamps of a list, for a frame of `view`.
-    DirectionalMapsOfFrame maps(graph::FrameGraph& graph, const gpu_scene::LampList& list,
-                                const gpu_scene::SceneFrame& poses, const gpu_scene::View& view) const;
-    uint64_t bytes() const { return arena_.bytes() + executor_.heap_bytes(); }  ///< of device memory
+    /// Declares what plan() found, with its arguments; declared again, nothing is left to draw. Returns the maps of the
+    /// directional lamps of the list.
+    DirectionalMapsOfFrame declare(const FrameContext& frame, const gpu_scene::LampList& list,
+                                   const gpu_scene::SceneFrame& poses, const gpu_scene::View& view);
+    /// A frame that was declared has failed: all maps are drawn anew.
+    void forget();
+    uint64_t bytes() const { return arena_.bytes(); }  ///< of device memory
 
 private:
     /// What a level was drawn for.
@@ -47,9 +45,6 @@ private:
     std::vector<glm::dmat4> placed_;  // poses of placements
     uint32_t used_ = 1;               // levels
     std::vector<LevelToDraw> to_draw_;
-    gpu::KernelCache kernels_;
-    gpu::GraphicsPipelineCache pipelines_;
-    graph::Executor executor_;
 };
 
 }  // namespace vesper::render

@@ -6,9 +6,7 @@
 #include <numeric>
 #include <set>
 
-#include "gpu/commands.h"
 #include "gpu_scene/light_paths.h"
-#include "render/kept_maps.h"
 #include "render/map_parts.h"
 
 namespace vesper::render {
@@ -28,7 +26,7 @@ constexpr double kLeastShare = 1.0 / 100;  // of the light at a placement: a lam
 
 }  // namespace
 
-DistanceMaps::DistanceMaps(gpu::Device& device, const gpu_scene::GpuScene& resident,
+DistanceMaps::DistanceMaps(const gpu::Device& device, const gpu_scene::GpuScene& resident,
                            const std::vector<gpu_scene::PlacedLamp>& lamps, const gpu_scene::MapPlan& plan)
     : resident_(resident),
       lamps_(lamps),
@@ -40,13 +38,13 @@ DistanceMaps::DistanceMaps(gpu::Device& device, const gpu_scene::GpuScene& resid
       whole_(lamps.size()),
       drawn_version_(lamps.size()),
       for_view_(lamps.size()),
-      kernels_(device),
-      pipelines_(device),
-      executor_(device) {
+      device_(device),
+      everything_(resident.placements().size()) {
     distances_ = make_map_texels(device, arena_, places_.texels());
+    std::iota(everything_.begin(), everything_.end(), 0u);
 }
 
-bool DistanceMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses,
+void DistanceMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses,
                         const gpu_scene::View& view, uint64_t budget) {
     report_ = {};
     maps_to_draw_.clear();
@@ -67,11 +65,11 @@ bool DistanceMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneF
     plan_tiles(covers(list, poses, view), list, for_tiles);
     const bool budgeted = most_texels != kNoShadowBudget;
     plan_moved_maps(list, budget + for_tiles, budgeted);
-    find_what_matters(list, poses, !budgeted);
+    current_ = !budgeted;
+    find_kept(poses);
     report_.maps = uint32_t(maps_to_draw_.size());
     report_.tiles = uint32_t(tiles_to_draw_.size());
-    report_.bytes = arena_.bytes() + executor_.heap_bytes();
-    return !moves_.empty() || !maps_to_draw_.empty() || !tiles_to_draw_.empty();
+    report_.bytes = arena_.bytes();
 }
 
 // Takes poses and a view. Frames at the same poses from different places are known only after the first, so what they
@@ -261,90 +259,81 @@ void DistanceMaps::plan_tiles(std::map<TileKey, Cover> wanted, const gpu_scene::
     }
 }
 
+MapToDraw DistanceMaps::map_of(uint32_t lamp, const gpu_scene::SceneFrame& poses) const {
+    return {places_[lamp],
+            gpu_scene::map_frame(poses.world[lamps_[lamp].node]),
+            fixtures_[lamp],
+            is_whole(lamp) ? std::span<const uint32_t>(everything_) : moving_.still(),
+            matters_.empty() ? nullptr : matters_[lamp],
+            {},
+            lamp};
+}
+
+// Takes maps out of those to be drawn.
+void DistanceMaps::find_kept(const gpu_scene::SceneFrame& poses) {
+    kept_ = {};
+    if (!cache_ || maps_to_draw_.empty()) return;
+    if (!surroundings_) surroundings_ = map_surroundings(device_, resident_, moving_.still(), poses);
+    matters_.clear();
+    const auto is_kept = [&](uint32_t lamp) {
+        return !is_whole(lamp) && kept_.find(*cache_, map_key(*surroundings_, map_of(lamp, poses)), places_[lamp]);
+    };
+    std::vector<uint32_t> missing;
+    for (const uint32_t lamp : maps_to_draw_) {
+        if (!is_kept(lamp)) {
+            missing.push_back(lamp);
+            continue;
+        }
+        drawn_[lamp] = true, drawn_version_[lamp] = moving_.version(), for_view_[lamp] = false;
+        ++report_.kept;
+    }
+    maps_to_draw_ = std::move(missing);
+}
+
 // By way of another buffer, so that no map is overwritten before it has moved.
-void DistanceMaps::make_moves() {
+void DistanceMaps::declare_moves(const Declared& to) {
     if (moves_.empty()) return;
-    constexpr VkDeviceSize kTexel = sizeof(uint16_t);
-    std::vector<VkBufferCopy> out, in;
-    VkDeviceSize at = 0;
+    constexpr uint64_t kTexel = sizeof(uint16_t);
+    std::vector<graph::Region> out, in;
+    uint64_t at = 0;
     for (const MapPlaces::Move& move : moves_) {
         out.push_back({kTexel * move.from, at, kTexel * move.texels});
         in.push_back({at, kTexel * move.to, kTexel * move.texels});
         at += kTexel * move.texels;
     }
     moves_.clear();
-    const gpu::Device& device = kernels_.device();
-    gpu::Arena arena(device);
-    const gpu::OwnedBuffer between =
-        gpu::make_buffer(device, at, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-    arena.bind(between.get());
-    device.run_once([&](VkCommandBuffer commands) {
-        gpu::pipeline_barrier(commands, {}, &gpu::kWholeBarrier);
-        vkCmdCopyBuffer(commands, distances_.get(), between.get(), uint32_t(out.size()), out.data());
-        gpu::pipeline_barrier(commands, {}, &gpu::kWholeBarrier);
-        vkCmdCopyBuffer(commands, between.get(), distances_.get(), uint32_t(in.size()), in.data());
-    });
+    graph::FrameGraph& graph = to.frame.graph;
+    const graph::Resource between = graph.transient("maps that move", graph::buffer_shape(at));
+    graph.copy("take maps away", to.distances, between, std::move(out));
+    graph.copy("put maps elsewhere", between, to.distances, std::move(in));
 }
 
-void DistanceMaps::draw(const std::vector<MapToDraw>& maps, const gpu_scene::SceneFrame& poses) {
-    if (maps.empty()) return;
-    graph::FrameGraph graph;
-    const graph::Resource distances = graph.lasting(
-        "map distances", distances_.get(), places_.texels() / 2 * sizeof(uint32_t), VK_FORMAT_R32G32B32A32_UINT);
-    add_distance_maps({graph, kernels_, pipelines_, {}}, resident_, poses, maps, distances);
-    executor_.run(graph);
-}
-
-void DistanceMaps::draw_maps(const gpu_scene::SceneFrame& poses) {
-    if (maps_to_draw_.empty()) return;
-    std::optional<KeptMaps> kept;
-    if (cache_) {
-        if (!surroundings_) surroundings_ = map_surroundings(kernels_.device(), resident_, moving_.still(), poses);
-        kept.emplace(kernels_.device(), *cache_, *surroundings_, distances_.get());
-    }
-    std::vector<uint32_t> everything(resident_.placements().size());
-    std::iota(everything.begin(), everything.end(), 0u);
+void DistanceMaps::declare_maps(Declared& to) {
+    kept_.bring(to.frame.graph, to.distances);
     std::vector<MapToDraw> maps;
     for (const uint32_t lamp : maps_to_draw_) {
-        MapToDraw map{places_[lamp],
-                      gpu_scene::map_frame(poses.world[lamps_[lamp].node]),
-                      fixtures_[lamp],
-                      is_whole(lamp) ? everything : moving_.still(),
-                      matters_[lamp],
-                      {},
-                      lamp};
-        if (kept && !is_whole(lamp) && kept->find(map))
-            ++report_.kept, --report_.maps;
-        else
-            maps.push_back(std::move(map));
-    }
-    if (kept) kept->upload();
-    draw(maps, poses);
-    if (kept) report_.note = kept->keep();
-    for (const uint32_t lamp : maps_to_draw_) {
+        maps.push_back(map_of(lamp, to.poses));
         drawn_[lamp] = true, drawn_version_[lamp] = moving_.version();
         for_view_[lamp] = drawn_for_view_ && is_whole(lamp);
     }
+    add_distance_maps(to.frame, resident_, to.poses, maps, to.distances, to.scratch);
+    kept_.fetch(to.frame.graph, to.distances);
     maps_to_draw_.clear();
 }
 
-void DistanceMaps::draw_tiles(const gpu_scene::SceneFrame& poses) {
+void DistanceMaps::declare_tiles(Declared& to) {
     std::vector<MapToDraw> tiles;
     std::vector<std::vector<uint32_t>> placements;
     placements.reserve(tiles_to_draw_.size());
     for (const TileToDraw& tile : tiles_to_draw_) {
         std::vector<uint32_t>& of_tile = placements.emplace_back();
         for (const auto& [placement, version] : tile.cover.placements) of_tile.push_back(placement);
-        const uint32_t lamp = tile.key.lamp;
-        tiles.push_back({places_[lamp],
-                         gpu_scene::map_frame(poses.world[lamps_[lamp].node]),
-                         fixtures_[lamp],
-                         of_tile,
-                         {},
-                         MapTile{tile.key.second, {tile.key.x, tile.key.y}, tile.cover.saved, tile.save},
-                         lamp});
+        MapToDraw map = map_of(tile.key.lamp, to.poses);
+        map.placements = of_tile, map.matters = {};
+        map.tile = MapTile{tile.key.second, {tile.key.x, tile.key.y}, tile.cover.saved, tile.save};
+        tiles.push_back(std::move(map));
     }
-    draw(tiles, poses);
+    add_distance_maps(to.frame, resident_, to.poses, tiles, to.distances, to.scratch);
     for (const TileToDraw& tile : tiles_to_draw_)
         if (tile.cover.placements.empty()) {
             places_.give_tile(tile.cover.saved);
@@ -353,23 +342,33 @@ void DistanceMaps::draw_tiles(const gpu_scene::SceneFrame& poses) {
     tiles_to_draw_.clear();
 }
 
-void DistanceMaps::draw(const gpu_scene::SceneFrame& poses) {
-    make_moves();
-    draw_maps(poses);
-    draw_tiles(poses);
+VisibilityMaps DistanceMaps::declare(const FrameContext& frame, const gpu_scene::LampList& list,
+                                     const gpu_scene::SceneFrame& poses) {
+    const graph::Resource distances =
+        frame.graph.lasting("distances", distances_, places_.texels() * sizeof(uint16_t), VK_FORMAT_R16_SFLOAT);
+    Declared to{frame, poses, distances, add_map_scratch(frame, resident_)};
+    find_what_matters(list, poses, current_);
+    declare_moves(to);
+    declare_maps(to);
+    declare_tiles(to);
     matters_.clear();
-}
-
-VisibilityMaps DistanceMaps::maps(graph::FrameGraph& graph, const gpu_scene::LampList& list,
-                                  const gpu_scene::SceneFrame& poses, const gpu_scene::View& view) const {
-    const uint64_t texels = places_.texels();
     if (list.placed() == 0) return {};
     std::vector<shared::LampMap> lamps;
     for (uint32_t i = 0; i < list.placed(); ++i)
         lamps.push_back(gpu_scene::lamp_map(places_[list.indices[i]],
-                                            gpu_scene::map_frame(poses.world[lamps_[list.indices[i]].node]), view));
-    return {graph.upload("lamp maps", lamps, VK_FORMAT_R32G32B32A32_SFLOAT),
-            graph.external("distances", distances_.get(), texels * sizeof(uint16_t), VK_FORMAT_R16_SFLOAT)};
+                                            gpu_scene::map_frame(poses.world[lamps_[list.indices[i]].node]), view_));
+    return {frame.graph.upload("lamp maps", lamps, VK_FORMAT_R32G32B32A32_SFLOAT), distances};
+}
+
+void DistanceMaps::forget() {
+    for (uint32_t lamp = 0; lamp < lamps_.size(); ++lamp) drop_tiles(lamp);
+    drawn_.assign(drawn_.size(), false);
+    kept_ = {};
+    moves_.clear(), maps_to_draw_.clear(), tiles_to_draw_.clear();
+}
+
+std::string DistanceMaps::keep(const KeptMaps& kept, const graph::Executor& executor) const {
+    return cache_ ? kept.keep(*cache_, executor) : std::string();
 }
 
 }  // namespace vesper::render

@@ -6,42 +6,30 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "base/cache.h"
-#include "gpu/graphics_pipeline.h"
-#include "gpu/kernel_cache.h"
 #include "gpu_scene/lamp_maps.h"
-#include "graph/executor.h"
+#include "render/kept_maps.h"
 #include "render/map_places.h"
+#include "render/map_report.h"
 #include "render/moving_placements.h"
 #include "render/passes/distance_map.h"
 #include "render/passes/visibility.h"
 
 namespace vesper::render {
 
-constexpr uint64_t kNoShadowBudget = ~uint64_t{0};
-
-/// What was done to maps before a frame.
-struct MapReport {
-    uint32_t lamps = 0;    ///< with a map
-    uint32_t maps = 0;     ///< drawn anew
-    uint32_t kept = 0;     ///< taken from the cache, beside these
-    uint32_t tiles = 0;    ///< drawn anew, beside those of these maps
-    uint32_t carried = 0;  ///< maps and tiles that are out of date: the budget did not reach them
-    uint64_t bytes = 0;    ///< of device memory
-    std::string note;      ///< why the cache keeps no more maps, in the frame after which it does not
-};
-
-/// Owns the maps on the device. A map holds what stands still around its lamp, drawn when its lamp moves or the view
-/// wants another size; and over it, tile by tile, what moves: a placement whose node is animated, said to move by a
-/// frame, or was seen to have moved. A placement does not hide lamps that give less than 1/100 of the light at it while
-/// it moves. The map of a lamp that moves has half the side, and holds what hides the lamp from the view and would get
-/// 0.1 lx of it undimmed. Sizes depend on the view; what a view sees of the maps depends on the scene, and on what has
-/// moved once. Not thread-safe.
+/// Owns the maps on the device: finds on the host which are out of date, and declares what brings them up to date in
+/// the graph of a frame. A map holds what stands still around its lamp, drawn when its lamp moves or the view wants
+/// another size; and over it, tile by tile, what moves: a placement whose node is animated, said to move by a frame, or
+/// was seen to have moved. A placement does not hide lamps that give less than 1/100 of the light at it while it moves.
+/// The map of a lamp that moves has half the side, and holds what hides the lamp from the view and would get 0.1 lx of
+/// it undimmed. Sizes depend on the view; what a view sees of the maps depends on the scene, and on what has moved
+/// once. Not thread-safe.
 class DistanceMaps {
 public:
-    DistanceMaps(gpu::Device& device, const gpu_scene::GpuScene& resident,
+    DistanceMaps(const gpu::Device& device, const gpu_scene::GpuScene& resident,
                  const std::vector<gpu_scene::PlacedLamp>& lamps, const gpu_scene::MapPlan& plan);
 
     /// Takes maps of lamps that stand still from a cache where it has them, and gives it those that are drawn; null:
@@ -50,17 +38,22 @@ public:
 
     /// Finds what is out of date for a frame. `budget`: of tiles of shared::kRegion texels square that are drawn, maps
     /// that hold nothing yet apart; a whole map counts as its tiles, but at least as 128, and a quarter of the budget
-    /// is for these alone. What gives the picture most comes first, the rest is counted as carried. Returns whether
-    /// draw() has anything to do. Throws Error where the maps of all lamps do not fit.
-    bool plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses, const gpu_scene::View& view,
+    /// is for these alone. What gives the picture most comes first, the rest is counted as carried. Host work only.
+    /// Throws Error where the maps of all lamps do not fit.
+    void plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses, const gpu_scene::View& view,
               uint64_t budget);
-    /// Draws what plan() found, while no frame uses any map, and waits. Throws Error.
-    void draw(const gpu_scene::SceneFrame& poses);
-    /// The maps of the lamps of a list, for a frame of `view`.
-    VisibilityMaps maps(graph::FrameGraph& graph, const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses,
-                        const gpu_scene::View& view) const;
+    /// Declares what plan() found, with its arguments; declared again, nothing is left to draw. Returns the maps of the
+    /// lamps of the list.
+    VisibilityMaps declare(const FrameContext& frame, const gpu_scene::LampList& list,
+                           const gpu_scene::SceneFrame& poses);
+    /// A frame that was declared has failed: all maps are drawn anew.
+    void forget();
+    /// Gives maps of a finished frame to the cache. Returns why the cache keeps no more, once.
+    std::string keep(const KeptMaps& kept, const graph::Executor& executor) const;
 
-    const MapReport& report() const { return report_; }  ///< of the last plan()
+    const MapReport& report() const { return report_; }        ///< of the last plan()
+    KeptMaps take_kept() { return std::exchange(kept_, {}); }  ///< of the last declare()
+    uint64_t bytes() const { return arena_.bytes(); }          ///< of device memory
 
 private:
     struct TileKey {
@@ -81,10 +74,19 @@ private:
         bool save;
     };
 
-    void make_moves();
-    void draw_maps(const gpu_scene::SceneFrame& poses);
-    void draw_tiles(const gpu_scene::SceneFrame& poses);
-    void draw(const std::vector<MapToDraw>& maps, const gpu_scene::SceneFrame& poses);
+    /// The maps in the graph of a frame.
+    struct Declared {
+        const FrameContext& frame;
+        const gpu_scene::SceneFrame& poses;
+        graph::Resource distances;
+        MapScratch scratch;
+    };
+
+    void declare_moves(const Declared& to);
+    void declare_maps(Declared& to);
+    void declare_tiles(Declared& to);
+    void find_kept(const gpu_scene::SceneFrame& poses);
+    MapToDraw map_of(uint32_t lamp, const gpu_scene::SceneFrame& poses) const;
     void look_from(const gpu_scene::View& view, const gpu_scene::SceneFrame& poses);
     void find_what_matters(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses, bool current);
     void forget_still(const std::vector<uint32_t>& placements);
@@ -114,6 +116,7 @@ private:
     bool drawn_for_view_ = false;          // what is to be drawn
     bool one_view_ = false;                // what is drawn is for this one alone
     bool more_views_ = true;               // of the same moment
+    bool current_ = true;                  // no map is ever out of date
     std::vector<std::function<bool(const gpu_scene::WorldSphere&)>> matters_;  // of lamps, see MapToDraw
     std::map<TileKey, Cover> covered_;                                         // tiles that hold more
     std::vector<uint32_t> maps_to_draw_;                                       // lamps
@@ -123,10 +126,10 @@ private:
     std::map<uint32_t, uint32_t> waiting_maps_;
     MapReport report_;
     Cache* cache_ = nullptr;
+    KeptMaps kept_;
     std::optional<Digest::Value> surroundings_;  // of maps that hold what stands still, see map_surroundings()
-    gpu::KernelCache kernels_;
-    gpu::GraphicsPipelineCache pipelines_;
-    graph::Executor executor_;
+    const gpu::Device& device_;
+    std::vector<uint32_t> everything_;  // placements
 };
 
 }  // namespace vesper::render

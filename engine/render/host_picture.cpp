@@ -34,7 +34,7 @@ graph::Resource PictureUpload::add(graph::FrameGraph& graph, const HostPicture& 
     }
     pixels_.flush();
     const graph::Resource scene = graph.transient("scene", graph::image_shape(kSceneFormat, picture.extent));
-    graph.copy("picture", graph.external("picture", pixels_.buffer(), bytes), scene);
+    graph.copy("picture", graph.external("picture", pixels_.owned(), bytes), scene);
     return scene;
 }
 

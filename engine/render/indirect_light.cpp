@@ -1,13 +1,25 @@
 #include "render/indirect_light.h"
 
-#include "gpu_scene/irradiance_cells.h"
-
 namespace vesper::render {
 
-IndirectCells IndirectLight::cells(graph::FrameGraph& graph, const gpu::Device& device,
-                                   const transport::RadiosityLight& light, const std::vector<bool>& moving,
-                                   const std::function<void()>& wait) {
-    if (radiosity_->cells() == 0) return {};
+IndirectLight::IndirectLight(const gpu::Device& device, std::shared_ptr<const transport::Radiosity> radiosity)
+    : radiosity_(std::move(radiosity)), sources_(radiosity_->source_nodes()), arena_(device) {
+    if (radiosity_->cells() > 0) {
+        const gpu_scene::IrradianceCells dark =
+            gpu_scene::irradiance_cells(*radiosity_, std::vector<glm::vec3>(radiosity_->cells()));
+        bytes_ = std::as_bytes(std::span(dark.texels)).size(), log2_places_ = dark.log2_places;
+        texels_ = gpu::make_buffer(device, bytes_, gpu_scene::kTexelUsage | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+        arena_.bind(texels_.get());
+    }
+    if (radiosity_->bodies.hidden.empty()) return;
+    const std::vector<uint32_t> volumes = gpu_scene::volume_texels(radiosity_->bodies);
+    const auto bytes = std::as_bytes(std::span(volumes));
+    volumes_ = gpu_scene::upload_buffer(device, arena_, bytes, gpu_scene::kTexelUsage);
+    volume_bytes_ = bytes.size();
+}
+
+bool IndirectLight::solve(const transport::RadiosityLight& light, const std::vector<bool>& moving) {
+    if (radiosity_->cells() == 0) return false;
     Lit lit{std::vector<float>(sources_.size(), 1), light.sky, light.reflections, light.left_out};
     std::vector<float> factors(sources_.empty() ? 0 : sources_.back() + size_t{1});  // of nodes
     for (size_t i = 0; i < sources_.size(); ++i) {
@@ -16,39 +28,31 @@ IndirectCells IndirectLight::cells(graph::FrameGraph& graph, const gpu::Device& 
         if (!moving.empty() && moving[node]) lit.factors[i] = 0;
         factors[node] = lit.factors[i];
     }
-    if (lit != lit_) {
-        transport::RadiosityLight now = light;
-        now.factors = factors;
-        const gpu_scene::IrradianceCells table = gpu_scene::irradiance_cells(*radiosity_, radiosity_->solve(now).other);
-        wait();
-        lit_.reset(), texels_ = {};
-        arena_.emplace(device);
-        const auto bytes = std::as_bytes(std::span(table.texels));
-        texels_ = gpu_scene::upload_buffer(device, *arena_, bytes, gpu_scene::kTexelUsage);
-        bytes_ = bytes.size(), log2_places_ = table.log2_places;
-        lit_ = std::move(lit);
-    }
-    return {.texels = graph.external("irradiance cells", texels_.get(), bytes_, VK_FORMAT_R32G32B32A32_UINT),
+    if (lit == lit_) return true;
+    transport::RadiosityLight now = light;
+    now.factors = factors;
+    table_ = gpu_scene::irradiance_cells(*radiosity_, radiosity_->solve(now).other);
+    lit_ = std::move(lit);
+    return true;
+}
+
+IndirectCells IndirectLight::cells(graph::FrameGraph& graph, const transport::RadiosityLight& light) {
+    const graph::Resource texels = graph.lasting("irradiance cells", texels_, bytes_, VK_FORMAT_R32G32B32A32_UINT);
+    if (!table_.texels.empty()) graph.copy("bring irradiance cells", graph.upload("irradiance", table_.texels), texels);
+    table_ = {};
+    return {.texels = texels,
             .log2_places = log2_places_,
             .grid = radiosity_->grid,
             .sky_above = glm::vec3(transport::open_sky(light, {0, 1, 0})),
             .sky_below = glm::vec3(transport::open_sky(light, {0, -1, 0}))};
 }
 
-MovingLight IndirectLight::moving(graph::FrameGraph& graph, const gpu::Device& device,
-                                  std::span<const transport::LitPatch> patches, const gpu_scene::SceneFrame& poses,
-                                  const gpu_scene::View& view) {
+MovingLight IndirectLight::moving(graph::FrameGraph& graph, std::span<const transport::LitPatch> patches,
+                                  const gpu_scene::SceneFrame& poses, const gpu_scene::View& view) const {
     const transport::MovingBodies& bodies = radiosity_->bodies;
     MovingLight moving{.things = gpu_scene::moving_things(bodies, patches, poses, view)};
-    if (bodies.hidden.empty()) return moving;
-    if (volume_bytes_ == 0) {
-        const std::vector<uint32_t> texels = gpu_scene::volume_texels(bodies);
-        const auto bytes = std::as_bytes(std::span(texels));
-        volume_arena_.emplace(device);
-        volumes_ = gpu_scene::upload_buffer(device, *volume_arena_, bytes, gpu_scene::kTexelUsage);
-        volume_bytes_ = bytes.size();
-    }
-    moving.volumes = graph.external("volumes of occlusion", volumes_.get(), volume_bytes_, VK_FORMAT_R32_UINT);
+    if (!bodies.hidden.empty())
+        moving.volumes = graph.external("volumes of occlusion", volumes_, volume_bytes_, VK_FORMAT_R32_UINT);
     return moving;
 }
 

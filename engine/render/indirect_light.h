@@ -1,11 +1,13 @@
 // The light that surfaces at rest send each other, from frame to frame. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "gpu_scene/gpu_scene.h"
+#include "gpu_scene/irradiance_cells.h"
 #include "graph/frame_graph.h"
 #include "render/passes/indirect.h"
 #include "render/passes/moving_light.h"
@@ -13,21 +15,24 @@
 
 namespace vesper::render {
 
-/// Holds what one frame is lit with, and solves anew when lamps, emission or the sky have changed since.
+/// Holds on the device what frames are lit with. Solves anew, on the host, when lamps, emission or the sky have changed
+/// since, and declares what brings the device up to date in the graph of a frame.
 class IndirectLight {
 public:
-    explicit IndirectLight(std::shared_ptr<const transport::Radiosity> radiosity)
-        : radiosity_(std::move(radiosity)), sources_(radiosity_->source_nodes()) {}
+    /// Throws Error if the device has no room.
+    IndirectLight(const gpu::Device& device, std::shared_ptr<const transport::Radiosity> radiosity);
 
-    /// What moves (per node; empty: nothing) gives no light to it. `wait` is called before anything that a frame may
-    /// use is replaced. Throws Error.
-    IndirectCells cells(graph::FrameGraph& graph, const gpu::Device& device, const transport::RadiosityLight& light,
-                        const std::vector<bool>& moving, const std::function<void()>& wait);
-    /// The bodies that hide it, and `patches`, as a view sees them. Throws Error.
-    MovingLight moving(graph::FrameGraph& graph, const gpu::Device& device,
-                       std::span<const transport::LitPatch> patches, const gpu_scene::SceneFrame& poses,
-                       const gpu_scene::View& view);
-    uint64_t device_bytes() const { return bytes_ + volume_bytes_; }
+    /// What moves (per node; empty: nothing) gives no light to it. Host work only. Returns whether anything stands
+    /// still.
+    bool solve(const transport::RadiosityLight& light, const std::vector<bool>& moving);
+    /// Declares what solve() found; declared again, nothing is left to bring.
+    IndirectCells cells(graph::FrameGraph& graph, const transport::RadiosityLight& light);
+    /// The bodies that hide it, and `patches`, as a view sees them.
+    MovingLight moving(graph::FrameGraph& graph, std::span<const transport::LitPatch> patches,
+                       const gpu_scene::SceneFrame& poses, const gpu_scene::View& view) const;
+    /// A frame that was declared has failed: the next one brings all of it again.
+    void forget() { lit_.reset(); }
+    uint64_t device_bytes() const { return arena_.bytes(); }
 
 private:
     struct Lit {                     // by what the cells are lit
@@ -41,13 +46,11 @@ private:
     std::shared_ptr<const transport::Radiosity> radiosity_;
     std::vector<uint32_t> sources_;  // nodes: others, such as lamps that move, may be dimmed without effect
     std::optional<Lit> lit_;
-    std::optional<gpu::Arena> arena_;
-    gpu::OwnedBuffer texels_;
-    uint64_t bytes_ = 0;
+    gpu_scene::IrradianceCells table_;  // to be brought to the device; empty: it has it
     uint32_t log2_places_ = 1;
-    std::optional<gpu::Arena> volume_arena_;
-    gpu::OwnedBuffer volumes_;
-    uint64_t volume_bytes_ = 0;
+    uint64_t bytes_ = 0, volume_bytes_ = 0;
+    gpu::Arena arena_;
+    gpu::OwnedBuffer texels_, volumes_;
 };
 
 }  // namespace vesper::render

@@ -2,8 +2,6 @@
 
 #include <string_view>
 
-#include "gpu/commands.h"
-
 namespace vesper::render {
 namespace {
 
@@ -11,8 +9,6 @@ namespace {
 constexpr uint64_t kMapVersion = 3;
 
 constexpr uint64_t kTexelBytes = sizeof(uint16_t);
-// Between host and device; a largest map fits.
-constexpr uint64_t kBetweenBytes = 2 * kTexelBytes * gpu_scene::kMostMapSide * gpu_scene::kMostMapSide;
 
 void add_device(Digest& digest, const gpu::Device& device) {
     VkPhysicalDeviceProperties properties{};
@@ -24,24 +20,7 @@ void add_device(Digest& digest, const gpu::Device& device) {
     digest.add_value(device.has_anisotropy());  // of masks
 }
 
-// Digests read it, so it is cached on the way to the device, too.
-gpu::HostBuffer between(const gpu::Device& device, VkBufferUsageFlags usage) {
-    return {device, kBetweenBytes, usage, gpu::HostBuffer::Direction::FromDevice};
-}
-
-void copy(const gpu::Device& device, VkBuffer from, VkBuffer to, std::span<const VkBufferCopy> copies) {
-    const VkMemoryBarrier2 after{
-        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-        .srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-        .srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT,
-        .dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_2_HOST_BIT,
-        .dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT | VK_ACCESS_2_HOST_READ_BIT};
-    device.run_once([&](VkCommandBuffer commands) {
-        gpu::pipeline_barrier(commands, {}, &after);
-        vkCmdCopyBuffer(commands, from, to, uint32_t(copies.size()), copies.data());
-        gpu::pipeline_barrier(commands, {}, &after);
-    });
-}
+}  // namespace
 
 Digest::Value map_key(const Digest::Value& surroundings, const MapToDraw& map) {
     const gpu_scene::MapLayout& layout = map.layout;
@@ -54,8 +33,6 @@ Digest::Value map_key(const Digest::Value& surroundings, const MapToDraw& map) {
     digest.add_value(map.lamp);
     return digest.value();
 }
-
-}  // namespace
 
 Digest::Value map_surroundings(const gpu::Device& device, const gpu_scene::GpuScene& scene,
                                const std::vector<uint32_t>& still, const gpu_scene::SceneFrame& poses) {
@@ -70,57 +47,39 @@ Digest::Value map_surroundings(const gpu::Device& device, const gpu_scene::GpuSc
     return digest.value();
 }
 
-bool KeptMaps::find(const MapToDraw& map) {
-    const Digest::Value key = map_key(surroundings_, map);
-    const uint64_t bytes = kTexelBytes * map.layout.texels();
-    if (found_.bytes() == 0) found_ = between(device_, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-    if (filled_ + bytes > kBetweenBytes) upload();
-    if (!cache_.read(key, {found_.data() + filled_, bytes})) {
-        if (cache_.writes()) missing_.push_back({key, map.layout.first, map.layout.texels()});
-        return false;
+bool KeptMaps::find(Cache& cache, const Digest::Value& key, const gpu_scene::MapLayout& layout) {
+    const uint64_t bytes = kTexelBytes * layout.texels(), at = found.size();
+    found.resize(at + bytes);
+    if (cache.read(key, {found.data() + at, bytes})) {
+        copies.push_back({at, kTexelBytes * layout.first, bytes});
+        return true;
     }
-    copies_.push_back({filled_, kTexelBytes * map.layout.first, bytes});
-    filled_ += bytes;
-    return true;
+    found.resize(at);
+    if (cache.writes()) {
+        const uint64_t to = missing.empty() ? 0 : missing.back().at + missing.back().bytes;
+        missing.push_back({key, to, bytes});
+        drawn.push_back({kTexelBytes * layout.first, to, bytes});
+    }
+    return false;
 }
 
-void KeptMaps::upload() {
-    if (!copies_.empty()) {
-        found_.flush();
-        copy(device_, found_.buffer(), distances_, copies_);
-    }
-    copies_.clear(), filled_ = 0;
+void KeptMaps::bring(graph::FrameGraph& graph, graph::Resource distances) {
+    if (copies.empty()) return;
+    graph.copy("bring kept maps", graph.upload("kept maps", std::move(found)), distances, std::move(copies));
 }
 
-void KeptMaps::download(std::span<const Missing> maps, const gpu::HostBuffer& to) const {
-    std::vector<VkBufferCopy> copies;
-    uint64_t at = 0;
-    for (const Missing& map : maps) {
-        copies.push_back({kTexelBytes * map.first, at, kTexelBytes * map.texels});
-        at += kTexelBytes * map.texels;
-    }
-    copy(device_, distances_, to.buffer(), copies);
-    to.invalidate();
+void KeptMaps::fetch(graph::FrameGraph& graph, graph::Resource distances) {
+    if (missing.empty()) return;
+    drawn_on_host = graph.readback("maps to keep", missing.back().at + missing.back().bytes);
+    graph.copy("fetch maps to keep", distances, drawn_on_host, drawn);
 }
 
-std::string KeptMaps::keep() {
-    if (missing_.empty()) return {};
-    found_ = {};
-    const gpu::HostBuffer drawn = between(device_, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-    for (size_t first = 0, end = 0; first < missing_.size() && cache_.writes(); first = end) {
-        uint64_t bytes = 0;
-        for (; end < missing_.size() && bytes + kTexelBytes * missing_[end].texels <= kBetweenBytes; ++end)
-            bytes += kTexelBytes * missing_[end].texels;
-        const std::span<const Missing> maps(&missing_[first], end - first);
-        download(maps, drawn);
-        const std::byte* texels = drawn.data();
-        for (const Missing& map : maps) {
-            cache_.write(map.key, {texels, kTexelBytes * map.texels});
-            texels += kTexelBytes * map.texels;
-        }
-    }
-    missing_.clear();
-    return cache_.settle();
+std::string KeptMaps::keep(Cache& cache, const graph::Executor& executor) const {
+    if (missing.empty()) return {};
+    const std::span<const std::byte> texels = executor.read(drawn_on_host);
+    for (const Missing& map : missing)
+        if (cache.writes()) cache.write(map.key, texels.subspan(map.at, map.bytes));
+    return cache.settle();
 }
 
 }  // namespace vesper::render

@@ -1,12 +1,11 @@
 // Distance maps that are kept from run to run. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <span>
 #include <string>
 #include <vector>
 
 #include "base/cache.h"
-#include "gpu/memory.h"
+#include "graph/executor.h"
 #include "render/passes/distance_map.h"
 
 namespace vesper::render {
@@ -16,35 +15,30 @@ namespace vesper::render {
 Digest::Value map_surroundings(const gpu::Device& device, const gpu_scene::GpuScene& scene,
                                const std::vector<uint32_t>& still, const gpu_scene::SceneFrame& poses);
 
-/// Maps of lamps that stand still, when they are drawn: taken from a cache, or given to it. For one time that maps are
-/// drawn. Throws Error.
-class KeptMaps {
-public:
-    /// `distances`: texels of all maps.
-    KeptMaps(const gpu::Device& device, Cache& cache, const Digest::Value& surroundings, VkBuffer distances)
-        : device_(device), cache_(cache), surroundings_(surroundings), distances_(distances) {}
+/// The key of a whole map of what stands still.
+Digest::Value map_key(const Digest::Value& surroundings, const MapToDraw& map);
 
-    /// Looks for a whole map of what stands still. Returns whether there is one: after upload() it is in its place.
-    bool find(const MapToDraw& map);
-    void upload();
-    /// Keeps the maps that find() did not find, once they are drawn. Returns a line if the cache failed, once.
-    std::string keep();
-
-private:
+/// Maps of lamps that stand still in one frame: those that a cache has, and those that it gets once they are drawn.
+struct KeptMaps {
     struct Missing {
         Digest::Value key;
-        uint32_t first, texels;  // of all maps
+        uint64_t at, bytes;  ///< in drawn_on_host
     };
-    void download(std::span<const Missing> maps, const gpu::HostBuffer& to) const;
+    std::vector<std::byte> found;       ///< texels
+    std::vector<graph::Region> copies;  ///< of these to the texels of all maps, bytes
 
-    const gpu::Device& device_;
-    Cache& cache_;
-    Digest::Value surroundings_;
-    VkBuffer distances_;
-    gpu::HostBuffer found_;             // on their way to the device
-    std::vector<VkBufferCopy> copies_;  // of them
-    uint64_t filled_ = 0;               // bytes
-    std::vector<Missing> missing_;
+    std::vector<Missing> missing;
+    std::vector<graph::Region> drawn;  ///< of the texels of all maps to `drawn_on_host`
+    graph::Resource drawn_on_host;     ///< a readback; none without missing maps
+
+    /// Looks for a map. Returns whether the cache has it.
+    bool find(Cache& cache, const Digest::Value& key, const gpu_scene::MapLayout& layout);
+    /// Declares copies of those found, before others are drawn.
+    void bring(graph::FrameGraph& graph, graph::Resource distances);
+    /// Declares copies of the missing ones, once they are drawn and before anything is drawn over them.
+    void fetch(graph::FrameGraph& graph, graph::Resource distances);
+    /// Gives the missing ones of a finished frame to the cache. Returns a line if the cache failed, once.
+    std::string keep(Cache& cache, const graph::Executor& executor) const;
 };
 
 }  // namespace vesper::render

@@ -26,8 +26,10 @@ std::vector<float> drawn_norms(gpu::Device& device, const gpu_scene::GpuScene& r
         gpu::make_buffer(device, bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     arena.bind(buffer.get());
     graph::FrameGraph graph;
-    const graph::Resource distances = graph.lasting("map distances", buffer.get(), bytes);
-    add_distance_maps({graph, kernels, pipelines, {}}, resident, poses, {&map, 1}, distances);
+    const graph::Resource distances = graph.lasting("map distances", buffer, bytes);
+    const FrameContext frame{graph, kernels, pipelines, {}};
+    MapScratch scratch = add_map_scratch(frame, resident);
+    add_distance_maps(frame, resident, poses, {&map, 1}, distances, scratch);
     const graph::Resource wanted = graph.readback("read distances", bytes);
     graph.copy("fetch distances", distances, wanted);
     graph::Executor executor(device);

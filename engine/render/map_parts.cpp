@@ -1,7 +1,11 @@
 #include "render/map_parts.h"
 
 #include <algorithm>
+#include <string>
 #include <tuple>
+
+#include "base/error.h"
+#include "gpu_scene/lamp_maps.h"
 
 namespace vesper::render {
 
@@ -11,6 +15,42 @@ gpu::OwnedBuffer make_map_texels(const gpu::Device& device, gpu::Arena& arena, u
                          gpu_scene::kTexelUsage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     arena.bind(buffer.get());
     return buffer;
+}
+
+const MapScratch::Image& MapScratch::image_for(uint32_t side) const {
+    for (const Image& image : images)
+        if (side <= image.side) return image;
+    throw Error("a map of " + std::to_string(side) + " texels a side is too large");
+}
+
+MapScratch add_map_scratch(const FrameContext& frame, const gpu_scene::GpuScene& scene) {
+    using graph::Access;
+    graph::FrameGraph& graph = frame.graph;
+    MapScratch scratch;
+    uint32_t side = gpu_scene::kMostMapSide / 2;
+    for (MapScratch::Image& image : scratch.images) {
+        const std::string which = " of " + std::to_string(side);
+        const uint64_t texels = uint64_t{side} * side;
+        image = {side,
+                 graph.reserved("drawn maps" + which, graph::image_shape(kDepthFormat, {side, side}),
+                                {Access::DepthTarget, Access::Sample}),
+                 graph.reserved("small triangles" + which, graph::buffer_shape(texels * sizeof(float)),
+                                {Access::CopyTarget, Access::Update, Access::Load})};
+        side *= 2;
+    }
+    scratch.draws =
+        graph.reserved("map draws", graph::buffer_shape(MapScratch::kMostQuadrants * sizeof(VkDrawIndirectCommand)),
+                       {Access::CopyPart, Access::Update, Access::Arguments});
+    scratch.triangles = graph.reserved(
+        "map triangles", graph::buffer_shape(uint64_t{MapScratch::kMostTriangles} * 3 * sizeof(glm::vec3)),
+        {Access::Store, Access::Vertices});
+    if (scene.vertex_count() > 0) {
+        scratch.vertices = graph.external("vertices of maps", scene.vertices(),
+                                          scene.vertex_count() * sizeof(scene::Vertex), VK_FORMAT_R32G32_SFLOAT);
+        scratch.indices = graph.external("indices of maps", scene.indices(), scene.index_count() * sizeof(uint32_t),
+                                         VK_FORMAT_R32_UINT);
+    }
+    return scratch;
 }
 
 std::vector<uint32_t> order_by_part(std::span<const uint32_t> parts, const gpu_scene::GpuScene& scene) {
@@ -32,10 +72,10 @@ void record_map_parts(const graph::Recording& recording, const gpu::GraphicsPipe
                       const std::vector<MapBatch>& batches) {
     if (batches.empty()) return;
     const VkCommandBuffer commands = recording.commands();
-    const VkBuffer buffers[] = {scene.vertices(), recording.buffer(instances)};
+    const VkBuffer buffers[] = {scene.vertices().get(), recording.buffer(instances)};
     const VkDeviceSize offsets[] = {0, recording.offset(instances)};
     vkCmdBindVertexBuffers(commands, 0, 2, buffers, offsets);
-    vkCmdBindIndexBuffer(commands, scene.indices(), 0, VK_INDEX_TYPE_UINT32);
+    vkCmdBindIndexBuffer(commands, scene.indices().get(), 0, VK_INDEX_TYPE_UINT32);
     vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
     vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
     uint32_t last_material = scene::kNone;

@@ -1,6 +1,7 @@
 // Parts of a scene, drawn into maps of distances from lamps. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,25 @@ namespace vesper::render {
 
 /// A buffer for so many texels of maps, halves, two a word; at least one word. Bound in `arena`.
 gpu::OwnedBuffer make_map_texels(const gpu::Device& device, gpu::Arena& arena, uint64_t texels);
+
+/// What maps of lamps are drawn with, one image after the other: of every frame that has maps, drawn or not.
+struct MapScratch {
+    struct Image {
+        uint32_t side;          ///< texels
+        graph::Resource depth;  ///< d32
+        graph::Resource small;  ///< of small triangles, a float a texel
+    };
+    std::array<Image, 2> images;        ///< the smaller first
+    graph::Resource vertices, indices;  ///< of the scene, as texels
+    graph::Resource draws;              ///< VkDrawIndirectCommand, kMostQuadrants
+    graph::Resource triangles;          ///< corners, m, kMostTriangles
+    uint32_t drawn = 0;                 ///< images so far
+
+    static constexpr uint32_t kMostQuadrants = 4096, kMostTriangles = 1u << 19u;  ///< of a dispatch
+    /// The smallest image that holds a square of this side; throws Error if there is none.
+    const Image& image_for(uint32_t side) const;
+};
+MapScratch add_map_scratch(const FrameContext& frame, const gpu_scene::GpuScene& scene);
 
 /// Of distance_map.frag: what a masked material lets through.
 struct MaskPush {

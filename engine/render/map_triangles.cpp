@@ -24,9 +24,8 @@ constexpr gpu::GraphicsShaders kTriangles{
     "map_triangles.frag",        map_triangles_vert,         map_triangles_frag, {},
     sizeof(shared::MapQuadrant), VK_SHADER_STAGE_VERTEX_BIT, kBuffers,           kAttributes};
 
-// Of a dispatch: what any device has workgroups for, and how many bytes its triangles take where all are kept.
+// Of a dispatch: what any device has workgroups for.
 constexpr size_t kMostRuns = 65535;
-constexpr uint32_t kMostTriangles = 1u << 19u;
 
 }  // namespace
 
@@ -46,7 +45,9 @@ struct MapTriangles::Chunk {
     std::vector<shared::TriangleRun> runs;
     uint32_t triangles = 0;
 
-    bool has_room(uint32_t more) const { return runs.size() < kMostRuns && triangles + more <= kMostTriangles; }
+    bool has_room(uint32_t more) const {
+        return runs.size() < kMostRuns && triangles + more <= MapScratch::kMostTriangles;
+    }
 };
 
 void MapTriangles::add_quadrant(const shared::MapQuadrant& quadrant) { quadrants_.push_back({quadrant, {}}); }
@@ -66,12 +67,12 @@ void MapTriangles::add(const gpu_scene::GpuScene::Part& part, uint32_t rows, uin
              .triangles = std::min((part.index_count - first) / 3, shared::kTrianglesOfRun)});
 }
 
-void MapTriangles::draw(const FrameContext& frame, const gpu_scene::GpuScene& scene, const Image& image) const {
+void MapTriangles::draw(const FrameContext& frame, const Image& image, const MapScratch& scratch) const {
     if (rows_.empty()) return;
     Chunk chunk;
     uint32_t number = 0;
     const auto draw_chunk = [&] {
-        draw(chunk, frame, scene, {image.name + "." + std::to_string(number++), image.depth, image.small});
+        draw(chunk, frame, {image.name + "." + std::to_string(number++), image.depth, image.small}, scratch);
         chunk = {};
     };
     for (const QuadrantRuns& of : quadrants_) {
@@ -91,34 +92,25 @@ void MapTriangles::draw(const FrameContext& frame, const gpu_scene::GpuScene& sc
     if (!chunk.runs.empty()) draw_chunk();
 }
 
-void MapTriangles::draw(const Chunk& chunk, const FrameContext& frame, const gpu_scene::GpuScene& scene,
-                        const Image& image) const {
+void MapTriangles::draw(const Chunk& chunk, const FrameContext& frame, const Image& image,
+                        const MapScratch& scratch) const {
     graph::FrameGraph& graph = frame.graph;
     const std::string& name = image.name;
-    const graph::Resource vertices = graph.external(
-        "vertices" + name, scene.vertices(), scene.vertex_count() * sizeof(scene::Vertex), VK_FORMAT_R32G32_SFLOAT);
-    const graph::Resource indices =
-        graph.external("indices" + name, scene.indices(), scene.index_count() * sizeof(uint32_t), VK_FORMAT_R32_UINT);
-    std::vector<VkDrawIndirectCommand> none(std::bit_ceil(chunk.quadrants.size()));
-    for (size_t i = 0; i < chunk.quadrants.size(); ++i) none[i] = {0, 1, 3 * chunk.quadrants[i].first, 0};
-    const graph::Resource nothing = graph.upload("no triangles" + name, none);
-    const graph::Resource draws =
-        graph.transient("map draws" + name, graph::buffer_shape(none.size() * sizeof(VkDrawIndirectCommand)));
-    graph.copy("no triangles" + name, nothing, draws);
-    // Of few sizes, so that memory is not made anew for each frame.
-    const uint64_t room = std::bit_ceil(std::max(chunk.triangles, 1u << 12u));
-    const graph::Resource kept =
-        graph.transient("map triangles" + name, graph::buffer_shape(room * 3 * sizeof(glm::vec3)));
+    const auto [kept, draws] = std::pair(scratch.triangles, scratch.draws);
+    std::vector<VkDrawIndirectCommand> none(chunk.quadrants.size());
+    for (size_t i = 0; i < none.size(); ++i) none[i] = {0, 1, 3 * chunk.quadrants[i].first, 0};
+    graph.copy("no map triangles", graph.upload("no triangles" + name, none), draws,
+               {{0, 0, none.size() * sizeof(VkDrawIndirectCommand)}});
     graph.dispatch(
-        "cull triangles" + name,
+        "cull triangles",
         frame.kernels.get(kCull,
                           {frame.lockstep() ? 8u : 64u, std::bit_cast<uint32_t>(map_snap(frame.kernels.device()))}),
-        {sample(vertices), sample(indices), load(graph.upload("map rows" + name, chunk.rows)),
+        {sample(scratch.vertices), sample(scratch.indices), load(graph.upload("map rows" + name, chunk.rows)),
          load(graph.upload("map runs" + name, chunk.runs)), load(graph.upload("map quadrants" + name, chunk.quadrants)),
          update(draws), store(kept), update(image.small)},
         graph::Groups{uint32_t(chunk.runs.size()), 1, 1});
     graph.raster(
-        "map triangles" + name,
+        "map triangles",
         {{kept, graph::Access::Vertices}, {draws, graph::Access::Arguments}, {image.depth, graph::Access::DepthTarget}},
         [&pipelines = frame.pipelines, kept, draws, quadrants = chunk.quadrants](const graph::Recording& recording) {
             const VkCommandBuffer commands = recording.commands();

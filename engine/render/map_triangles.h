@@ -7,6 +7,7 @@
 #include "base/digest.h"
 #include "gpu_scene/gpu_scene.h"
 #include "render/frame_context.h"
+#include "render/map_parts.h"
 #include "shared/distance_map.h"
 
 namespace vesper::render {
@@ -31,10 +32,10 @@ public:
     /// Draws into a depth image, and small triangles into words of a buffer, a float for each of its texels: kMapNear
     /// over the distance, where that is more than is there.
     struct Image {
-        std::string name;  ///< for messages
+        std::string name;  ///< of what is uploaded for it
         graph::Resource depth, small;
     };
-    void draw(const FrameContext& frame, const gpu_scene::GpuScene& scene, const Image& image) const;
+    void draw(const FrameContext& frame, const Image& image, const MapScratch& scratch) const;
 
 private:
     struct Chunk;
@@ -42,8 +43,7 @@ private:
         shared::MapQuadrant quadrant;
         std::vector<shared::TriangleRun> runs;
     };
-    void draw(const Chunk& chunk, const FrameContext& frame, const gpu_scene::GpuScene& scene,
-              const Image& image) const;
+    void draw(const Chunk& chunk, const FrameContext& frame, const Image& image, const MapScratch& scratch) const;
 
     std::vector<QuadrantRuns> quadrants_;
     std::vector<shared::MapRows> rows_;

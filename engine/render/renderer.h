@@ -9,20 +9,15 @@
 #include <vector>
 
 #include "base/cache.h"
-#include "gpu_scene/cameras.h"
-#include "gpu_scene/gpu_scene.h"
-#include "gpu_scene/lamps.h"
 #include "gpu_scene/luminaires.h"
-#include "gpu_scene/small_emitters.h"
-#include "render/directional_maps.h"
-#include "render/distance_maps.h"
-#include "render/frame_queue.h"
-#include "render/indirect_light.h"
-#include "render/passes/daylight.h"
+#include "render/map_report.h"
+#include "render/passes/cluster.h"
 #include "render/passes/shade.h"
-#include "render/passes/sky.h"
-#include "render/sample_buffers.h"
 #include "render/seen_obstacles.h"
+#include "render/tone_chain.h"
+#include "scene/obstacles.h"
+#include "transport/lamp_reflections.h"
+#include "transport/radiosity.h"
 
 namespace vesper::render {
 
@@ -83,6 +78,9 @@ struct Frame : ToneMapped {
 class Renderer {
 public:
     Renderer(gpu::Device& device, const scene::Scene& scene);
+    ~Renderer();
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
 
     /// Renders the scene as `view` sees it, with everything at its pose of `frame`. `seconds` have passed since the
     /// last frame. Throws Error.
@@ -102,126 +100,30 @@ public:
     void set_radiosity(std::shared_ptr<const transport::Radiosity> radiosity);
     /// What surfaces of this scene reflect of lamps that move, for RenderSettings::moving_reflections; null, as at
     /// first and after set_scene(): nothing is known of it.
-    void set_lamp_reflections(std::shared_ptr<const transport::LampReflections> reflections) {
-        lamp_reflections_ = std::move(reflections);
-    }
+    void set_lamp_reflections(std::shared_ptr<const transport::LampReflections> reflections);
     /// That light of each pixel in frames to come, RGB lx, for RenderSettings::indirect: in place of what is known by
     /// set_radiosity(), as long as it is set. Empty, as at first and after set_scene(): it is not known.
-    void set_illuminance(std::vector<glm::vec4> illuminance) { illuminance_ = std::move(illuminance); }
+    void set_illuminance(std::vector<glm::vec4> illuminance);
     /// What is called after each sample of a frame but the last with how many are done, and may throw to end the frame;
     /// null, as at first: nothing. Samples of a mean of what the display shows count again.
-    void watch_samples(std::function<void(uint32_t)> watch) { watch_samples_ = std::move(watch); }
+    void watch_samples(std::function<void(uint32_t)> watch);
     /// Takes another scene, or the same after a change. The eye goes on.
     void set_scene(const scene::Scene& scene);
 
     /// The plan of the last frame as text.
-    std::string plan() const { return frames_.plan(); }
+    std::string plan() const;
     /// Forgets what the eye was adapted to, as at a camera cut.
-    void reset_adaptation() { frames_.set_eye({}); }
+    void reset_adaptation();
     /// The next frame goes on from this state, such as Frame::eye of an earlier run.
-    void set_eye(const shared::EyeState& eye) { frames_.set_eye({eye}); }
+    void set_eye(const shared::EyeState& eye);
     /// The state that the last finished frame left, or that was set since.
-    const shared::EyeState& eye() const { return frames_.eye().value; }
-    const gpu_scene::GpuScene& scene() const { return scene_->resident; }
-    uint64_t device_bytes() const {
-        return scene_->resident.bytes() + scene_->table_arena.bytes() + frames_.executor().heap_bytes() +
-               samples_.bytes() + (maps_ ? maps_->report().bytes : 0) +
-               (directional_maps_ ? directional_maps_->bytes() : 0) + (indirect_ ? indirect_->device_bytes() : 0);
-    }
+    const shared::EyeState& eye() const;
+    const gpu_scene::GpuScene& scene() const;
+    uint64_t device_bytes() const;
 
 private:
-    /// A texel buffer of the scene, rgba32f.
-    struct TexelBuffer {
-        gpu::OwnedBuffer buffer;
-        uint64_t bytes = 0;  // 0: there is none
-    };
-    /// A scene on the device, and the parts of it that the host needs.
-    struct SceneData {
-        gpu_scene::GpuScene resident;
-        std::vector<gpu_scene::PlacedLamp> lamps;
-        gpu_scene::MapPlan maps;
-        gpu_scene::DirectionalPlan directional;
-        gpu_scene::LuminaireSet luminaires;
-        std::vector<gpu_scene::EmittingPart> emitting;  // by part
-        gpu_scene::IntensityTables tables;              // without its texels, which are uploaded
-        gpu::Arena table_arena;
-        TexelBuffer table_texels;
-        TexelBuffer sky, retro;
-        uint32_t sky_sharp_side = 0;
-        gpu_scene::AmbientLight ambient;
-        std::optional<photometry::Irradiance9> sky_on;  // surfaces, of a sky that is a picture
-
-        SceneData(const gpu::Device& device, const scene::Scene& scene);
-        TexelBuffer upload(const gpu::Device& device, const std::vector<glm::vec4>& texels);
-    };
-    /// The light and the eye of one frame, as its passes take them.
-    struct FrameInputs {
-        gpu_scene::LampList lamps;
-        gpu_scene::LuminaireList luminaires;
-        gpu_scene::SmallEmitterList small_emitters;
-        TableTexels tables;
-        ClusterSettings clusters;
-        bool edges = false;
-        ShadeSettings shading;
-        DaylightSettings daylight;
-        SkyTexels sky;
-        IndirectCells indirect;
-        MovingLight moving;
-        graph::Resource illuminance;  // or that
-        DirectionalMapsOfFrame directional;
-        uint32_t directional_levels = 0;  // drawn for it
-    };
-    /// What a frame shows before glare and the eye.
-    struct SceneLight {
-        graph::Resource luminance;  // cd/m^2
-        Clusters clusters;
-        Blocks blocks;
-        GBuffer surfaces;
-    };
-    /// The results of a submitted frame, as far as they are known.
-    struct Pending {
-        Frame frame;
-        graph::Resource clusters, visibility;  // to be read
-        graph::Resource targets;               // likewise; none without obstacles
-        graph::Resource triangles;             // likewise, if pixels of obstacles are wanted
-        std::vector<uint32_t> of_instances;    // see obstacles_of_instances()
-        ObstaclesInView obstacles;
-        gpu_scene::View view;
-        std::vector<graph::Timing> earlier;  // of samples before the last
-        ChainInputs chain;
-    };
-
-    void add_maps(graph::FrameGraph& graph, FrameInputs& in, const gpu_scene::SceneFrame& poses,
-                  const gpu_scene::View& view, uint64_t budget);
-    void add_indirect_light(graph::FrameGraph& graph, FrameInputs& in, const RenderSettings& settings,
-                            const gpu_scene::View& view, const gpu_scene::SceneFrame& poses,
-                            const gpu_scene::AmbientLight& ambient);
-    graph::Resource illuminance_image(graph::FrameGraph& graph, VkExtent2D extent) const;
-    FrameInputs inputs_of(graph::FrameGraph& graph, const RenderSettings& settings, const gpu_scene::View& view,
-                          const gpu_scene::SceneFrame& poses);
-    void average_display(const RenderSettings& settings, const gpu_scene::View& view,
-                         const gpu_scene::SceneFrame& poses, const ChainInputs& chain,
-                         const gpu_scene::Projection* projection, Frame& frame);
-    ChainInputs chain_inputs_of(const FrameInputs& in, const RenderSettings& settings, const gpu_scene::View& view,
-                                float seconds);
-    SceneLight declare(const FrameContext& frame, const gpu_scene::SceneFrame& poses, const FrameInputs& inputs) const;
-    void add_obstacles(const FrameContext& frame, const RenderSettings& settings, const gpu_scene::SceneFrame& poses,
-                       const SceneLight& light, const ToneChain& chain, Pending& pending) const;
-    Pending add_samples(const RenderSettings& settings, const gpu_scene::View& view, const gpu_scene::SceneFrame& poses,
-                        std::span<const glm::dvec2> places);
-
-    gpu::Device& device_;
-    std::unique_ptr<const SceneData> scene_;
-    std::shared_ptr<Cache> map_cache_;
-    std::unique_ptr<DistanceMaps> maps_;  // of scene_; none before a frame has shadows
-    std::unique_ptr<DirectionalMaps> directional_maps_;
-    std::unique_ptr<IndirectLight> indirect_;
-    std::shared_ptr<const transport::LampReflections> lamp_reflections_;
-    std::vector<glm::vec4> illuminance_;  // pixels
-    SampleBuffers samples_;
-    std::function<void(uint32_t)> watch_samples_;
-    FrameQueue frames_;  // waits for its frames, which use the rest
-    std::optional<Pending> pending_;
+    struct State;
+    std::unique_ptr<State> state_;
 };
 
 }  // namespace vesper::render

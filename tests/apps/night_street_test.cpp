@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gpu_scene/cameras.h"
 #include "places.h"
 #include "render/renderer.h"
 #include "scene/convert.h"

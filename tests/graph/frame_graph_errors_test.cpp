@@ -60,6 +60,20 @@ TEST(FrameGraphErrors, LeavingWhatIsAskedForUnwritten) {
     expect_error([&] { g.plan(); }, "'pixels' is kept but written by no pass");
 }
 
+TEST(FrameGraphErrors, PartsOutsideOfABuffer) {
+    DeclaredFrame f;
+    const Resource from = f.graph.upload("from", std::vector<uint32_t>{1, 2}), to = f.buffer("to", 16);
+    expect_error(
+        [&] {
+            f.graph.copy("part", from, to, {{4, 0, 8}});
+        },
+        "copies 8 bytes from 4 of 'from' to 0 of 'to', which have 8 and 16");
+    expect_error([&] { f.graph.copy("part", from, to, {{0, 12, 8}}); }, "copies 8 bytes from 0");
+    expect_error([&] { f.graph.copy("part", from, to, std::vector<graph::Region>{}); }, "copies nothing");
+    expect_error([&] { f.graph.copy("part", from, f.image("image"), {{0, 0, 8}}); }, "copies parts of an image");
+    expect_error([&] { f.graph.reserved("none", graph::buffer_shape(8), {}); }, "'none' has no uses");
+}
+
 TEST(FrameGraphErrors, NamesAndSizes) {
     DeclaredFrame f;
     f.image("scene");

@@ -2,9 +2,12 @@
 #include "graph/plan.h"
 
 #include <algorithm>
+#include <map>
+#include <string>
 
 #include <gtest/gtest.h>
 
+#include "gpu/memory.h"
 #include "graph/declared_frame.h"
 
 namespace vesper::test {
@@ -235,7 +238,8 @@ TEST(Plan, AHistoryWhosePreviousIsNotReadWaitsForItselfTwoFramesAgo) {
 
 TEST(Plan, ALastingBufferIsWhatTheFrameIsMadeForAndWaitsForTheLastFrame) {
     DeclaredFrame f;
-    const Resource maps = f.graph.lasting("maps", VK_NULL_HANDLE, 8);
+    const gpu::OwnedBuffer none;
+    const Resource maps = f.graph.lasting("maps", none, 8);
     const Resource unread = f.buffer("unread");
     f.compute("look", {load(maps), store(unread)});
     f.compute("draw", {update(maps)});
@@ -248,7 +252,8 @@ TEST(Plan, ALastingBufferIsWhatTheFrameIsMadeForAndWaitsForTheLastFrame) {
 // Maps are drawn by a frame of their own and read by the next: a fence alone makes nothing visible to caches.
 TEST(Plan, AnExternalBufferIsReadAfterWhatFilledIt) {
     DeclaredFrame f;
-    const Resource maps = f.graph.external("maps", VK_NULL_HANDLE, 8), seen = f.buffer("seen"), more = f.buffer("more");
+    const gpu::OwnedBuffer none;
+    const Resource maps = f.graph.external("maps", none, 8), seen = f.buffer("seen"), more = f.buffer("more");
     f.graph.keep(more);
     f.compute("look", {load(maps), store(seen)});
     f.compute("look again", {load(maps), load(seen), store(more)});
@@ -410,6 +415,60 @@ TEST(AccessSet, TurnsIntoVulkan) {
     EXPECT_NE(set.stages() & VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT, 0u);
     EXPECT_EQ(graph::layout_of(graph::Access::DepthTarget), VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL);
     EXPECT_EQ(graph::layout_of(graph::Access::Sample), VK_IMAGE_LAYOUT_GENERAL);
+}
+
+// Passes that only some frames have change no place of other resources.
+TEST(Plan, AReservedTransientKeepsItsPlace) {
+    const auto placed = [](bool used) {
+        DeclaredFrame f;
+        const Resource lamps = f.graph.upload("lamps", std::vector<uint32_t>{1, 2, 3});
+        const Resource scratch = f.graph.reserved("scratch", graph::image_shape(VK_FORMAT_D32_SFLOAT, kExtent),
+                                                  {graph::Access::DepthTarget, graph::Access::Sample});
+        const Resource words = f.graph.reserved("words", graph::buffer_shape(4096), {graph::Access::Store});
+        const gpu::OwnedBuffer none;
+        const Resource maps = f.graph.lasting("maps", none, 8);
+        for (int i = 0; used && i < 2; ++i) {
+            f.draw("draw maps", {{scratch, graph::Access::DepthTarget, {}, true}});
+            f.compute("store maps", {sample(scratch), update(maps), store(words)});
+        }
+        const Resource scene = f.image("scene", VK_FORMAT_R16G16B16A16_SFLOAT), display = f.image("display");
+        f.graph.keep(display);
+        f.compute("shade", {load(lamps), store(scene)});
+        f.compute("composite", {sample(scene), store(display)});
+        const Plan plan = f.plan();
+        std::map<std::string, std::pair<uint64_t, uint32_t>> places;
+        for (const Plan::Placement& p : plan.placements)
+            places[f.graph.resources()[p.resource].name] = {p.offset, plan.usage[p.resource]};
+        return places;
+    };
+    const auto without = placed(false);
+    EXPECT_EQ(without.size(), 4u);
+    EXPECT_EQ(without, placed(true));
+    EXPECT_NE(without.at("scratch").first, without.at("words").first) << "both may be in use at once";
+    EXPECT_EQ(without.at("scene").first, 0u) << "nothing is reserved while the frame is rendered";
+}
+
+// Each image is drawn anew: what was drawn before need not be kept for it.
+TEST(Plan, ATargetThatIsRenewedKeepsNothing) {
+    DeclaredFrame f;
+    const Resource target = f.image("target", VK_FORMAT_D32_SFLOAT), out = f.buffer("out");
+    f.graph.keep(out);
+    f.draw("unseen", {{target, graph::Access::DepthTarget}});
+    f.draw("seen", {{target, graph::Access::DepthTarget, {}, true}});
+    f.compute("look", {sample(target), store(out)});
+    EXPECT_NE(f.text().find("dropped: unseen"), std::string::npos);
+}
+
+// A copy of parts leaves the rest as it was, so passes that wrote the rest run, too.
+TEST(Plan, ACopyOfPartsKeepsTheRest) {
+    DeclaredFrame f;
+    const Resource from = f.buffer("from"), to = f.buffer("to");
+    f.graph.keep(to);
+    f.compute("fill", {store(from)});
+    f.compute("fill the rest", {store(to)});
+    f.graph.copy("part", from, to, {{0, 128, 64}, {64, 0, 64}});
+    EXPECT_EQ(f.text().find("dropped"), std::string::npos);
+    EXPECT_NE(f.text().find("to: compute store -> transfer copy-part"), std::string::npos);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ std::vector<float> draw(PassRig& rig, const scene::Scene& scene, std::span<const
     const gpu_scene::GpuScene resident(rig.device(), scene);
     return drawn_texels(rig, texels, [&](const render::FrameContext& frame, graph::Resource words) {
         render::add_directional_maps(frame, resident, {scene::world_transforms(scene, 0), {}, {}, {}, {}}, levels, side,
-                                     words);
+                                     words, render::add_level_scratch(frame.graph, side));
     });
 }
 

@@ -200,11 +200,12 @@ TEST(DirectionalVisibility, MapsThatNoDeviceCanReadAreRefused) {
     gpu_scene::LampList list;
     list.counts.directional = 1, list.lamps.resize(1), list.indices.resize(1);
     graph::FrameGraph graph;
+    const gpu::OwnedBuffer none;
     const LitBlocks lit =
         light(rig.frame(graph, view), upload(graph, s), list,
               upload(graph, gpu_scene::IntensityTables{.texels = {glm::vec4(0)}}), {}, {},
               {graph.upload("maps", std::vector<shared::DirectionalMap>(1), VK_FORMAT_R32G32B32A32_SFLOAT),
-               graph.external("distances", VK_NULL_HANDLE, uint64_t{1} << 40, VK_FORMAT_R16_SFLOAT), 1, 64});
+               graph.external("distances", none, uint64_t{1} << 40, VK_FORMAT_R16_SFLOAT), 1, 64});
     keep<glm::vec4>(graph, lit.scene);
     try {
         rig.run(graph);

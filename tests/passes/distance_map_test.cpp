@@ -29,7 +29,9 @@ std::vector<float> draw(PassRig& rig, const scene::Scene& scene, std::span<const
     std::iota(all.begin(), all.end(), 0u);
     for (render::MapToDraw& map : maps) map.placements = all;
     return drawn_texels(rig, texels, [&](const render::FrameContext& frame, graph::Resource words) {
-        render::add_distance_maps(frame, resident, {scene::world_transforms(scene, 0), {}, {}, {}, {}}, maps, words);
+        render::MapScratch scratch = render::add_map_scratch(frame, resident);
+        render::add_distance_maps(frame, resident, {scene::world_transforms(scene, 0), {}, {}, {}, {}}, maps, words,
+                                  scratch);
     });
 }
 

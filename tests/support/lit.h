@@ -1,6 +1,7 @@
 // Light of the lamps of a scene with shadows, on the device. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "base/angle.h"
@@ -43,6 +44,7 @@ struct Lit {
         std::vector<glm::vec4> colours, surfaces, pixels;
         shared::VisibilityReport pairs{};
         uint32_t levels = 0;  // drawn for it
+        std::string note;     // of the cache of maps
 
         /// What pixel `i` of a picture of this width sees, view frame, m.
         glm::dvec3 place(size_t i, uint32_t width) const {
@@ -52,21 +54,22 @@ struct Lit {
     /// The light of lamps alone.
     Picture render(const gpu_scene::View& view, bool all_lamps = false) {
         Picture p{.list = gpu_scene::lamp_list(lamps, tables, poses, view)};
-        if (maps.plan(p.list, poses, view, budget)) maps.draw(poses);
+        maps.plan(p.list, poses, view, budget);
         p.levels = directional.plan(p.list, poses, view);
-        if (p.levels > 0) directional.draw(poses);
         graph::FrameGraph graph;
         const render::FrameContext frame = rig.frame(graph, view);
+        const render::VisibilityMaps distances = maps.declare(frame, p.list, poses);
+        const render::DirectionalMapsOfFrame levels = directional.declare(frame, p.list, poses, view);
         const render::GBuffer g = render::add_gbuffer(frame, resident, poses);
         const graph::Resource reflectance = keep<uint64_t>(graph, g.reflectance),
                               surface = keep<glm::vec4>(graph, g.surface);
-        const LitBlocks lit =
-            light(frame, g, p.list, upload(graph, tables), {},
-                  {.emission_limit = 0, .all_lamps = all_lamps, .maps = maps.maps(graph, p.list, poses, view)},
-                  directional.maps(graph, p.list, poses, view));
+        const LitBlocks lit = light(frame, g, p.list, upload(graph, tables), {},
+                                    {.emission_limit = 0, .all_lamps = all_lamps, .maps = distances}, levels);
         const graph::Resource picture = keep<glm::vec4>(graph, lit.scene),
                               report = keep<shared::VisibilityReport>(graph, lit.blocks.visibility);
+        const render::KeptMaps kept = maps.take_kept();
         rig.run(graph);
+        p.note = maps.keep(kept, rig.executor());
         p.grid = lit.clusters.push.grid;
         p.colours = from_halves(rig.got<uint64_t>(reflectance));
         p.surfaces = rig.got<glm::vec4>(surface), p.pixels = rig.got<glm::vec4>(picture);

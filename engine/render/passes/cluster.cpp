@@ -124,8 +124,9 @@ Clusters add_clusters(const FrameContext& frame, graph::Resource surface, const 
 
     const uint32_t coarse_x = divide_up(grid.tiles_x, kCoarseTiles), coarse_y = divide_up(grid.tiles_y, kCoarseTiles);
     const uint32_t coarse_z = divide_up(grid.slices, kCoarseSlices);
-    const uint32_t coarse_capacity =
-        uint32_t(std::clamp<uint64_t>(lamps, 1, kCoarseIndices / (coarse_x * coarse_y * coarse_z)));
+    // In steps, so that lists keep their size from frame to frame.
+    const uint64_t most = kCoarseIndices / (coarse_x * coarse_y * coarse_z), room = (lamps + 255ull) / 256 * 256;
+    const auto coarse_capacity = uint32_t(std::clamp<uint64_t>(room, 1, most));
     const LampLists coarse = add_level("cluster coarse", root,
                                        {.cells_x = coarse_x,
                                         .cells_y = coarse_y,

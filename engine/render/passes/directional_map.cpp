@@ -76,8 +76,14 @@ shared::Instance instance_of(const glm::dmat4& world, const LevelToDraw& level, 
 
 }  // namespace
 
+graph::Resource add_level_scratch(graph::FrameGraph& graph, uint32_t side) {
+    return graph.reserved("drawn level", graph::image_shape(kDepthFormat, {side, side}),
+                          {graph::Access::DepthTarget, graph::Access::Sample});
+}
+
 void add_directional_maps(const FrameContext& frame, const GpuScene& scene, const gpu_scene::SceneFrame& poses,
-                          std::span<const LevelToDraw> levels, uint32_t side, graph::Resource distances) {
+                          std::span<const LevelToDraw> levels, uint32_t side, graph::Resource distances,
+                          graph::Resource scratch) {
     graph::FrameGraph& graph = frame.graph;
     uint32_t number = 0;
     for (const LevelToDraw& level : levels) {
@@ -92,10 +98,8 @@ void add_directional_maps(const FrameContext& frame, const GpuScene& scene, cons
         if (instances.empty()) instances.emplace_back();  // an upload is never empty
 
         const graph::Resource placed = graph.upload("directional instances" + which, instances);
-        const graph::Resource depth =
-            graph.transient("drawn level" + which, graph::image_shape(kDepthFormat, {side, side}));
-        graph.raster("directional maps" + which,
-                     {{placed, graph::Access::Vertices}, {depth, graph::Access::DepthTarget}},
+        graph.raster("directional maps",
+                     {{placed, graph::Access::Vertices}, {scratch, graph::Access::DepthTarget, {}, true}},
                      [&pipelines = frame.pipelines, &scene, placed,
                       batches = std::move(batches)](const graph::Recording& recording) {
                          record_map_parts(recording, pipelines, kLevelShaders, scene, placed, batches);
@@ -105,7 +109,7 @@ void add_directional_maps(const FrameContext& frame, const GpuScene& scene, cons
                                                 .farthest = float(seen.farthest),
                                                 .range = float(seen.farthest - seen.nearest)};
         const gpu::Kernel& store = frame.kernels.get(kStoreLevel);
-        graph.dispatch("store level" + which, store, {sample(depth), update(distances)}, push,
+        graph.dispatch("store level", store, {sample(scratch), update(distances)}, push,
                        graph::cover(side / 2, side, store.group[0], store.group[1]));
     }
 }

@@ -21,6 +21,9 @@ struct LevelToDraw {
 /// at all. Parts smaller than half a texel are left out.
 void add_directional_maps(const FrameContext& frame, const gpu_scene::GpuScene& scene,
                           const gpu_scene::SceneFrame& poses, std::span<const LevelToDraw> levels, uint32_t side,
-                          graph::Resource distances);
+                          graph::Resource distances, graph::Resource scratch);
+
+/// What levels of `side` texels are drawn with, one after the other: of every frame that has maps, drawn or not.
+graph::Resource add_level_scratch(graph::FrameGraph& graph, uint32_t side);
 
 }  // namespace vesper::render

@@ -11,7 +11,6 @@
 #include "shaders/distance_map/distance_map.frag.inc"
 #include "shaders/distance_map/distance_map.vert.inc"
 #include "shaders/distance_map/store_distances.comp.inc"
-#include "shaders/distance_map/store_distances.comp.storage.inc"
 
 namespace vesper::render {
 namespace {
@@ -19,7 +18,7 @@ namespace {
 using gpu_scene::GpuScene;
 using graph::load, graph::sample, graph::update;
 
-constexpr gpu::Shader kStore{"store_distances.comp", store_distances_comp, store_distances_comp_storage};
+constexpr gpu::Shader kStore{"store_distances.comp", store_distances_comp};
 
 constexpr VkVertexInputBindingDescription kMapBuffers[]{
     {0, sizeof(scene::Vertex), VK_VERTEX_INPUT_RATE_VERTEX},
@@ -38,8 +37,6 @@ constexpr VkVertexInputAttributeDescription kMapAttributes[]{
 constexpr gpu::GraphicsShaders kMapShaders{"distance_map.frag", distance_map_vert, distance_map_frag,
                                            kMapTextures,        sizeof(MaskPush),  VK_SHADER_STAGE_FRAGMENT_BIT,
                                            kMapBuffers,         kMapAttributes};
-
-constexpr uint32_t kImageSide = 1024;  // texels, at least, of an image that squares are drawn into
 
 // In a square of this side, texels.
 uint32_t regions_in(uint32_t side) { return side / shared::kRegion * (side / shared::kRegion); }
@@ -89,12 +86,12 @@ uint32_t first_region(const Square& square, uint32_t count) {
 }
 
 // Squares image by image, the largest first, each in its place in the first where that is free.
-std::vector<DrawnImage> fill_images(std::span<const MapToDraw> maps) {
+std::vector<DrawnImage> fill_images(std::span<const MapToDraw> maps, const MapScratch& scratch) {
     std::vector<Square> all = squares_of(maps);
     std::ranges::stable_sort(all, std::greater(), &Square::side);
     std::vector<DrawnImage> images;
     for (Square& square : all) {
-        const uint32_t side = std::max(square.side, kImageSide), regions = regions_in(side);
+        const uint32_t side = scratch.image_for(square.side).side, regions = regions_in(side);
         const uint32_t first = first_region(square, regions);
         square.place = region_place(first);
         const auto has_room = [&](const DrawnImage& image) { return image.side == side && !image.taken[first]; };
@@ -289,33 +286,29 @@ MaskedParts masked_parts(const Drawn& drawn, const GpuScene& scene) {
 }  // namespace
 
 void add_distance_maps(const FrameContext& frame, const GpuScene& scene, const gpu_scene::SceneFrame& poses,
-                       std::span<const MapToDraw> maps, graph::Resource distances) {
+                       std::span<const MapToDraw> maps, graph::Resource distances, MapScratch& scratch) {
     graph::FrameGraph& graph = frame.graph;
     Collector collector(scene, poses, frame.kernels.device());
-    uint32_t number = 0;
-    for (DrawnImage& image : fill_images(maps)) {
-        const std::string which = " " + std::to_string(number++);
+    for (DrawnImage& image : fill_images(maps, scratch)) {
+        const std::string which = " " + std::to_string(scratch.drawn++);
+        const auto [side, depth, small] = scratch.image_for(image.side);
         Drawn drawn;
         for (const Square& square : image.squares) collector.collect(square, image.side, drawn);
         MaskedParts parts = masked_parts(drawn, scene);
 
         const graph::Resource placed = graph.upload("map instances" + which, parts.instances);
-        const graph::Resource depth =
-            graph.transient("drawn maps" + which, graph::image_shape(kDepthFormat, {image.side, image.side}));
-        graph.raster("distance maps" + which, {{placed, graph::Access::Vertices}, {depth, graph::Access::DepthTarget}},
+        graph.raster("map parts", {{placed, graph::Access::Vertices}, {depth, graph::Access::DepthTarget, {}, true}},
                      [&pipelines = frame.pipelines, &scene, placed,
                       batches = std::move(parts.batches)](const graph::Recording& recording) {
                          record_map_parts(recording, pipelines, kMapShaders, scene, placed, batches);
                      });
-        const graph::Resource small = graph.transient(
-            "small triangles" + which, graph::buffer_shape(uint64_t(image.side) * image.side * sizeof(float)));
-        graph.clear("no small triangles" + which, small);
-        drawn.opaque.draw(frame, scene, {which, depth, small});
+        graph.clear("clear small triangles", small);
+        drawn.opaque.draw(frame, {which, depth, small}, scratch);
 
         const std::vector<shared::MapRegion> regions = regions_of(image.squares);
-        const graph::Resource list = graph.upload("map regions" + which, regions, VK_FORMAT_R32G32B32A32_UINT);
-        graph.dispatch("store distances" + which, frame.kernels.get(kStore),
-                       {sample(depth), sample(list), update(distances), load(small)},
+        const graph::Resource list = graph.upload("map regions" + which, regions);
+        graph.dispatch("store distances", frame.kernels.get(kStore),
+                       {sample(depth), load(list), update(distances), load(small)},
                        graph::Groups{uint32_t(regions.size()), 1, 1});
     }
 }

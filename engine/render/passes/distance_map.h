@@ -9,6 +9,7 @@
 #include "base/digest.h"
 #include "gpu_scene/lamp_maps.h"
 #include "render/frame_context.h"
+#include "render/map_parts.h"
 
 namespace vesper::render {
 
@@ -37,9 +38,9 @@ struct MapToDraw {
 /// Draws placements around lamps, at the poses of `poses`, into their maps: texels of `distances`, r32ui, two halves a
 /// word (shared/distance_map.h). Surfaces hide a lamp from both sides; masked ones where they are drawn, clear ones not
 /// at all. Parts smaller than half a texel, and what is farther than the range of a map, are left out. Distances are
-/// rounded to halves, 0.1 %.
+/// rounded to halves, 0.1 %. Images are drawn one after the other in `scratch`.
 void add_distance_maps(const FrameContext& frame, const gpu_scene::GpuScene& scene, const gpu_scene::SceneFrame& poses,
-                       std::span<const MapToDraw> maps, graph::Resource distances);
+                       std::span<const MapToDraw> maps, graph::Resource distances, MapScratch& scratch);
 
 /// The shaders that draw them.
 void add_map_shaders(Digest& digest);

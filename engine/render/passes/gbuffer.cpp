@@ -141,10 +141,10 @@ std::vector<DrawnPart> cull(const GpuScene& scene, const gpu_scene::SceneFrame& 
 void record_batches(const graph::Recording& recording, const GpuScene& scene, const gpu_scene::View& view,
                     graph::Resource instances, const std::vector<Batch>& batches) {
     const VkCommandBuffer commands = recording.commands();
-    const VkBuffer buffers[] = {scene.vertices(), recording.buffer(instances)};
+    const VkBuffer buffers[] = {scene.vertices().get(), recording.buffer(instances)};
     const VkDeviceSize offsets[] = {0, recording.offset(instances)};
     vkCmdBindVertexBuffers(commands, 0, 2, buffers, offsets);
-    vkCmdBindIndexBuffer(commands, scene.indices(), 0, VK_INDEX_TYPE_UINT32);
+    vkCmdBindIndexBuffer(commands, scene.indices().get(), 0, VK_INDEX_TYPE_UINT32);
     const glm::vec2 scale = 2.0f / (view.tangent_high - view.tangent_low);
     const glm::vec2 offset = (view.tangent_high + view.tangent_low) / (view.tangent_high - view.tangent_low);
     uint32_t last_material = scene::kNone;

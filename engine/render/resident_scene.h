@@ -1,0 +1,68 @@
+// A scene on the device, with what is kept of its light from frame to frame. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "gpu_scene/cameras.h"
+#include "gpu_scene/directional_maps.h"
+#include "gpu_scene/gpu_scene.h"
+#include "gpu_scene/intensity_tables.h"
+#include "gpu_scene/lamp_maps.h"
+#include "gpu_scene/lamps.h"
+#include "gpu_scene/luminaires.h"
+#include "gpu_scene/small_emitters.h"
+#include "render/directional_maps.h"
+#include "render/distance_maps.h"
+#include "render/indirect_light.h"
+#include "transport/lamp_reflections.h"
+
+namespace vesper::render {
+
+/// A texel buffer of the scene, rgba32f.
+struct SceneTexels {
+    gpu::OwnedBuffer buffer;
+    uint64_t bytes = 0;  ///< 0: there is none
+
+    graph::Resource declare(graph::FrameGraph& graph, const char* name) const;
+};
+
+/// The parts of a scene that do not change: on the device, and of those that the host needs.
+struct SceneData {
+    SceneData(const gpu::Device& device, const scene::Scene& scene);
+
+    gpu_scene::GpuScene resident;
+    std::vector<gpu_scene::PlacedLamp> lamps;
+    gpu_scene::MapPlan maps;
+    gpu_scene::DirectionalPlan directional;
+    gpu_scene::LuminaireSet luminaires;
+    std::vector<gpu_scene::EmittingPart> emitting;  ///< by part
+    gpu_scene::IntensityTables tables;              ///< without its texels, which are uploaded
+    gpu::Arena texel_arena;
+    SceneTexels table_texels, sky, retro;
+    uint32_t sky_sharp_side = 0;
+    gpu_scene::AmbientLight ambient;
+    std::optional<photometry::Irradiance9> sky_on;  ///< surfaces, of a sky that is a picture
+
+private:
+    SceneTexels upload(const gpu::Device& device, const std::vector<glm::vec4>& texels);
+};
+
+/// A scene and its light. What is null is not known, or not yet needed by a frame.
+struct ResidentScene {
+    ResidentScene(const gpu::Device& device, const scene::Scene& scene) : data(device, scene) {}
+
+    const SceneData data;
+    std::unique_ptr<DistanceMaps> maps;
+    std::unique_ptr<DirectionalMaps> directional;
+    std::unique_ptr<IndirectLight> indirect;
+    std::shared_ptr<const transport::LampReflections> lamp_reflections;
+    std::vector<glm::vec4> illuminance;  ///< of pixels, RGB lx; empty: not known
+
+    /// A frame that was declared has failed: the next one brings the device up to date.
+    void forget();
+    uint64_t device_bytes() const;
+};
+
+}  // namespace vesper::render

@@ -12,11 +12,12 @@
 
 #include <glm/glm.hpp>
 
-#include "shared/edges.h"
-
 namespace vesper::reference {
 
 using glm::dvec2, glm::dvec3, glm::ivec2;
+
+/// Points of a pixel, of which each stands for as much of it.
+constexpr uint32_t kPixelPoints = 16;
 
 /// What the middle of a pixel sees.
 struct SeenFacet {
@@ -46,23 +47,25 @@ inline std::array<ivec2, 9> neighbourhood(ivec2 p) {
     return places;
 }
 
+/// One surface turns by less than 26 degrees between two pixels; each is on the other's plane but for that bend and for
+/// 1/5000 of the depth.
 inline bool is_one_surface(const SeenFacet& a, const SeenFacet& b) {
     if (a.instance != b.instance) return false;
     if (a.instance == 0) return true;
     const dvec3 way = b.position - a.position;
     const double bend = glm::length(a.normal - b.normal) * glm::length(way),
-                 rounding = double(shared::kSamePlane) * std::max(-a.position.z, -b.position.z);
-    return glm::dot(a.normal, b.normal) >= double(shared::kSameNormal) &&
+                 rounding = 2e-4 * std::max(-a.position.z, -b.position.z);
+    return glm::dot(a.normal, b.normal) >= 0.9 &&
            std::max(std::abs(glm::dot(a.normal, way)), std::abs(glm::dot(b.normal, way))) <= bend + rounding;
 }
 
-/// Whether a pixel is beside an edge that can be seen.
+/// Whether a pixel is beside an edge that can be seen: by 2 % of its luminance, in some channel.
 inline bool is_edge(const SeenPicture& picture, ivec2 p) {
     for (const ivec2 q : neighbourhood(p)) {
         if (!picture.has(q) || is_one_surface(picture.facet(p), picture.facet(q))) continue;
         const dvec3 change = glm::abs(picture.light(q) - picture.light(p));
         for (int c = 0; c < 3; ++c)
-            if (!(change[c] <= double(shared::kSameLuminance) * std::abs(picture.light(p)[c]))) return true;
+            if (!(change[c] <= 0.02 * std::abs(picture.light(p)[c]))) return true;
     }
     return false;
 }
@@ -119,7 +122,7 @@ struct EdgeMean {
 inline EdgeMean edge_mean(const SeenPicture& picture, ivec2 p) {
     EdgeMean mean;
     const auto around = neighbourhood(p);
-    for (uint32_t i = 0; i < shared::kEdgeSamples; ++i) {
+    for (uint32_t i = 0; i < kPixelPoints; ++i) {
         const uint32_t reversed = (i & 1) << 3 | (i & 2) << 1 | (i & 4) >> 1 | (i & 8) >> 3;
         const dvec2 way((i + 0.5) / 16 - 0.5, reversed / 16.0 + 1 / 32.0 - 0.5);
         const dvec3 ray(picture.scale * (dvec2(p) + 0.5 + way) + picture.offset, -1);
@@ -167,7 +170,7 @@ inline EdgeMean edge_mean(const SeenPicture& picture, ivec2 p) {
             else
                 mean.doubt = std::min(mean.doubt, closest - next);
         }
-        mean.luminance += picture.light(seen) / double(shared::kEdgeSamples);
+        mean.luminance += picture.light(seen) / double(kPixelPoints);
     }
     return mean;
 }

@@ -71,6 +71,44 @@ TEST(EdgesReference, ALightBehindAnEdgeKeepsItsShare) {
     EXPECT_NEAR(reference::edge_mean(picture, {2, 2}).luminance.g, (4 * 1e4 + 12) / 16, 1e-9);
 }
 
+// Limits that are found nowhere else: 2 % of any channel, a cosine of 0.9, 1/5000 of the depth.
+TEST(EdgesReference, SmallContrastsAndBendsAreNone) {
+    SeenPicture picture =
+        picture_of({rectangle(1, {-2, -2}, {0.06, 2}, 1), rectangle(2, {-9, -9}, {9, 9}, 3)}, {10, 10});
+    EXPECT_FALSE(reference::is_edge(picture, {2, 2}));
+    for (int c = 0; c < 3; ++c)
+        for (const double more : {1.019, 1.021}) {
+            SeenPicture other = picture;
+            other.luminance[2 * 5 + 2][c] *= more;
+            // The middle is on the near wall, its neighbour to the right is not.
+            EXPECT_EQ(reference::is_edge(other, {3, 2}), more > 1.02) << c;
+        }
+    SeenFacet here = rectangle(1, {-1, -1}, {1, 1}, 10), there = here;
+    here.position = {0, 0, -10}, there.position = {0.5, 0, -10};
+    EXPECT_TRUE(reference::is_one_surface(here, there));
+    for (const double degrees : {25.0, 26.5}) {
+        const double bend = degrees * 0.017453292519943;
+        there.normal = {std::sin(bend), 0, std::cos(bend)};
+        EXPECT_EQ(reference::is_one_surface(here, there), degrees < 26);
+    }
+    there.normal = here.normal;
+    for (const double step : {1.9e-3, 2.1e-3}) {
+        there.position.z = -10 - step;
+        EXPECT_EQ(reference::is_one_surface(here, there), step < 2e-3);
+        EXPECT_EQ(reference::is_one_surface(there, here), step < 2e-3);
+    }
+    there.instance = 2, there.position.z = -10;
+    EXPECT_FALSE(reference::is_one_surface(here, there));
+}
+
+TEST(EdgesReference, WidthsArePixels) {
+    const std::vector<dvec3> square{{-1, -1, -2}, {1, -1, -2}, {1, 0, -2}, {-1, 0, -2}},
+        triangle{{0, 0, -1}, {1, 0, -1}, {0, 1, -1}};
+    EXPECT_NEAR(reference::width_of(square, {0, -0.1, -1}, {0.01, -0.01}), 50, 1e-9);
+    EXPECT_NEAR(reference::width_of(triangle, {0.1, 0.1, -1}, {0.01, -0.01}), 50 * std::sqrt(0.5), 1e-9)
+        << "half of the least height";
+}
+
 // What has holes, and what is narrower than a pixel, is in its pixels as a whole, and in no others.
 TEST(EdgesReference, HolesAndNarrowThingsFillTheirPixels) {
     for (const bool masked : {false, true}) {

@@ -54,12 +54,14 @@ double expect_reference(const Edged& edged) {
             const reference::EdgeMean want = reference::edge_mean(seen, {x, y});
             if (want.doubt < 1e-3) continue;
             ++compared;
-            double most = 0;
-            for (const glm::ivec2 q : reference::neighbourhood({x, y}))
-                if (seen.has(q)) most = std::max(most, seen.light(q).g);
-            if (std::abs(double(got.g) - want.luminance.g) > 1e-5 * most && ++wrong < 5)
-                ADD_FAILURE() << x << ", " << y << ": " << got.g << ", want " << want.luminance.g << " of at most "
-                              << most << ", doubt " << want.doubt;
+            for (int c = 0; c < 3; ++c) {
+                double most = 0;
+                for (const glm::ivec2 q : reference::neighbourhood({x, y}))
+                    if (seen.has(q)) most = std::max(most, seen.light(q)[c]);
+                if (std::abs(double(got[c]) - want.luminance[c]) > 1e-5 * most && ++wrong < 5)
+                    ADD_FAILURE() << x << ", " << y << ", channel " << c << ": " << got[c] << ", want "
+                                  << want.luminance[c] << " of at most " << most << ", doubt " << want.doubt;
+            }
         }
     EXPECT_EQ(wrong, 0u) << "of " << compared;
     return edges == 0 ? 0 : double(compared) / double(edges);
@@ -69,8 +71,20 @@ std::vector<glm::vec4> lights(VkExtent2D extent, uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> exponent(-3, 4);
     std::vector<glm::vec4> light;
-    for (uint32_t i = 0; i < extent.width * extent.height; ++i)
-        light.emplace_back(glm::vec3(std::pow(10.0f, exponent(random))), 1);
+    const auto value = [&] { return std::pow(10.0f, exponent(random)); };
+    for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
+        const float red = value(), green = value(), blue = value();
+        light.emplace_back(red, green, blue, 1);
+    }
+    return light;
+}
+
+/// One colour, but that one channel of a pixel is up to 5 % more.
+std::vector<glm::vec4> even_lights(VkExtent2D extent, uint32_t seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> more(1, 1.05f);
+    std::vector<glm::vec4> light(size_t(extent.width) * extent.height, {3, 20, 0.5f, 1});
+    for (glm::vec4& pixel : light) pixel[int(random() % 3)] *= more(random);
     return light;
 }
 
@@ -85,6 +99,15 @@ TEST(Edges, MatchTheReference) {
                 EXPECT_GT(share, 0.4);
             }
         }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Edges, ContrastsOfTwoPercentInAnyChannelAreSeen) {
+    PassRig rig;
+    const VkExtent2D extent{131, 67};
+    const View view = View::symmetric(extent, 1.1f, glm::dmat4(1));
+    for (uint32_t seed : {1u, 2u})
+        EXPECT_GT(expect_reference(draw(rig, clutter(seed), view, even_lights(extent, seed))), 0.4);
     EXPECT_EQ(rig.complaints(), "");
 }
 
@@ -109,27 +132,65 @@ TEST(Edges, WhatIsNotFiniteStaysWhereItIsSeen) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// Two halves of a wall at 10 m, one of them farther by less or by more than rounding explains (2 mm): one surface, or
-// two.
+/// Two halves of a wall at 10 m that meet at a quarter of pixel 8: one mesh, of given normals, the right one farther by
+/// `step` and turned away by `bend`.
+Scene two_halves(glm::vec3 left, glm::vec3 right, float step, float bend = 0) {
+    Scene wall, half;
+    add_rectangle(wall, add_material(wall, 0.5f), {-9, -9, -10}, {9.17f, 0, 0}, {0, 18, 0});
+    add_rectangle(half, 0, {0.17f, -9, -10 - step}, {9 * std::cos(bend), 0, -9 * std::sin(bend)}, {0, 18, 0});
+    scene::Primitive& p = wall.meshes[0].primitives[0];
+    for (scene::Vertex& vertex : p.vertices) vertex.normal = left;
+    for (scene::Vertex vertex : half.meshes[0].primitives[0].vertices) {
+        vertex.normal = right;
+        p.vertices.push_back(vertex);
+        p.bounds.add(vertex.position);
+    }
+    for (const uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) p.indices.push_back(4 + i);
+    return wall;
+}
+
+/// Whether pixel 8 shows a part of the left half, which is seen through red and blue glass.
+bool shows_an_edge(PassRig& rig, const Scene& wall) {
+    const VkExtent2D extent{16, 16};
+    std::vector<glm::vec4> light;
+    for (uint32_t i = 0; i < 256; ++i) light.push_back(i % 16 < 8 ? glm::vec4(1, 3, 7, 1) : glm::vec4(3, 3, 5, 1));
+    const Edged edged = draw(rig, wall, View::symmetric(extent, 1, glm::dmat4(1)), light);
+    const glm::vec3 got(edged.got[7 * 16 + 8]);
+    const bool edge = reference::is_edge(edged.seen, {8, 7});
+    const glm::vec3 want = edge ? glm::vec3(2.5f, 3, 5.5f) : glm::vec3(3, 3, 5);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], want[c], 2e-6f) << c;
+    return got.r < 2.9f;
+}
+
+const glm::vec3 kAhead(0, 0, 1);
+glm::vec3 turned(float angle) { return {std::sin(angle), 0, std::cos(angle)}; }
+
+// By less or by more than rounding explains, 2 mm.
 TEST(Edges, AStepOfAWallIsOne) {
     PassRig rig;
-    const VkExtent2D extent{16, 16};
-    const View view = View::symmetric(extent, 1, glm::dmat4(1));
-    for (const float step : {1.6e-3f, 2.4e-3f}) {
-        Scene wall;
-        add_rectangle(wall, add_material(wall, 0.5f), {-9, -9, -10}, {9.17f, 0, 0}, {0, 18, 0});
-        scene::Primitive& p = wall.meshes[0].primitives[0];
-        Scene half;
-        add_rectangle(half, 0, {0.17f, -9, -10 - step}, {9, 0, 0}, {0, 18, 0});  // a quarter of pixel 8
-        for (const scene::Vertex& vertex : half.meshes[0].primitives[0].vertices) p.vertices.push_back(vertex);
-        for (const uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) p.indices.push_back(4 + i);
-        p.bounds.add({9, 9, -10 - step});
-        std::vector<glm::vec4> light;
-        for (uint32_t i = 0; i < 256; ++i) light.emplace_back(glm::vec3(i % 16 < 8 ? 1 : 3), 1);
-        const Edged edged = draw(rig, wall, view, light);
-        EXPECT_EQ(reference::is_edge(edged.seen, {8, 7}), step > 2e-3f) << step;
-        EXPECT_NEAR(edged.got[7 * 16 + 8].g, step > 2e-3f ? 2.5f : 3.0f, 1e-6f) << step;
+    EXPECT_FALSE(shows_an_edge(rig, two_halves(kAhead, kAhead, 1.9e-3f)));
+    EXPECT_TRUE(shows_an_edge(rig, two_halves(kAhead, kAhead, 2.1e-3f)));
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// A cosine of 0.9 is 25.84 degrees.
+TEST(Edges, ABendOfAWallIsOneFrom26Degrees) {
+    PassRig rig;
+    for (const float degrees : {25.0f, -25.0f, 26.5f, -26.5f}) {
+        const float bend = glm::radians(degrees);
+        EXPECT_EQ(shows_an_edge(rig, two_halves(kAhead, turned(bend), 0, bend)), std::abs(degrees) > 26) << degrees;
     }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// A step of 1 cm is less than a bend of 0.05 explains between two pixels, 3 cm, on the plane of the half that is not
+// bent, and more on that of the other.
+TEST(Edges, AStepIsOneOnEitherPlane) {
+    PassRig rig;
+    EXPECT_TRUE(shows_an_edge(rig, two_halves(turned(-0.05f), kAhead, 0.01f)));
+    EXPECT_TRUE(shows_an_edge(rig, two_halves(kAhead, turned(-0.05f), 0.01f)));
+    EXPECT_FALSE(shows_an_edge(rig, two_halves(turned(0.05f), kAhead, 0.01f)));
+    EXPECT_FALSE(shows_an_edge(rig, two_halves(kAhead, turned(0.05f), 0.01f)));
     EXPECT_EQ(rig.complaints(), "");
 }
 

@@ -52,9 +52,9 @@ struct Emitted {
 /// What the pixel gets of them.
 inline Emitted emitted(const std::vector<SmallTriangle>& triangles, const SeenPicture& picture, ivec2 p) {
     Emitted sum;
-    std::array<dvec2, shared::kEdgeSamples> places;
-    std::array<double, shared::kEdgeSamples> nearest{};  // 1/m
-    for (uint32_t i = 0; i < shared::kEdgeSamples; ++i) {
+    std::array<dvec2, kPixelPoints> places;
+    std::array<double, kPixelPoints> nearest{};  // 1/m
+    for (uint32_t i = 0; i < kPixelPoints; ++i) {
         const uint32_t reversed = (i & 1) << 3 | (i & 2) << 1 | (i & 4) >> 1 | (i & 8) >> 3;
         places[i] = dvec2(p) + dvec2((i + 0.5) / 16, reversed / 16.0 + 1 / 32.0);
     }
@@ -69,7 +69,7 @@ inline Emitted emitted(const std::vector<SmallTriangle>& triangles, const SeenPi
             if (q == p) filling = -1 / facet.position.z, filling_placement = facet.masked ? 0 : facet.placement;
             continue;
         }
-        for (uint32_t i = 0; i < shared::kEdgeSamples; ++i) {
+        for (uint32_t i = 0; i < kPixelPoints; ++i) {
             const Passing passing =
                 pass(facet.corners, dvec3(picture.scale * places[i] + picture.offset, -1), picture.scale);
             sum.doubt = std::min(sum.doubt, std::abs(passing.inside));
@@ -78,14 +78,14 @@ inline Emitted emitted(const std::vector<SmallTriangle>& triangles, const SeenPi
     }
     for (const SmallTriangle& t : triangles) {
         if (t.widening > 1) continue;
-        for (uint32_t i = 0; i < shared::kEdgeSamples; ++i) {
+        for (uint32_t i = 0; i < kPixelPoints; ++i) {
             const double inside = t.inside(places[i]);
             sum.doubt = std::min(sum.doubt, std::abs(inside));
             if (inside >= 0) nearest[i] = std::max(nearest[i], t.depth(places[i]));
         }
     }
     const auto hides = [&](double inverse_depth, double other) {
-        const double before = inverse_depth / other - 1 - double(shared::kInFront);
+        const double before = inverse_depth / other - 1 - 3e-6;
         // Float has 6e-8 of a depth, and of such a plane as much a hundred times.
         if (inverse_depth > 0) sum.doubt = std::min(sum.doubt, std::abs(before) * 1e3);
         return before > 0;
@@ -95,7 +95,7 @@ inline Emitted emitted(const std::vector<SmallTriangle>& triangles, const SeenPi
         const double area = t.widening > 0 ? area_within(t.silhouette, p.x, p.y) / t.widening : 0;
         if (!(area > 0)) continue;
         double within = 0, seen = 0, closest = -1e30, next = -1e30, of_closest = 0;
-        for (uint32_t i = 0; i < shared::kEdgeSamples; ++i) {
+        for (uint32_t i = 0; i < kPixelPoints; ++i) {
             const double inside = t.inside(places[i]);
             sum.doubt = std::min(sum.doubt, std::abs(inside));
             const double visible = hides(nearest[i], t.depth(places[i])) ? 0 : 1;

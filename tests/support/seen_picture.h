@@ -63,8 +63,8 @@ inline reference::SeenPicture seen_picture(const scene::Scene& scene, const gpu_
     return picture;
 }
 
-/// Boxes and sheets of all sizes and turns before a wall and the sky, some mirrored, some with holes, some beside and
-/// behind the eye.
+/// Boxes, sheets and triangles of all sizes and turns before a wall and the sky, some mirrored, some with holes, some
+/// beside and behind the eye.
 inline scene::Scene clutter(uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(-1, 1);
@@ -89,6 +89,12 @@ inline scene::Scene clutter(uint32_t seed) {
             add_box(scene, 0, size * glm::vec3(0.1f, 1, 0.3f), glm::vec3(0));
         for (size_t n = scene.nodes.size() - 6; i % 3 != 0 && n < scene.nodes.size(); ++n)
             scene.nodes[n].translation = place, scene.nodes[n].scale = {i % 2 ? -1.0 : 1.0, 1.0, 1.0};
+    }
+    for (int i = 0; i < 60; ++i) {
+        const float size = 0.5f * std::pow(10.0f, 0.6f * unit(random));
+        const glm::vec3 along(unit(random), unit(random), unit(random)), up(unit(random), unit(random), unit(random));
+        add_rectangle(scene, 0, {6 * unit(random), 4 * unit(random), -10 + 4 * unit(random)}, size * along, size * up);
+        scene.meshes.back().primitives[0].indices = {0, 1, 2};
     }
     for (scene::Mesh& mesh : scene.meshes)
         for (scene::Primitive& p : mesh.primitives)

@@ -18,7 +18,8 @@ inline MapLook look(const HemisphereMap& map, double zoom, glm::dvec3 point, glm
     const double norm = flat ? std::abs(point.z) : std::abs(point.x) + std::abs(point.y) + std::abs(point.z);
     const glm::dvec2 at = map_texel(point, map.side, zoom, flat);
     if (point.z < 0 || at.x < 0 || at.y < 0 || at.x > map.side || at.y > map.side) return {};
-    const double bias = double(shared::kMapBias) + norm * (1 / (map.side * zoom) + double(shared::kMapRounding));
+    // 16 mm; and of the distance half a texel, and a thousandth for the rounding of halves.
+    const double bias = 1.0 / 64 + norm * (1 / (map.side * zoom) + 1.0 / 1024);
     const glm::dvec2 corner = glm::floor(at - 0.5), share = at - 0.5 - corner;
     double weight = 0;
     bool certain = true;

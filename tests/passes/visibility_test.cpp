@@ -71,6 +71,41 @@ TEST(Visibility, AShadowEndsWhereTheRayByTheEdgeDoes) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+// A thin wall 1 m high on the ground, 2 m from a lamp 2 m up. On the ground behind it the way from the wall is d of the
+// 2 m + d from the lamp, and so 2 d of the norm |x| + |y| + |z| = 4 m + d; a shadow begins where that is more than 1/64
+// m
+// + (1/1024 + half a texel) 4 m. Maps have 256 to 2,048 texels: that is at 10 to 18 mm; and a texel across is up to 8
+// mm.
+TEST(Visibility, ShadowsBeginAtTheFootOfAWall) {
+    PassRig rig;
+    OccluderScene s;
+    s.plate({0, 0, 0}, {20, 0, 0}, {0, 0, -20});
+    s.plate({0, 0.5f, 0}, {0, 0.5f, 0}, {0, 0, -5});
+    scene::Lamp lamp;
+    lamp.intensity = 1000;
+    s.lamp(lamp, {-2, 2, 0}, glm::angleAxis(float(-kPi / 2), glm::vec3(1, 0, 0)));
+    Lit all(rig, s.scene());
+    constexpr uint32_t kPixels = 400;  // of 0.5 mm
+    for (const bool all_lamps : {false, true}) {
+        const Lit::Picture p = all.render(view_of_the_ground(kPixels, 0.2), all_lamps);
+        size_t dark_before = 0, lit_behind = 0;
+        double leak = 0;  // m of lit ground behind the wall, the mean over rows
+        for (size_t i = 0; i < p.pixels.size(); ++i) {
+            const double x = p.place(i, kPixels).x, bright = double(p.pixels[i].g);
+            if (p.place(i, kPixels).z > -19.99) continue;  // the wall
+            dark_before += x < -0.002 && bright == 0 ? 1 : 0;
+            lit_behind += x > 0.03 && bright > 0 ? 1 : 0;
+            leak += x > 0 && bright > 0 ? 0.2 / kPixels / kPixels : 0;
+        }
+        EXPECT_EQ(dark_before, 0u);
+        EXPECT_EQ(lit_behind, 0u);
+        EXPECT_GT(leak, 0.006);
+        EXPECT_LT(leak, 0.020);
+        RecordProperty("leak_mm", std::to_string(1e3 * leak));
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
 // Maps of noise: every look of a pixel at a lamp is that of the reference.
 TEST(Visibility, PixelsLookAtTheTexelsOfTheReference) {
     PassRig rig;

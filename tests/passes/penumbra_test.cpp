@@ -17,10 +17,12 @@ constexpr double kMetres = 10;
 /// One lamp of 1000 cd over the ground, and the shares of it along the picture's rows.
 struct Ground {
     OccluderScene s;
-    explicit Ground(double radius) {
+    explicit Ground(double radius, float roughness = 1) {
         s.plate({0, 0, 0}, {20, 0, 0}, {0, 0, -20});
+        s.scene().materials[0].roughness = roughness;
+        s.scene().materials[0].base_colour = {0.8f, 0.4f, 0.2f, 1};
         scene::Lamp lamp;
-        lamp.intensity = 1000;
+        lamp.intensity = 1000, lamp.colour = {1.2f, 1, 0.3f};
         if (radius > 0) lamp.opening.length = lamp.opening.width = 2 * radius, lamp.opening.round = true;
         s.lamp(lamp, {0, kHeight, 0}, glm::angleAxis(float(-kPi / 2), glm::vec3(1, 0, 0)));
     }
@@ -33,8 +35,15 @@ struct Ground {
         for (size_t i = 0; i < p.pixels.size(); ++i) {
             const glm::dvec3 at = p.place(i, kPixels);
             if (at.z > -19.99 || at.x < 0 || std::abs(at.y) > 1.5) continue;
-            const double away = std::hypot(at.x, kHeight, at.y);
-            visit(at.x, -at.y, double(p.pixels[i].y) * kPi * away * away * away / (1000 * kHeight));
+            reference::Shaded all;
+            const glm::dvec3 normal = reference::octahedral_decode(glm::dvec2(p.surfaces[i]));
+            const double roughness = double(p.surfaces[i].w);
+            const glm::dvec3 base(p.colours[i]);
+            reference::add_lamp(p.list.lamps.at(0), reference::kind_of(0, p.list.counts), at, normal, base / kPi,
+                                reference::normal_reflectance(base, 0, roughness), roughness, 0, all);
+            const glm::dvec3 share = glm::dvec3(p.pixels[i]) / all.luminance;
+            for (const double other : {share.r, share.b}) EXPECT_NEAR(other, share.g, 1e-3);
+            visit(at.x, -at.y, share.g);
         }
         EXPECT_EQ(rig.complaints(), "");
     }
@@ -81,6 +90,29 @@ TEST(Penumbra, IsThatOfADiscPastAnEdge) {
         EXPECT_LT(std::abs(e.spread), c.spread);
         EXPECT_LT(e.root_mean_square, 0.08);
         EXPECT_LT(e.largest, 0.27);
+    }
+}
+
+// Highlights have the share of the lamp that all of its light has.
+TEST(Penumbra, GlossyGroundHasThatOfMattGround) {
+    std::vector<double> matt;
+    for (const float roughness : {1.0f, 0.3f}) {
+        Ground ground(0.5, roughness);
+        ground.s.plate({-1, 2, 0}, {2, 0, 0}, {0, 0, -8});
+        std::vector<double> shares;
+        ground.shares([&](double, double, double share) { shares.push_back(share); });
+        if (matt.empty()) {
+            matt = shares;
+            continue;
+        }
+        ASSERT_EQ(shares.size(), matt.size());
+        size_t partly = 0, off = 0;
+        for (size_t i = 0; i < shares.size(); ++i) {
+            partly += shares[i] > 0.1 && shares[i] < 0.9 ? 1 : 0;
+            off += std::abs(shares[i] - matt[i]) > 1e-3 ? 1 : 0;
+        }
+        EXPECT_GT(partly, 1000u);
+        EXPECT_EQ(off, 0u) << "of " << shares.size();
     }
 }
 

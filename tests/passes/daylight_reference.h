@@ -46,7 +46,7 @@ inline double daylight_part(const std::vector<scene::Tunnel>& tunnels, dvec3 pos
         const dvec3 up = glm::normalize(dvec3(0, 1, 0) - along.y * along), across = glm::cross(along, up);
         const dvec3 there = position - from;
         const double ahead = glm::dot(there, along), above = glm::dot(there, up), half = double(t.width) / 2,
-                     wall = double(shared::kTunnelWall);
+                     wall = 0.2;
         if (!(ahead > 0 && ahead < glm::length(to - from) && std::abs(glm::dot(there, across)) < half + wall &&
               above > -wall && above < double(t.height) + wall))
             continue;

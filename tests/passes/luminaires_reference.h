@@ -15,6 +15,9 @@
 
 namespace vesper::reference {
 
+constexpr double kEdgeDepth =
+    0.1;  ///< m: what is nearer than a lamp by so much begins to hide it, by twice as much does
+
 using glm::dvec2, glm::dvec3;
 
 /// Area of a convex polygon within the pixel (x, y) .. (x + 1, y + 1).
@@ -42,7 +45,7 @@ inline double area_within(std::vector<dvec2> polygon, double x, double y) {
 
 /// What a surface at `depth` (m; 0: none) lets through of a source.
 inline double seen(double depth, double hidden) {
-    return depth > 0 ? std::clamp((depth - hidden) / double(shared::kLuminaireEdge), 0.0, 1.0) : 1.0;
+    return depth > 0 ? std::clamp((depth - hidden) / kEdgeDepth, 0.0, 1.0) : 1.0;
 }
 
 /// Luminance added to a pixel, cd/m^2, and what single precision may change of it.
@@ -62,7 +65,7 @@ inline Added added(const gpu_scene::LuminaireList& list, uint32_t x, uint32_t y,
         const double area = area_within(silhouette, x, y), visible = seen(depth, s.hidden);
         sum.luminance += dvec3(s.luminance) * (area * visible);
         // Coordinates of up to some hundred px from the pixel; depths against the edge over which they hide.
-        const double hiding = visible > 0 && visible < 1 ? depth * 1.2e-7 / double(shared::kLuminaireEdge) : 0;
+        const double hiding = visible > 0 && visible < 1 ? depth * 1.2e-7 / kEdgeDepth : 0;
         const bool near =
             glm::all(glm::greaterThan(high, dvec2(x, y))) && glm::all(glm::lessThan(low, dvec2(x, y) + 1.0));
         if (near) sum.rounding += dvec3(s.luminance) * (2e-6 + area * hiding);

@@ -1,7 +1,7 @@
 // Light of cells on surfaces, one pixel after another, in double. SPDX-License-Identifier: MIT
 // Each cell of the list is asked in turn what it gives a point: none but the cells of the four cubes beside each other
-// across the side that are nearest, and the one of each that counts there. Weights are tents across the side, times
-// one along it that falls to that of another surface at kSameSurface (shared/indirect.h).
+// across the side that are nearest, and the one of each that counts there; but none that a wall hides from the cell of
+// the point's own column. Weights are tents across the side, times one along it that falls to that of another surface.
 #pragma once
 
 #include <algorithm>
@@ -12,16 +12,28 @@
 
 #include "gpu_scene/view.h"
 #include "passes/shade_reference.h"
-#include "shared/indirect.h"
 #include "transport/cell_grid.h"
 
 namespace vesper::reference {
 
 struct LitCell {
     uint32_t number;
-    dvec3 light;    // lx
-    double height;  // over the middle of its cube, along its side, m
+    dvec3 light;          // lx
+    double height;        // over the middle of its cube, along its side, m
+    uint32_t hidden = 0;  // bits of the eight cells around it that walls hide, see step_of()
 };
+
+/// The step to a cell around another, across its side (next axis after that of the side, and the one after that).
+inline glm::ivec2 step_of(uint32_t bit) {
+    constexpr int kSteps[8][2]{{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}};
+    return {kSteps[bit][0], kSteps[bit][1]};
+}
+
+// In cubes: how near to a border a surface stands for the next cube too; how far off a cell's height is another
+// surface.
+constexpr double kNearBorder = 0.25, kSameSurface = 0.75;
+constexpr double kElsewhere = 1e-3, kLeastWeight = 1e-7;  // the weight of such, and of any cell
+constexpr double kAirCubes = 4;                           // side of a cube of air
 
 /// What cells give, and how much they count.
 struct CellLight {
@@ -39,8 +51,10 @@ public:
         : grid_(grid), above_(above), below_(below) {
         for (const LitCell& cell : cells) {
             const bool air = grid.is_air(cell.number);
-            const dvec3 middle = (grid.middle(cell.number) - grid.origin) / grid.size;
-            (air ? air_ : surfaces_)[cell.number % 6].push_back({middle, cell.light, cell.height / grid.size});
+            const dvec3 in_grid = (grid.middle(cell.number) - grid.origin) / grid.size,
+                        middle = air ? in_grid : glm::floor(in_grid) + 0.5;
+            (air ? air_ : surfaces_)[cell.number % 6].push_back(
+                {middle, cell.light, cell.height / grid.size, cell.hidden});
         }
     }
 
@@ -61,19 +75,26 @@ public:
             const double layer = std::floor(cell.middle[along]) - std::floor(place[along]);
             if (std::abs(layer) > 1) continue;
             const double to_border = 0.5 + layer * way * cell.height;  // of the cube that the point is in
-            if (layer != 0 && to_border > double(shared::kNearBorder)) continue;
+            if (layer != 0 && to_border > kNearBorder) continue;
             const std::pair candidate(layer == 0 ? 0 : layer < 0 ? 1 : 2, &cell);
             const auto [known, added] = columns.try_emplace({cell.middle[across], cell.middle[over]}, candidate);
             if (candidate.first < known->second.first) known->second = candidate;
         }
+        const std::pair own(std::floor(place[across]) + 0.5, std::floor(place[over]) + 0.5);
+        const uint32_t hidden = columns.contains(own) ? columns.at(own).second->hidden : 0;
         CellLight sum;
         for (const auto& [column, chosen] : columns) {
             const Lit& cell = *chosen.second;
+            bool behind_a_wall = false;
+            for (uint32_t bit = 0; bit < 8; ++bit)
+                behind_a_wall = behind_a_wall || (hidden >> bit & 1 && column.first == own.first + step_of(bit).x &&
+                                                  column.second == own.second + step_of(bit).y);
+            if (behind_a_wall) continue;
             const double tent =
                 (1 - std::abs(place[across] - column.first)) * (1 - std::abs(place[over] - column.second));
             const double off = std::abs(place[along] - (cell.middle[along] + way * cell.height));
-            const double same = std::max(1 - off / double(shared::kSameSurface), double(shared::kElsewhere));
-            sum.add(tent * same + double(shared::kLeastWeight), cell.light);
+            const double same = std::max(1 - off / kSameSurface, kElsewhere);
+            sum.add(tent * same + kLeastWeight, cell.light);
         }
         return sum;
     }
@@ -85,10 +106,10 @@ public:
             const double component = normal[int(side / 2)];
             if ((side % 2 == 1) != (component < 0)) continue;
             for (const Lit& cell : air_[side]) {
-                const dvec3 off = (place - cell.middle) / double(shared::kAirCubes);
+                const dvec3 off = (place - cell.middle) / kAirCubes;
                 if (glm::any(glm::lessThan(off, dvec3(-1))) || glm::any(glm::greaterThanEqual(off, dvec3(1)))) continue;
                 const dvec3 tent = 1.0 - glm::abs(off);
-                sum.add(component * component * (tent.x * tent.y * tent.z + double(shared::kLeastWeight)), cell.light);
+                sum.add(component * component * (tent.x * tent.y * tent.z + kLeastWeight), cell.light);
             }
         }
         return sum;
@@ -98,6 +119,7 @@ private:
     struct Lit {
         dvec3 middle, light;
         double height;  // cubes
+        uint32_t hidden;
     };
     transport::CellGrid grid_;
     dvec3 above_, below_;
@@ -107,7 +129,7 @@ private:
 /// Illuminance of a surface that faces `side` most, RGB lx; `place` in cubes, the normal of unit length.
 inline dvec3 illuminance_on_side(const CellList& cells, dvec3 place, dvec3 normal, uint32_t side) {
     CellLight found = cells.on_surfaces(place, side);
-    if (found.weight < 2 * double(shared::kElsewhere))
+    if (found.weight < 2 * kElsewhere)
         if (const CellLight air = cells.in_air(place, normal); air.weight > 0) found = air;
     return found.weight > 0 ? found.light / found.weight : cells.open(normal);
 }

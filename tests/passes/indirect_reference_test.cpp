@@ -21,7 +21,8 @@ const transport::CellGrid kGrid{.origin = {-4, 50, 9}, .size = 0.5, .count = {12
 
 reference::CellList listed(const MadeCells& made) {
     std::vector<reference::LitCell> cells;
-    for (const auto& [number, cell] : made.cells) cells.push_back({number, dvec3(cell.light), double(cell.height)});
+    for (const auto& [number, cell] : made.cells)
+        cells.push_back({number, dvec3(cell.light), double(cell.height), cell.walls});
     return {made.grid, cells};
 }
 
@@ -54,6 +55,25 @@ TEST(IndirectReference, HeightsAndDistancesAreWeights) {
     made.add({4, 3, 4}, 2, 0, glm::vec3(1)), made.add({5, 3, 4}, 2, 0.15, glm::vec3(2));
     const double found = reference::illuminance_on_side(listed(made), {4.75, 3.5, 4.5}, {0, 1, 0}, 2).x;
     EXPECT_NEAR(found, (0.75 + 2 * 0.25 * 0.6) / (0.75 + 0.25 * 0.6), 1e-6);  // least weights are 1e-7
+}
+
+// On the ground (+y) the eight around a cell are counted by z, and then by x.
+TEST(IndirectReference, NoLightCrossesAWall) {
+    const auto light_at = [](uint8_t walls, dvec3 place) {
+        MadeCells made{kGrid, {}};
+        made.add({4, 3, 4}, 2, 0, glm::vec3(1), walls), made.add({5, 3, 4}, 2, 0, glm::vec3(24));
+        made.add({4, 3, 5}, 2, 0, glm::vec3(7)), made.add({5, 3, 5}, 2, 0, glm::vec3(100));
+        return reference::illuminance_on_side(listed(made), place, {0, 1, 0}, 2).x;
+    };
+    const dvec3 by_x(4.75, 3.5, 4.5), by_z(4.5, 3.5, 4.75), by_both(4.75, 3.5, 4.75);
+    EXPECT_NEAR(light_at(0, by_x), 0.75 + 0.25 * 24, 1e-4);
+    EXPECT_NEAR(light_at(1 << 6, by_x), 1, 1e-4) << "x + 1";
+    EXPECT_NEAR(light_at(1 << 6, by_z), 0.75 + 0.25 * 7, 1e-4);
+    EXPECT_NEAR(light_at(1 << 4, by_z), 1, 1e-4) << "z + 1";
+    EXPECT_NEAR(light_at(1 << 4, by_x), 0.75 + 0.25 * 24, 1e-4);
+    EXPECT_NEAR(light_at(1 << 7, by_both), (9 + 3 * 24 + 3 * 7) / 15.0, 1e-4) << "the corner";
+    // Seen from the other column it is not the wall of this one.
+    EXPECT_NEAR(light_at(1 << 6, {5.25, 3.5, 4.5}), 0.25 + 0.75 * 24, 1e-4);
 }
 
 TEST(IndirectReference, OfTheAirSidesCountByTheSquaresOfTheNormal) {
@@ -102,7 +122,7 @@ TEST(IndirectReference, IsTheLookupOfTheHost) {
     const auto below = [&](int count) { return double(int(random.unit() * float(count))); };
     for (int i = 0; i < 1500; ++i)
         made.add({below(12), below(9), below(10)}, uint32_t(below(6)), 0.5 * (double(random.unit()) - 0.5),
-                 {random.unit(), random.unit(), random.unit()});
+                 {random.unit(), random.unit(), random.unit()}, uint8_t(below(256)) & uint8_t(below(256)));
     for (int i = 0; i < 20; ++i)
         made.add_air({below(3), below(3), below(3)}, uint32_t(below(6)), glm::vec3(random.unit()));
     const reference::CellList cells = listed(made);

@@ -9,6 +9,7 @@
 
 #include "gpu_scene/irradiance_cells.h"
 #include "render/passes/indirect.h"
+#include "shared/indirect.h"
 #include "support/made_cells.h"
 #include "support/noise.h"
 #include "support/shading.h"
@@ -43,7 +44,8 @@ Lit noise(VkExtent2D extent, uint32_t seed) {
 /// Of a value in lx that halves of kCellUnit hold.
 float exact(Noise& random) { return shared::kCellUnit * random.fine(); }
 
-/// A grid of 20 x 12 x 20 m about a place, of which a part of all cells is there, and cells of air in half of it.
+/// A grid of 20 x 12 x 20 m about a place, of which a part of all cells is there, with walls to a quarter of those
+/// around them, and cells of air in half of it.
 MadeCells cells_around(dvec3 middle, uint32_t seed, double part) {
     Noise random(seed);
     MadeCells made{{.origin = middle - dvec3(10, 6, 10), .size = 0.8, .count = {25, 15, 25}}, {}};
@@ -54,7 +56,9 @@ MadeCells cells_around(dvec3 middle, uint32_t seed, double part) {
                 for (uint32_t side = 0; side < 6; ++side) {
                     const bool there = double(random.unit()) < part;
                     const double height = 0.8 * (double(random.unit()) - 0.5);
-                    if (there) made.add({x, y, z}, side, height, light());
+                    uint8_t walls = 0;
+                    for (uint32_t bit = 0; bit < 8; ++bit) walls |= uint8_t((random.unit() < 0.25f ? 1u : 0u) << bit);
+                    if (there) made.add({x, y, z}, side, height, light(), walls);
                 }
     for (int z = 0; z < 7; ++z)
         for (int y = 0; y < 4; ++y)
@@ -88,7 +92,8 @@ std::vector<glm::vec4> add(PassRig& rig, const Lit& s, const MadeCells& made, co
 void expect_reference(const std::vector<glm::vec4>& got, const Lit& s, const MadeCells& made,
                       const gpu_scene::View& view) {
     std::vector<reference::LitCell> list;
-    for (const auto& [number, cell] : made.cells) list.push_back({number, dvec3(cell.light), double(cell.height)});
+    for (const auto& [number, cell] : made.cells)
+        list.push_back({number, dvec3(cell.light), double(cell.height), cell.walls});
     const reference::CellList cells(made.grid, list, dvec3(kAbove), dvec3(kBelow));
     const dvec3 eye = made.grid.place(gpu_scene::eye_of(view));
     size_t jumps = 0;
@@ -167,6 +172,31 @@ TEST(Indirect, AnEvenFloorSendsRhoEOverPi) {
     const Ground ground;
     for (const glm::vec4 pixel : add(rig, ground.s, ground.made, ground.view))
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(pixel[c], 80 * kLambert, 80 * kLambert * 2e-6f);
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// A street of 5 lx beside a yard of 120 lx, with a wall between them along x and a gate in it: no light crosses the
+// wall.
+TEST(Indirect, WallsKeepTheLightOfTheirSide) {
+    PassRig rig;
+    Ground ground;
+    for (int x = 0; x < 100; ++x)
+        for (int z = 0; z < 100; ++z) {
+            // Bits 0, 3 and 5 are the cells at z - 1, and bits 2, 4 and 7 those at z + 1.
+            const bool yard = z >= 98, gate = x % 4 == 1;
+            const uint8_t hidden = gate ? 0 : z == 97 ? 0b10010100 : z == 98 ? 0b00101001 : 0;
+            ground.made.add({x, 1, z}, 2, 0, glm::vec3(yard ? 120 : 5), hidden);
+        }
+    const auto got = add(rig, ground.s, ground.made, ground.view);
+    expect_reference(got, ground.s, ground.made, ground.view);
+    size_t street = 0, yard = 0, mixed = 0;
+    for (size_t i = 0; i < got.size(); ++i) {
+        const double lux = double(got[i].y) / 0.25 / double(kLambert);
+        (std::abs(lux - 5) < 1e-3 ? street : std::abs(lux - 120) < 1e-3 ? yard : mixed) += 1;
+    }
+    EXPECT_GT(street, 10u);
+    EXPECT_GT(yard, 10u);
+    EXPECT_GT(mixed, 5u) << "at gates";
     EXPECT_EQ(rig.complaints(), "");
 }
 

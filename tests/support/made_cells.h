@@ -8,20 +8,22 @@
 
 namespace vesper::test {
 
-/// Cells with a value each, in any order; as a Radiosity they have numbers, heights and normals, and nothing else.
+/// Cells with a value each, in any order; as a Radiosity they have numbers, heights, normals and walls, and nothing
+/// else.
 struct MadeCells {
     transport::CellGrid grid;
     struct Cell {
         float height;  // m
         glm::vec3 light;
+        uint8_t walls;  // bits, as in Radiosity
     };
     std::map<uint32_t, Cell> cells;  // by number
 
-    void add(glm::dvec3 cube, uint32_t side, double height, glm::vec3 light) {
-        cells[grid.cell(cube, side).value()] = {float(height), light};
+    void add(glm::dvec3 cube, uint32_t side, double height, glm::vec3 light, uint8_t walls = 0) {
+        cells[grid.cell(cube, side).value()] = {float(height), light, walls};
     }
     void add_air(glm::dvec3 cube, uint32_t side, glm::vec3 light) {
-        cells[grid.air_cell(cube, side).value()] = {0, light};
+        cells[grid.air_cell(cube, side).value()] = {0, light, 0};
     }
 
     transport::Radiosity radiosity() const {
@@ -29,6 +31,7 @@ struct MadeCells {
         radiosity.grid = grid;
         for (const auto& [number, cell] : cells) {
             radiosity.numbers.push_back(number), radiosity.heights.push_back(cell.height);
+            radiosity.walls.push_back(cell.walls);
             glm::vec3 normal(0);
             normal[int(grid.side(number) / 2)] = grid.side(number) % 2 ? -1.0f : 1.0f;
             radiosity.normals.push_back(normal);

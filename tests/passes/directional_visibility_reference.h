@@ -33,18 +33,17 @@ struct DirectionalShare {
 /// `point` and `normal` in the world, m; `eye`: about which the levels lie.
 inline DirectionalShare directional_share(const DirectionalLamp& lamp, glm::dvec3 eye, glm::dvec3 point,
                                           glm::dvec3 normal) {
-    const double reach = lamp.radius * double(shared::kDirectionalReach);
+    const double reach = lamp.radius * 256.0;
     const glm::dvec3 q = lamp.levels[0].rotation * (point - eye), m = lamp.levels[0].rotation * normal;
     const double wide = 1.08 * (std::max(std::abs(q.x), std::abs(q.y)) + reach);
     size_t k = 0;
     while (k + 1 < lamp.levels.size() && wide > lamp.levels[k].half_width) ++k;
     const Level& level = lamp.levels[k];
     const glm::dvec3 at = to_level(level, point);
-    if (at.z > 0.8 * double(shared::kMapFar) || std::min(at.x, at.y) < 1 || std::max(at.x, at.y) > level.side - 1)
-        return {};
+    if (at.z > 0.8 * 6e4 || std::min(at.x, at.y) < 1 || std::max(at.x, at.y) > level.side - 1) return {};
     const double width = 2 * level.half_width / level.side;
     const glm::dvec2 slope = glm::clamp(-glm::dvec2(m) / m.z, -100.0, 100.0) * width;  // per texel
-    const double bias = double(shared::kMapBias) + 0.5 * width + double(shared::kMapRounding) * std::abs(at.z);
+    const double bias = 1.0 / 64 + 0.5 * width + std::abs(at.z) / 1024;
     int uncertain = 0;
     const auto below = [&](glm::dvec2 offset) {
         const glm::dvec2 place = glm::dvec2(at) + offset, texel = glm::clamp(glm::floor(place), 0.0, level.side - 1);

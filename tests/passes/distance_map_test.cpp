@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -49,10 +50,10 @@ OccluderScene room() {
     return s;
 }
 
-// Texels agree with rays but for those where a ray a hair beside meets something else. `coarse`: see snaps_coarsely();
-// no texel may be left out there either.
+// Texels agree with rays but for those where a ray a hair beside meets something else, and for `few`. `coarse`: see
+// snaps_coarsely(); no texel may be left out there either.
 void expect_rays(const RayCaster& rays, const render::MapToDraw& map, bool second, const float* texels, double snap,
-                 bool coarse) {
+                 bool coarse, size_t few = 0) {
     const gpu_scene::MapLayout& layout = map.layout;
     const gpu_scene::MapFrame& frame = map.frame;
     const std::span<const uint32_t> fixture = map.fixture;
@@ -64,7 +65,7 @@ void expect_rays(const RayCaster& rays, const render::MapToDraw& map, bool secon
             return std::find(fixture.begin(), fixture.end(), node) == fixture.end();
         });
     };
-    size_t compared = 0, covered = 0;
+    size_t compared = 0, covered = 0, astray = 0;
     for (uint32_t y = 0; y < layout.side; ++y)
         for (uint32_t x = 0; x < layout.side; ++x) {
             const glm::dvec2 middle(x + 0.5, y + 0.5);
@@ -83,11 +84,13 @@ void expect_rays(const RayCaster& rays, const render::MapToDraw& map, bool secon
             if (std::isinf(norm) || norm > 5e4) {
                 EXPECT_TRUE(got >= 5e4 || coarse) << x << " " << y;
                 covered += got >= 5e4 ? 0 : 1;
-            } else {
-                // All corners of a surface are moved on a coarse grid, and those that clipping makes once more.
-                EXPECT_NEAR(got, norm, coarse ? 0.02 * norm + 4 * steep : 2e-3 * norm + steep)
-                    << x << " " << y << (second ? " second" : "");
+                continue;
             }
+            // All corners of a surface are moved on a coarse grid, and those that clipping makes once more.
+            const double allowed = coarse ? 0.02 * norm + 4 * steep : 2e-3 * norm + steep;
+            if (!(std::abs(got - norm) <= allowed) && astray++ >= few)
+                ADD_FAILURE() << x << " " << y << (second ? " second: " : ": ") << got << ", want " << norm << " +- "
+                              << allowed;
         }
     EXPECT_LE(covered, 3u);
     EXPECT_GT(compared, size_t(layout.side) * layout.side * 9 / 10);
@@ -206,6 +209,168 @@ TEST(DistanceMap, MasksLetLightThrough) {
     };
     EXPECT_NEAR(at({-0.5, 0.3, -2}), 2.8, 0.1);
     EXPECT_GT(at({0.5, 0.3, -2}), 5e4f);
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+/// A box of 10 m about the origin, of squares that are by turns 200 small triangles, their corners at random, and a fan
+/// of 40 long ones that share the corners on its border.
+scene::Scene patched_box() {
+    constexpr int kCells = 8, kParts = 10;
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> jitter(-0.3f, 0.3f);
+    scene::Scene scene;
+    scene.materials.emplace_back().double_sided = true;
+    scene::Primitive& p = scene.meshes.emplace_back().primitives.emplace_back();
+    const auto add = [&](const auto& place, glm::vec2 at) {
+        p.vertices.emplace_back().position = place(at);
+        p.bounds.add(p.vertices.back().position);
+        return uint32_t(p.vertices.size() - 1);
+    };
+    for (int face = 0; face < 6; ++face)
+        for (int cell = 0; cell < kCells * kCells; ++cell) {
+            const int x = cell % kCells, y = cell / kCells;
+            const auto place = [&](glm::vec2 at) {  // from 0 to 1 over the cell; on borders the same bits for both
+                const glm::vec2 on = (glm::vec2(x, y) + at) * (10.0f / kCells) - 5.0f;
+                glm::vec3 position;
+                position[face / 2] = face % 2 ? 5.0f : -5.0f;
+                position[(face / 2 + 1) % 3] = on.x, position[(face / 2 + 2) % 3] = on.y;
+                return position;
+            };
+            if ((x + y) % 2) {
+                std::vector<uint32_t> border;
+                const auto side = [&](glm::vec2 from, glm::vec2 step) {
+                    for (int k = 0; k < kParts; ++k)
+                        border.push_back(add(place, from + step * float(k) / float(kParts)));
+                };
+                side({0, 0}, {1, 0}), side({1, 0}, {0, 1}), side({1, 1}, {-1, 0}), side({0, 1}, {0, -1});
+                const uint32_t middle = add(place, glm::vec2(0.5f) + 0.1f * glm::vec2(jitter(random), jitter(random)));
+                for (size_t k = 0; k < border.size(); ++k)
+                    p.indices.insert(p.indices.end(), {middle, border[k], border[(k + 1) % border.size()]});
+                continue;
+            }
+            const auto first = uint32_t(p.vertices.size());
+            for (int j = 0; j <= kParts; ++j)
+                for (int i = 0; i <= kParts; ++i) {
+                    const bool within = i % kParts != 0 && j % kParts != 0;
+                    const glm::vec2 moved = within ? glm::vec2(jitter(random), jitter(random)) : glm::vec2(0);
+                    add(place, (glm::vec2(i, j) + moved) / float(kParts));
+                }
+            for (int j = 0; j < kParts; ++j)
+                for (int i = 0; i < kParts; ++i) {
+                    const uint32_t a = first + uint32_t(j * (kParts + 1) + i), b = a + 1, c = a + kParts + 1, d = c + 1;
+                    p.indices.insert(p.indices.end(), {a, b, d, a, d, c});
+                }
+        }
+    scene.nodes.emplace_back().mesh = 0;
+    return scene;
+}
+
+// Triangles of less than a texel to 60 texels, side by side: no texel is left empty between them, nor drawn from
+// farther or nearer than the sheet.
+TEST(DistanceMap, SheetsOfSmallAndLargeTrianglesHaveNoGaps) {
+    PassRig rig;
+    const scene::Scene scene = patched_box();
+    const gpu_scene::MapFrame frame =
+        gpu_scene::map_frame(glm::translate(glm::dmat4(1), glm::dvec3(0.3, -0.2, 0.1)) *
+                             glm::mat4_cast(glm::angleAxis(0.8, glm::normalize(glm::dvec3(1, 0.4, -0.3)))));
+    const double off = snaps_coarsely(rig.device()) ? 0.05 : 0.01;
+    for (const bool flat : {false, true})
+        for (const uint32_t side : {64u, 256u, 1024u}) {
+            SCOPED_TRACE(std::to_string(side) + (flat ? " flat" : ""));
+            const render::MapToDraw map{{.side = side,
+                                         .hemispheres = flat ? 1u : 2u,
+                                         .zoom = flat ? 1.3f : 1.0f,
+                                         .flat = flat,
+                                         .range = 100,
+                                         .radius = 0,
+                                         .first = 0},
+                                        frame,
+                                        {},
+                                        {}};
+            const std::vector<float> drawn = draw(rig, scene, {&map, 1}, map.layout.texels());
+            size_t wrong = 0;
+            for (uint32_t i = 0; i < map.layout.texels(); ++i) {
+                const uint32_t in_map = i % (side * side);
+                glm::dvec3 way = reference::map_direction({in_map % side + 0.5, in_map / side + 0.5}, side,
+                                                          double(map.layout.zoom), flat);
+                if (i >= side * side) way.z = -way.z;
+                way = glm::transpose(frame.rotation) * way;
+                double want = 1e30;
+                for (int axis = 0; axis < 3; ++axis)
+                    want = std::min(want, ((way[axis] < 0 ? -5 : 5) - frame.position[axis]) / way[axis]);
+                if (std::abs(double(drawn[i]) - want) > off * want && ++wrong < 5)
+                    ADD_FAILURE() << in_map % side << ", " << in_map / side << ": " << drawn[i] << ", want " << want;
+            }
+            EXPECT_EQ(wrong, 0u);
+        }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+/// Leaves all around: plates with holes in their texture, of vertices that are from clear to opaque, and of a material
+/// that is not quite opaque; behind them a wall.
+OccluderScene leaves() {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    OccluderScene s;
+    const auto vector = [&] { return glm::vec3(unit(random), unit(random), unit(random)); };
+    for (int i = 0; i < 60; ++i) {  // wide enough that no map has two texels of a leaf in one of its own
+        const glm::vec3 middle = 4.0f * glm::normalize(vector()), facing = glm::normalize(middle + vector()),
+                        along = glm::normalize(glm::cross(facing, vector()));
+        s.plate(middle, (0.8f + 0.3f * unit(random)) * along, (0.8f + 0.3f * unit(random)) * glm::cross(facing, along));
+    }
+    s.scene().images = {{"hole", 2, 2, {255, 255, 255, 255, 255, 255, 255, 0, 255, 255, 255, 255, 255, 255, 255, 255}}};
+    scene::Material& m = s.scene().materials[0];
+    m.alpha = scene::Material::Alpha::Mask, m.base_colour.a = 0.8f, m.alpha_cutoff = 0.5f;
+    m.base_colour_texture = {.image = 0, .wrap_u = scene::Wrap::Clamp, .wrap_v = scene::Wrap::Clamp, .nearest = true};
+    for (scene::Mesh& mesh : s.scene().meshes)
+        for (scene::Vertex& vertex : mesh.primitives[0].vertices)
+            vertex.colour[3] = uint16_t(random() % 2 ? 65535 : 16000);
+    s.box({0, 0, 0}, glm::vec3(9));
+    s.scene().meshes.back().primitives[0].material = uint32_t(s.scene().materials.size());
+    s.scene().materials.emplace_back().double_sided = true;
+    return s;
+}
+
+// Each map has the leaves that its lamp sees, and none of those of its neighbours in the image.
+TEST(DistanceMap, LeavesHideWhatTheyHideInEveryMapOfAnImage) {
+    PassRig rig;
+    OccluderScene s = leaves();
+    const RayCaster rays(s.scene(), scene::world_transforms(s.scene(), 0));
+    std::vector<render::MapToDraw> maps;
+    uint32_t first = 0;
+    for (uint32_t i = 0; i < 7; ++i) {
+        const bool flat = i == 2, beam = i == 4;
+        const glm::dmat4 pose =
+            glm::translate(glm::dmat4(1), glm::dvec3(0.2 * i - 0.6, 0.15 * i - 0.5, 0.5 - 0.15 * i)) *
+            glm::mat4_cast(glm::angleAxis(0.9 * i, glm::normalize(glm::dvec3(1, 0.3 * i, -0.5))));
+        maps.push_back({{.side = i % 2 ? 128u : 64u,
+                         .hemispheres = flat || beam ? 1u : 2u,
+                         .zoom = flat   ? 1.2f
+                                 : beam ? 2.5f
+                                        : 1.0f,
+                         .flat = flat,
+                         .range = 100,
+                         .radius = 0,
+                         .first = first},
+                        gpu_scene::map_frame(pose),
+                        {},
+                        {}});
+        maps.back().lamp = i;
+        first += maps.back().layout.texels();
+    }
+    const std::vector<float> drawn = draw(rig, s.scene(), maps, first);
+    size_t leaf = 0;
+    for (const render::MapToDraw& map : maps)
+        for (uint32_t h = 0; h < map.layout.hemispheres; ++h) {
+            const uint32_t side = map.layout.side, begin = map.layout.first + h * side * side;
+            SCOPED_TRACE("map of lamp " + std::to_string(map.lamp));
+            // Where opacity passes the cutoff between two corners float may have it beside: 1 of 5,000.
+            expect_rays(rays, map, h == 1, &drawn[begin], std::max(2.5 * snapped(rig.device()), 0.01),
+                        snaps_coarsely(rig.device()), 1 + side * side / 5000);
+            for (uint32_t i = 0; i < side * side; ++i) leaf += drawn[begin + i] < 7 ? 1 : 0;
+        }
+    EXPECT_GT(leaf, first / 20);
+    EXPECT_LT(leaf, first / 2);
     EXPECT_EQ(rig.complaints(), "");
 }
 

@@ -1,78 +1,57 @@
 # vesper_embed_shaders(<target> <file>...)
 #   Compiles each shader of glsl/ to SPIR-V and links it into <target> as an array. The array is named after the file
-#   without its folder, its include file after both: glsl/sky/sky.comp becomes the array sky_comp, to be included from
+#   without its folder, the header that declares it after both: glsl/sky/sky.comp becomes the array sky_comp of
 #   <shaders/sky/sky.comp.inc>. Shaders include files of glsl/ by their path in it, files of their own folder by their
-#   name. Rebuilt when a shader, or anything it includes, changes. A shader that includes texels.glsl is compiled once
-#   more, with STORAGE_TEXELS: sky_comp_storage of <shaders/sky/sky.comp.storage.inc>.
+#   name. A shader that includes texels.glsl is compiled once more, with STORAGE_TEXELS: sky_comp_storage. Code includes
+#   the declarations alone: when a shader changes, its array is compiled and what has it linked.
 find_program(VESPER_GLSLANG NAMES glslang glslangValidator REQUIRED)
 
 function(vesper_embed_shaders target)
     foreach(name IN LISTS ARGN)
-        get_filename_component(file ${name} NAME)
-        get_filename_component(folder ${name} DIRECTORY)
-        string(MAKE_C_IDENTIFIER ${file} symbol)
+        cmake_path(GET name FILENAME file)
+        string(MAKE_C_IDENTIFIER ${file} array)
         set(source ${PROJECT_SOURCE_DIR}/glsl/${name})
-        file(MAKE_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/shaders/${folder})
-        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
-        file(STRINGS ${source} texels REGEX "#include \"texels.glsl\"")
-        set(variants ".")
-        if(texels)
-            list(APPEND variants ".storage.")
-        endif()
-        foreach(variant IN LISTS variants)
-            set(made ${CMAKE_CURRENT_BINARY_DIR}/shaders/${name}${variant}inc)
-            set(array ${symbol})
-            set(define)
-            if(variant STREQUAL ".storage.")
-                set(array ${symbol}_storage)
-                set(define -DSTORAGE_TEXELS)
-            endif()
-            add_custom_command(
-                OUTPUT ${made}
-                DEPENDS ${source}
-                DEPFILE ${made}.d
-                COMMAND ${VESPER_GLSLANG} --quiet --target-env vulkan1.3 ${define} -I${PROJECT_SOURCE_DIR}/glsl
-                        -I${CMAKE_CURRENT_BINARY_DIR}/operators --vn ${array} --depfile ${made}.d -o ${made} ${source}
-                COMMENT "Shader ${name}"
-                VERBATIM)
-            target_sources(${target} PRIVATE ${made})
-        endforeach()
+        set(made ${CMAKE_CURRENT_BINARY_DIR}/shaders/${name}.cpp)
+        file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/shaders/${name}.inc @ONLY
+             CONTENT "#pragma once\n#include <cstdint>\n\nnamespace vesper {\nextern const uint32_t @array@[], @array@_storage[];\n}\n")
+        add_custom_command(
+            OUTPUT ${made}
+            DEPENDS ${source} ${PROJECT_SOURCE_DIR}/cmake/embed_shader.cmake
+            DEPFILE ${made}.d
+            COMMAND ${CMAKE_COMMAND} -DGLSLANG=${VESPER_GLSLANG} -DSHADER=${source} -DARRAY=${array} -DGLSL=${PROJECT_SOURCE_DIR}/glsl
+                    -DOPERATORS=${CMAKE_CURRENT_BINARY_DIR}/operators -DMADE=${made} -P ${PROJECT_SOURCE_DIR}/cmake/embed_shader.cmake
+            COMMENT "Shader ${name}"
+            VERBATIM)
+        target_sources(${target} PRIVATE ${made})
+        set_source_files_properties(${made} PROPERTIES SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
     endforeach()
     target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
 endfunction()
 
 # vesper_operators(<target>)
 #   Reads the operators of vesper/operators.h and writes, for files named after them, what includes and calls them:
-#   operators_frames.glsl (NAME_frame) and operators_pixels.glsl (NAME_seen, NAME_mapped, NAME_rgb, where there are any)
-#   of glsl/operators/NAME.glsl, and render/operators/all.inc of engine/render/operators/NAME.h.
+#   operators_frames.glsl (NAME_frame) and operators_pixels.glsl (NAME_seen, NAME_mapped, NAME_rgb, where
+#   glsl/operators/NAME.glsl defines NAME_SEEN, NAME_MAPPED, NAME_RGB in capitals), and render/operators/all.inc of
+#   engine/render/operators/NAME.h.
 function(vesper_operators target)
     set(list ${PROJECT_SOURCE_DIR}/engine/include/vesper/operators.h)
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${list})
     file(READ ${list} text)
     string(REGEX MATCHALL "X\\([A-Z]+, [A-Za-z]+, [a-z]+, [0-9]+," lines "${text}")
     foreach(line IN LISTS lines)
-        string(REGEX REPLACE "X\\([A-Z]+, [A-Za-z]+, ([a-z]+), ([0-9]+)," "\\1;\\2" both "${line}")
-        list(GET both 0 name)
-        list(GET both 1 value)
-        set(shader ${PROJECT_SOURCE_DIR}/glsl/operators/${name}.glsl)
-        set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${shader})
-        file(READ ${shader} text)
+        string(REGEX REPLACE "X\\(([A-Z]+), [A-Za-z]+, ([a-z]+), ([0-9]+)," "\\1;\\2;\\3" parts "${line}")
+        list(GET parts 0 NAME)
+        list(GET parts 1 name)
+        list(GET parts 2 value)
         string(APPEND includes "#include \"operators/${name}.glsl\"\n")
         string(APPEND headers "#include \"render/operators/${name}.h\"\n")
         string(APPEND frame "    if (kOperator == ${value}u) ${name}_frame(frame);\n")
-        if(text MATCHES " ${name}_seen\\(")
-            string(APPEND seen "    if (kForm == ${value}u) return ${name}_seen(tone, rgb);\n")
-        endif()
-        if(text MATCHES " ${name}_mapped\\(")
-            string(APPEND itself " || kForm == ${value}u")
-            string(APPEND mapped "    if (kForm == ${value}u) return ${name}_mapped(curve, tone, rgb, luminance);\n")
-        endif()
-        if(text MATCHES " ${name}_rgb\\(")
-            string(APPEND itself " || kForm == ${value}u")
-            string(APPEND rgb "    if (kForm == ${value}u && is_finite(luminance_of(rgb))) return ${name}_rgb(tone, rgb);\n")
-        endif()
+        string(APPEND seen "#ifdef ${NAME}_SEEN\n    if (kForm == ${value}u) return ${name}_seen(tone, rgb);\n#endif\n")
+        string(APPEND itself "#if defined(${NAME}_MAPPED) || defined(${NAME}_RGB)\n    || kForm == ${value}u\n#endif\n")
+        string(APPEND mapped "#ifdef ${NAME}_MAPPED\n    if (kForm == ${value}u) return ${name}_mapped(curve, tone, rgb, luminance);\n#endif\n")
+        string(APPEND rgb "#ifdef ${NAME}_RGB\n    if (kForm == ${value}u && is_finite(luminance_of(rgb))) return ${name}_rgb(tone, rgb);\n#endif\n")
     endforeach()
-    set(pixel_includes "${includes}\nconst bool kMapsItself = false${itself};\n\n")
+    set(pixel_includes "${includes}\nconst bool kMapsItself = false\n${itself};\n\n")
     set(made ${CMAKE_CURRENT_BINARY_DIR}/operators)
     file(CONFIGURE OUTPUT ${made}/operators_frames.glsl @ONLY
          CONTENT "${includes}\nvoid operator_frame(Frame frame) {\n${frame}}\n")

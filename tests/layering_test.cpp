@@ -1,5 +1,6 @@
 // The shape of the source tree: who may include whom, and that every pass has its reference and its test.
 // SPDX-License-Identifier: MIT
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -163,6 +164,45 @@ TEST(Layering, EveryTestOfAPassHasAReference) {
         if (stem.ends_with(reference)) stem.resize(stem.size() - reference.size());
         EXPECT_TRUE(fs::exists(file.parent_path() / (stem + "_reference.h"))) << file;
     }
+}
+
+// A shader that includes texels.glsl is embedded twice (cmake/Functions.cmake): code uses NAME_storage of these
+// shaders.
+TEST(Layering, VariantsForShortTexelBuffersAreUsed) {
+    const std::string ending = "_storage";
+    std::set<std::string> used;
+    for (const fs::path& file : files_under(kSource / "engine", {".cpp"})) {
+        const std::string text = text_of(file);
+        for (size_t at = text.find(ending); at != text.npos; at = text.find(ending, at + 1)) {
+            size_t first = at;
+            while (first > 0 && (std::isalnum(static_cast<unsigned char>(text[first - 1])) || text[first - 1] == '_'))
+                --first;
+            used.insert(text.substr(first, at - first));
+        }
+    }
+    size_t twice = 0;
+    for (const fs::path& file : files_under(kSource / "glsl", {".comp", ".vert", ".frag"})) {
+        const std::string array = file.stem().string() + "_" + file.extension().string().substr(1);
+        const bool has_texels = text_of(file).find("#include \"texels.glsl\"") != std::string::npos;
+        EXPECT_EQ(used.contains(array), has_texels) << file;
+        twice += has_texels;
+    }
+    EXPECT_GT(twice, 15u);
+}
+
+// The calls of an operator's functions are compiled where its shader defines the name of the function in capitals.
+TEST(Layering, OperatorsDefineTheNamesOfTheirFunctions) {
+    size_t defined = 0;
+    for (const fs::path& file : files_under(kSource / "glsl" / "operators", {".glsl"}))
+        for (const std::string kind : {"seen", "mapped", "rgb"}) {
+            const std::string text = text_of(file), name = file.stem().string() + "_" + kind;
+            std::string capitals = name;
+            for (char& letter : capitals) letter = char(std::toupper(letter));
+            const bool defines = text.find("#define " + capitals + "\n") != std::string::npos;
+            EXPECT_EQ(text.find(" " + name + "(") != std::string::npos, defines) << file << ": " << capitals;
+            defined += defines;
+        }
+    EXPECT_GT(defined, 5u);
 }
 
 /// Why a file with this text is not in the namespace of its module; empty if it is.

@@ -97,7 +97,8 @@ GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsShaders& 
 
 const GraphicsPipeline& GraphicsPipelineCache::get(const GraphicsShaders& shaders,
                                                    const GraphicsVariant& variant) const {
-    Key key{shaders.vertex.data(), shaders.fragment.data(), variant};
+    const std::span<const uint32_t> vertex = shaders.vertex, fragment = shaders.fragment;
+    Key key{vertex.data(), fragment.data(), variant};
     const auto found = pipelines_.find(key);
     if (found != pipelines_.end()) return found->second;
     return pipelines_.emplace(std::move(key), GraphicsPipeline(device_, shaders, variant)).first->second;

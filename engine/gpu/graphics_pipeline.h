@@ -8,14 +8,15 @@
 #include <utility>
 #include <vector>
 
+#include "gpu/embedded_code.h"
 #include "gpu/kernel.h"
 
 namespace vesper::gpu {
 
 /// A vertex and a fragment shader that are embedded in the program, and what they read.
 struct GraphicsShaders {
-    const char* name;                            ///< for messages
-    std::span<const uint32_t> vertex, fragment;  ///< SPIR-V, must outlive the caches that know it
+    const char* name;  ///< for messages
+    EmbeddedCode vertex, fragment;
     std::span<const VkDescriptorType> bindings;  ///< of the fragment shader; binding i is the i-th
     uint32_t push_bytes;
     VkShaderStageFlags push_stages;

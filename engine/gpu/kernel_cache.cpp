@@ -16,8 +16,9 @@ std::vector<uint32_t> rolled(std::span<const uint32_t> spirv) {
 }  // namespace
 
 const Kernel& KernelCache::get(const Shader& shader, std::initializer_list<uint32_t> constants) const {
-    const bool storage = !shader.storage.empty() && !device_.has_long_texel_buffers();
-    const std::span<const uint32_t> spirv = storage ? shader.storage : shader.spirv;
+    const std::span<const uint32_t> of_texels = shader.spirv, of_storage = shader.storage;
+    const bool storage = !of_storage.empty() && !device_.has_long_texel_buffers();
+    const std::span<const uint32_t> spirv = storage ? of_storage : of_texels;
     Key key{spirv.data(), constants};
     const auto found = kernels_.find(key);
     if (found != kernels_.end()) return found->second;

@@ -3,21 +3,21 @@
 
 #include <initializer_list>
 #include <map>
-#include <span>
 #include <utility>
 #include <vector>
 
+#include "gpu/embedded_code.h"
 #include "gpu/kernel.h"
 
 namespace vesper::gpu {
 
 /// A compute shader that is embedded in the program.
 struct Shader {
-    const char* name;                 ///< of its file, for messages
-    std::span<const uint32_t> spirv;  ///< must outlive the caches that know it
+    const char* name;  ///< of its file, for messages
+    EmbeddedCode spirv;
     /// The same where texel buffers are storage buffers (glsl/texels.glsl), which devices with short texel buffers are
     /// given; empty: there are none, or short ones.
-    std::span<const uint32_t> storage = {};
+    EmbeddedCode storage = {};
 };
 
 /// Makes each kernel when it is first asked for, and keeps it. Not thread-safe.

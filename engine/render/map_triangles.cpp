@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "shaders/distance_map/cull_triangles.comp.inc"
-#include "shaders/distance_map/cull_triangles.comp.storage.inc"
 #include "shaders/distance_map/map_triangles.frag.inc"
 #include "shaders/distance_map/map_triangles.vert.inc"
 #include "shared/edges.h"

@@ -7,7 +7,6 @@
 #include "shaders/window/overlay.frag.inc"
 #include "shaders/window/overlay.vert.inc"
 #include "shaders/window/present.frag.inc"
-#include "shaders/window/present.frag.storage.inc"
 #include "shaders/window/present.vert.inc"
 #include "shared/present.h"
 

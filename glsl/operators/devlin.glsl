@@ -17,6 +17,8 @@ vec3 devlin_light(vec4 set, vec4 average, vec2 span, vec3 rgb, float luminance) 
     return mix(pow((code + 0.055) / 1.055, vec3(2.4)), code / 12.92, lessThanEqual(code, vec3(0.04045)));
 }
 
+#define DEVLIN_RGB
+
 #ifdef OPERATOR_FRAMES
 
 float devlin_grey(vec4 average, float luminance) {

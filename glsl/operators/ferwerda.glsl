@@ -1,5 +1,8 @@
 // Ferwerda, Pattanaik, Shirley and Greenberg 1996: linear gains of cones and rods.
 
+#define FERWERDA_SEEN
+#define FERWERDA_MAPPED
+
 #ifdef OPERATOR_FRAMES
 
 void ferwerda_frame(Frame frame) { gains_frame(frame); }

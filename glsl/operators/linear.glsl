@@ -1,5 +1,7 @@
 // Linear between two luminances. Settings: those shown as black and as white, cd/m^2; white 0 is the largest of the frame.
 
+#define LINEAR_MAPPED
+
 #ifdef OPERATOR_FRAMES
 
 void linear_frame(Frame frame) {

@@ -14,6 +14,8 @@ vec3 neutral_light(float scale, vec3 rgb) {
     return mix(vec3(shown), colour * (shown / peak), 1.0 / (desaturation * (peak - shown) + 1.0));
 }
 
+#define NEUTRAL_RGB
+
 #ifdef OPERATOR_FRAMES
 
 void neutral_frame(Frame frame) {

@@ -1,6 +1,8 @@
 // Visual adaptation after Pattanaik, Tumblin, Yee and Greenberg 2000 (vision/pattanaik.h): responses of cones and rods
 // and the exponent of colour, as a table over ln luminance. Settings: the constant of the rods.
 
+#define PATTANAIK_MAPPED
+
 #ifdef OPERATOR_FRAMES
 
 const float kDisplayCones = 25.0;  // cd/m^2 that the display's observer is adapted to

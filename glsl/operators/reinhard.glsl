@@ -1,6 +1,8 @@
 // Reinhard, Stark, Shirley and Ferwerda 2002, global; key and white from the frame after Reinhard 2003.
 // Settings: key, white (cd/m^2, 0: the largest of the frame), 1 for both from the frame.
 
+#define REINHARD_MAPPED
+
 #ifdef OPERATOR_FRAMES
 
 void reinhard_frame(Frame frame) {

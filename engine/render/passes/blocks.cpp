@@ -1,9 +1,7 @@
 #include "render/passes/blocks.h"
 
 #include "shaders/blocks/cull_lamps.comp.inc"
-#include "shaders/blocks/cull_lamps.comp.storage.inc"
 #include "shaders/blocks/merge_lamps.comp.inc"
-#include "shaders/blocks/merge_lamps.comp.storage.inc"
 #include "shared/blocks.h"
 
 namespace vesper::render {

@@ -6,7 +6,6 @@
 
 #include "shaders/cluster/active_clusters.comp.inc"
 #include "shaders/cluster/cluster.comp.inc"
-#include "shaders/cluster/cluster.comp.storage.inc"
 #include "shared/shade.h"
 
 namespace vesper::render {

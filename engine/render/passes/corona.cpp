@@ -1,7 +1,6 @@
 #include "render/passes/corona.h"
 
 #include "shaders/corona/corona.comp.inc"
-#include "shaders/corona/corona.comp.storage.inc"
 #include "shaders/corona/corona_pick.comp.inc"
 #include "shaders/corona/corona_tiles.comp.inc"
 #include "shared/corona.h"

@@ -2,7 +2,6 @@
 
 #include "render/pixel_groups.h"
 #include "shaders/daylight/daylight.comp.inc"
-#include "shaders/daylight/daylight.comp.storage.inc"
 #include "shared/daylight.h"
 
 namespace vesper::render {

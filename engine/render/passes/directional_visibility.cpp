@@ -5,7 +5,6 @@
 
 #include "base/error.h"
 #include "shaders/directional_visibility/directional_visibility.comp.inc"
-#include "shaders/directional_visibility/directional_visibility.comp.storage.inc"
 
 namespace vesper::render {
 namespace {

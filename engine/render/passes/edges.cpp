@@ -4,10 +4,8 @@
 
 #include "render/pixel_groups.h"
 #include "shaders/edges/edge_means.comp.inc"
-#include "shaders/edges/edge_means.comp.storage.inc"
 #include "shaders/edges/find_edges.comp.inc"
 #include "shaders/edges/show_edges.comp.inc"
-#include "shaders/edges/show_edges.comp.storage.inc"
 #include "shared/edges.h"
 
 namespace vesper::render {

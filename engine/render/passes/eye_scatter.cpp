@@ -4,13 +4,9 @@
 #include <functional>
 
 #include "shaders/eye_scatter/scatter_down.comp.inc"
-#include "shaders/eye_scatter/scatter_down.comp.storage.inc"
 #include "shaders/eye_scatter/scatter_edge.comp.inc"
-#include "shaders/eye_scatter/scatter_edge.comp.storage.inc"
 #include "shaders/eye_scatter/scatter_top.comp.inc"
-#include "shaders/eye_scatter/scatter_top.comp.storage.inc"
 #include "shaders/eye_scatter/scatter_up.comp.inc"
-#include "shaders/eye_scatter/scatter_up.comp.storage.inc"
 #include "shared/eye_scatter.h"
 
 namespace vesper::render {

@@ -3,7 +3,6 @@
 #include "render/pixel_groups.h"
 #include "shaders/indirect/illuminance.comp.inc"
 #include "shaders/indirect/indirect.comp.inc"
-#include "shaders/indirect/indirect.comp.storage.inc"
 #include "shared/indirect.h"
 
 namespace vesper::render {

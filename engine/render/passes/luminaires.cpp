@@ -2,7 +2,6 @@
 
 #include "render/silhouettes.h"
 #include "shaders/luminaires/luminaires.comp.inc"
-#include "shaders/luminaires/luminaires.comp.storage.inc"
 
 namespace vesper::render {
 namespace {

@@ -2,9 +2,7 @@
 
 #include "render/pixel_groups.h"
 #include "shaders/moving_light/hidden.comp.inc"
-#include "shaders/moving_light/hidden.comp.storage.inc"
 #include "shaders/moving_light/patches.comp.inc"
-#include "shaders/moving_light/patches.comp.storage.inc"
 
 namespace vesper::render {
 namespace {

@@ -4,7 +4,6 @@
 
 #include "render/pixel_groups.h"
 #include "shaders/shade/shade.comp.inc"
-#include "shaders/shade/shade.comp.storage.inc"
 
 namespace vesper::render {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "render/pixel_groups.h"
 #include "shaders/sky/sky.comp.inc"
-#include "shaders/sky/sky.comp.storage.inc"
 #include "shared/sky.h"
 
 namespace vesper::render {

@@ -2,7 +2,6 @@
 
 #include "render/silhouettes.h"
 #include "shaders/small_emitters/small_emitters.comp.inc"
-#include "shaders/small_emitters/small_emitters.comp.storage.inc"
 #include "shared/edges.h"
 
 namespace vesper::render {

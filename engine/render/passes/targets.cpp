@@ -5,7 +5,6 @@
 
 #include "base/error.h"
 #include "shaders/targets/targets.comp.inc"
-#include "shaders/targets/targets.comp.storage.inc"
 
 namespace vesper::render {
 namespace {

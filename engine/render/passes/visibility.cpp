@@ -1,7 +1,6 @@
 #include "render/passes/visibility.h"
 
 #include "shaders/visibility/visibility.comp.inc"
-#include "shaders/visibility/visibility.comp.storage.inc"
 
 namespace vesper::render {
 namespace {

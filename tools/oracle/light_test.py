@@ -1,4 +1,4 @@
-"""scripts/shadow-oracle --self-test: paths of rays against closed forms. SPDX-License-Identifier: MIT"""
+"""tools/oracle/oracle --self-test: paths of rays against closed forms. SPDX-License-Identifier: MIT"""
 
 import base64
 import io
@@ -6,10 +6,10 @@ import io
 import numpy as np
 from PIL import Image
 
-import shadow_oracle_radiance
-import shadow_oracle_rays as tracing
-from shadow_oracle_light import EMITTERS, LAMPS, SKY, Light
-from shadow_oracle_scene import LUMINANCE
+import radiance
+import rays as tracing
+from light import EMITTERS, LAMPS, SKY, Light
+from scene import LUMINANCE
 
 BLACK, WALL = 0, 1                          # materials: of the ground, of rooms
 TURNS = {"up": [0, 0, 0, 1], "down": [1, 0, 0, 0], "east": [0, 0, -np.sqrt(0.5), np.sqrt(0.5)],
@@ -193,7 +193,7 @@ def check_radiance(checks, made_class, folder, noise):
     light = Light(tracing.Rays(scene))
     parts, _ = light.traced(seen, np.ones((16, 3)), 32, noise)
     direct = tracing.lamp_light(scene.lamps, np.int64(0), seen["position"], seen["normal"])
-    got = shadow_oracle_radiance.Radiance(scene, folder, light).all_light(
+    got = radiance.Radiance(scene, folder, light).all_light(
         seen["position"] + [0, tracing.OFF_SURFACE, 0], seen["normal"], 12, 1024) @ LUMINANCE
     ratio = (np.pi * parts.sum() + direct.sum()) / got.sum()
     checks.check("Radiance: all light in a room", abs(ratio - 1) < 0.02, f"paths / Radiance {ratio:.4f}")

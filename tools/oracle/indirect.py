@@ -1,4 +1,4 @@
-"""Luminances of pixels with light between surfaces, against traced light, for scripts/shadow-oracle --indirect.
+"""Luminances of pixels with light between surfaces, against traced light, for tools/oracle/oracle --indirect.
 
 SPDX-License-Identifier: MIT"""
 
@@ -6,9 +6,9 @@ import time
 
 import numpy as np
 
-import shadow_oracle_rays as tracing
-from shadow_oracle_light import EMITTERS, LAMPS, SKY, SURE_REFLECTIONS, Light
-from shadow_oracle_scene import LUMINANCE, BadInput
+import rays as tracing
+from light import EMITTERS, LAMPS, SKY, SURE_REFLECTIONS, Light
+from scene import LUMINANCE, BadInput
 
 RADIANCE_PATHS = 2048
 SAME_REFLECTANCE = 0.03          # of all pixels in the median; textures are filtered in pictures only
@@ -43,8 +43,8 @@ class Comparison:
         self.pixels = Pixels()
         self.radiance = None
         if self.a.radiance > 0:
-            import shadow_oracle_radiance
-            self.radiance = shadow_oracle_radiance.Radiance(self.scene, oracle.folder, self.light)
+            import radiance
+            self.radiance = radiance.Radiance(self.scene, oracle.folder, self.light)
 
     def pictures(self, camera):
         o = self.oracle

@@ -1,4 +1,4 @@
-"""Light of lamps, emitting surfaces, an even sky and reflections by paths of rays, for scripts/shadow-oracle.
+"""Light of lamps, emitting surfaces, an even sky and reflections by paths of rays, for tools/oracle/oracle.
 
 Written from the physics, not from the engine: the luminance that leaves a matt surface is its reflectance times its
 illuminance / pi; illuminance is the integral of luminance over the hemisphere, weighted by the cosine (Kajiya 1986).
@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 import OpenEXR
 
-from shadow_oracle_rays import OFF_SURFACE, lamp_light, unit
-from shadow_oracle_scene import LUMINANCE, BadInput
+from rays import OFF_SURFACE, lamp_light, unit
+from scene import LUMINANCE, BadInput
 
 CUBE = 5.0           # m, of space in which sources are chosen alike
 HALF = CUBE * 0.87   # m, from its centre to its corners, at most

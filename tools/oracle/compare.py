@@ -35,11 +35,11 @@ from pathlib import Path
 import numpy as np
 import OpenEXR
 
-import shadow_oracle_rays as tracing
-import shadow_oracle_scene as reading
-from shadow_oracle_scene import GREY, LUMINANCE, BadInput
+import rays as tracing
+import scene as reading
+from scene import GREY, LUMINANCE, BadInput
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parent.parent.parent
 STREET = ROOT / "data/rivoli/rivoli.gltf", ROOT / "data/rivoli/rivoli.photometry.json"
 BRIGHT = 1.3             # lx, as in tests/passes/visibility_test.cpp
 SAME_SURFACE = 0.01
@@ -47,12 +47,12 @@ EDGE_TEXELS = 2
 FEWEST_PAIRS = 200       # of a lamp that is chosen, of the pixels of a camera
 MORE_PIXELS = 3          # for pairs, times those for the light
 EXAMPLES = """examples:
-  scripts/shadow-oracle                                       the night street of data/rivoli, all its cameras
-  scripts/shadow-oracle night.gltf --camera driver --size 1680x1050
-  scripts/shadow-oracle --opening-samples 64 --lamps 0        against lamps of the size of their openings
-  scripts/shadow-oracle --radiance 500                        with Radiance as a second witness
-  scripts/shadow-oracle night.gltf --indirect 100             light between surfaces, 100 pixels of each camera
-  scripts/shadow-oracle --self-test                           closed forms; no device and no vesper needed"""
+  tools/oracle/oracle                                       the night street of data/rivoli, all its cameras
+  tools/oracle/oracle night.gltf --camera driver --size 1680x1050
+  tools/oracle/oracle --opening-samples 64 --lamps 0        against lamps of the size of their openings
+  tools/oracle/oracle --radiance 500                        with Radiance as a second witness
+  tools/oracle/oracle night.gltf --indirect 100             light between surfaces, 100 pixels of each camera
+  tools/oracle/oracle --self-test                           closed forms; no device and no vesper needed"""
 
 
 def run(*command):
@@ -91,8 +91,8 @@ class Oracle:
         scene.grey_copy(folder / "grey.gltf")
         self.radiance = None
         if arguments.radiance > 0 and not arguments.indirect:
-            import shadow_oracle_radiance
-            self.radiance = shadow_oracle_radiance.Radiance(scene, folder)
+            import radiance
+            self.radiance = radiance.Radiance(scene, folder)
 
     def picture(self, camera, shadows, scene="grey.gltf"):
         """RGB of vesper's picture as illuminance, lx."""
@@ -248,7 +248,7 @@ class Oracle:
 
 
 def parse():
-    parser = argparse.ArgumentParser(prog="shadow-oracle", description=__doc__, epilog=EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(prog="oracle", description=__doc__, epilog=EXAMPLES, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", nargs="?", type=Path, help="photometric .gltf or .glb; default: data/rivoli, converted")
     parser.add_argument("--camera", action="append", help="camera to look through; again for more (all of the scene)")
     parser.add_argument("--size", default="840x525", help="of the pictures, px (%(default)s)")
@@ -293,8 +293,8 @@ def main():
             folder = Path(folder)
             os.environ["VESPER_SHADOW_CACHE"] = a.shadow_cache or (str(folder / "cache") if a.indirect else "off")
             if a.self_test:
-                import shadow_oracle_test
-                return shadow_oracle_test.main(folder)
+                import compare_test
+                return compare_test.main(folder)
             if not a.vesper.exists():
                 raise BadInput(f"{a.vesper}: no such program")
             if a.scene is None:
@@ -307,8 +307,8 @@ def main():
             oracle, table = Oracle(a, scene, folder), Table(a.camera + ["all"] * (a.indirect > 0))
             oracle.check_triangles(table)
             if a.indirect:
-                import shadow_oracle_indirect
-                shadow_oracle_indirect.compare(oracle, table)
+                import indirect
+                indirect.compare(oracle, table)
             else:
                 for camera in a.camera:
                     oracle.compare(table, camera)
@@ -317,7 +317,7 @@ def main():
                 print(f"BROKEN: {line}")
             return 1 if oracle.broken else 0
     except BadInput as error:
-        print(f"shadow-oracle: {error}", file=sys.stderr)
+        print(f"oracle: {error}", file=sys.stderr)
         return 2
 
 

@@ -1,4 +1,4 @@
-"""The light of lamps, or all light, by Radiance (oconv, obj2mesh, rtrace), for scripts/shadow-oracle.
+"""The light of lamps, or all light, by Radiance (oconv, obj2mesh, rtrace), for tools/oracle/oracle.
 
 SPDX-License-Identifier: MIT
 
@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 import pyradiance
 
-from shadow_oracle_scene import BadInput
+from scene import BadInput
 
 RADIUS = 1e-3  # m, of lamps
 CLOSE = 5e-3   # m, by which a ray to a lamp may miss it
@@ -23,7 +23,7 @@ LOOKS = 4096   # places on triangles of a material, for its mean
 
 class Radiance:
     def __init__(self, scene, folder, light=None):
-        """`light`: of shadow_oracle_light, for all light."""
+        """`light`: of light, for all light."""
         self.scene, self.folder, self.light = scene, folder, light
         self.tools = Path(pyradiance.__file__).parent / "bin"
         self.environment = {**os.environ, "PATH": f"{self.tools}:{os.environ['PATH']}", "RAYPATH": f".:{self.tools.parent / 'lib'}"}

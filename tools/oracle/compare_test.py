@@ -1,17 +1,19 @@
-"""scripts/shadow-oracle --self-test: the oracle against closed forms. SPDX-License-Identifier: MIT"""
+"""tools/oracle/oracle --self-test: the oracle against closed forms. SPDX-License-Identifier: MIT"""
 
 import base64
 import io
 import json
+import re
 import struct
+from pathlib import Path
 
 import numpy as np
 from PIL import Image
 
-import shadow_oracle_light_test
-import shadow_oracle_radiance
-import shadow_oracle_rays as tracing
-from shadow_oracle_scene import LUMINANCE, BadInput, Scene
+import light_test
+import radiance
+import rays as tracing
+from scene import FARTHEST_ASIDE, FARTHEST_UP, LUMINANCE, BadInput, Scene
 
 DOWN = [-np.sqrt(0.5), 0, 0, np.sqrt(0.5)]  # -z to -y
 SIDE = 40.0                                 # half the ground, m
@@ -225,7 +227,7 @@ def check_radiance(checks, folder, noise):
         scene, s = made.scene(folder), ground(noise, 1000)
         points, lit, light = tracing.pairs_of(scene.lamps, s, 1e-9)
         want = np.bincount(points, light * tracing.visible_share(tracing.Rays(scene), s, points, lit), 1000)
-        got = shadow_oracle_radiance.Radiance(scene, folder).illuminance(s["position"] + [0, tracing.OFF_SURFACE, 0], s["normal"])
+        got = radiance.Radiance(scene, folder).illuminance(s["position"] + [0, tracing.OFF_SURFACE, 0], s["normal"])
         same = np.abs(got - want) <= 1e-3 * want.max()
         checks.check(f"Radiance: {what}", same.mean() > 0.99, f"{same.mean():.4f} agree")
 
@@ -242,14 +244,29 @@ def check_refusals(checks, folder):
             checks.check(f"refuses {what}", "does not read" in str(error), str(error))
 
 
+# Numbers of the engine that the oracle repeats, by their names there.
+REPEATED = {"const uint kRegion": tracing.LEAST_SIDE, "kMostMapSide": tracing.MOST_SIDE, "kMostMapTexels": tracing.MOST_TEXELS, "kMostZoom": tracing.MOST_ZOOM,
+            "kFaintestLight": tracing.FAINTEST, "kWidestFlat": tracing.WIDEST_FLAT, "kFarthestAside": FARTHEST_ASIDE, "kFarthestUp": FARTHEST_UP}
+
+
+def check_constants(checks):
+    root = Path(__file__).resolve().parent.parent.parent
+    code = "".join(file.read_text() for folder in ("engine", "glsl") for file in sorted((root / folder).rglob("*")) if file.suffix in (".h", ".cpp"))
+    for name, value in REPEATED.items():
+        found = {text.strip() for text in re.findall(rf"\b{name} = ([^,;]+)[,;]", code)}
+        values = {eval(re.sub(r"(\d)u\b", r"\1", text), {"kPi": np.pi}) for text in found}
+        checks.check(f"{name} as in the engine", values == {value}, f"{value} here, {', '.join(found) or 'nothing'} there")
+
+
 def main(folder):
     checks, noise = Checks(), np.random.default_rng(7)
+    check_constants(checks)
     check_plate(checks, folder, noise)
     check_mask(checks, folder, noise)
     check_fixture(checks, folder, noise)
     check_motion(checks, folder, noise)
     check_opening(checks, folder, noise)
     check_radiance(checks, folder, noise)
-    shadow_oracle_light_test.main(checks, Made, folder, noise)
+    light_test.main(checks, Made, folder, noise)
     check_refusals(checks, folder)
     return 1 if checks.failed else 0

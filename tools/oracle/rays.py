@@ -1,4 +1,4 @@
-"""Rays through a scene with Embree, and the direct light of lamps, for scripts/shadow-oracle. SPDX-License-Identifier: MIT"""
+"""Rays through a scene with Embree, and the direct light of lamps, for tools/oracle/oracle. SPDX-License-Identifier: MIT"""
 
 import numpy as np
 from embreex.mesh_construction import TriangleMesh

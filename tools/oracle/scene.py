@@ -1,4 +1,4 @@
-"""A reader of photometric glTF scenes for scripts/shadow-oracle, and the grey copies of them that it renders.
+"""A reader of photometric glTF scenes for tools/oracle/oracle, and the grey copies of them that it renders.
 
 Independent of the engine: JSON, numpy and Pillow alone. What it does not read it refuses. SPDX-License-Identifier: MIT
 """

@@ -18,7 +18,7 @@
 namespace vesper::test {
 namespace {
 
-const std::string kData = VESPER_SOURCE_DIR "/data/";
+const std::string kOwnData = VESPER_SOURCE_DIR "/data/";
 
 class Inspect : public testing::Test {
 protected:
@@ -51,7 +51,7 @@ protected:
 };
 
 TEST_F(Inspect, AScene) {
-    ASSERT_EQ(inspect(kData + "rivoli/rivoli.gltf --json a.json"), 0) << said;
+    ASSERT_EQ(inspect(kOwnData + "rivoli/rivoli.gltf --json a.json"), 0) << said;
     EXPECT_TRUE(prints("lx from the sky are no night")) << printed;
     const auto day = json("a.json");
     EXPECT_EQ(day["kind"], "scene");
@@ -60,7 +60,7 @@ TEST_F(Inspect, AScene) {
     folder.write("p.json",
                  R"({"version": 1, "lamps": [{"name": "lantern", "nodes": "street_lamp_*/light", "type": "point",
         "intensity_cd": 1000, "colour_temperature_K": 2700}]})");
-    ASSERT_EQ(std::system((std::string(VESPER_PROGRAM) + " convert " + kData + "rivoli/rivoli.gltf -p " +
+    ASSERT_EQ(std::system((std::string(VESPER_PROGRAM) + " convert " + kOwnData + "rivoli/rivoli.gltf -p " +
                            (folder / "p.json").string() + " -o " + (folder / "n.gltf").string() + " >/dev/null 2>&1")
                               .c_str()),
               0);
@@ -200,9 +200,9 @@ TEST_F(Inspect, RefusesPointsThatAreNone) {
     refuses("a.gltf --at 0,0,0 --paths 1", "--paths");
     refuses("a.gltf --at 0,0,0 --lamp spot", "ask for one of them");
     refuses("a.gltf --at 0,0,0 --balance", "ask for one of them");
-    refuses(kData + "road/luminaire.ldt --balance", "--balance is for scenes");
+    refuses(kOwnData + "road/luminaire.ldt --balance", "--balance is for scenes");
     refuses("a.gltf --at 0,0,0 -o a.png", "-o a.png");
-    refuses(kData + "road/luminaire.ldt --at 0,0,0", "--at is for scenes");
+    refuses(kOwnData + "road/luminaire.ldt --at 0,0,0", "--at is for scenes");
 }
 
 TEST_F(Inspect, RefusesLampsThatHaveNoMap) {
@@ -217,7 +217,7 @@ TEST_F(Inspect, RefusesLampsThatHaveNoMap) {
     refuses("a.gltf -o a.png", "with --lamp");
     refuses("a.gltf --lamp-number 2", "only beside --lamp");
     refuses("a.gltf --device cpu", "only beside --lamp");
-    refuses(kData + "road/luminaire.ldt --lamp x", "--lamp is for scenes");
+    refuses(kOwnData + "road/luminaire.ldt --lamp x", "--lamp is for scenes");
 }
 
 TEST_F(Inspect, ASourceThatIsAPicture) {
@@ -242,7 +242,7 @@ TEST_F(Inspect, ASourceThatIsAPicture) {
 }
 
 TEST_F(Inspect, ALuminaire) {
-    ASSERT_EQ(inspect(kData + "road/luminaire.ldt -o a.png --json a.json"), 0) << said;
+    ASSERT_EQ(inspect(kOwnData + "road/luminaire.ldt -o a.png --json a.json"), 0) << said;
     EXPECT_TRUE(prints("8803.1 lm, 88.0 % of the lamps' 10000 lm") && prints("4255 cd at C 15, gamma 65") &&
                 prints("G*2"))
         << printed;
@@ -256,11 +256,11 @@ TEST_F(Inspect, ALuminaire) {
 }
 
 TEST_F(Inspect, AHeadlampAndAnRTable) {
-    ASSERT_EQ(inspect(kData + "photometry/low-beam.csv -o a.png"), 0) << said;
+    ASSERT_EQ(inspect(kOwnData + "photometry/low-beam.csv -o a.png"), 0) << said;
     EXPECT_TRUE(prints("type A") && prints("B50L") && !prints("missed")) << printed;
-    ASSERT_EQ(inspect(kData + "photometry/high-beam.csv"), 0);
+    ASSERT_EQ(inspect(kOwnData + "photometry/high-beam.csv"), 0);
     EXPECT_TRUE(prints("missed")) << printed;
-    ASSERT_EQ(inspect(kData + "road/R3.csv"), 0);
+    ASSERT_EQ(inspect(kOwnData + "road/R3.csv"), 0);
     EXPECT_TRUE(prints("0.07 stated") && prints("S1 1.109")) << printed;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/one_line.h"
-#include "scene/gltf.h"
+#include "scene/read_scene.h"
 
 namespace vesper::apps {
 

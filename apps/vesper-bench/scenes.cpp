@@ -46,11 +46,11 @@ void Scenes::prepare(const std::string& name) {
         scene::convert(data / "rivoli.gltf",
                        data / (name == "rivoli" ? "rivoli.photometry.json" : "rivoli.measured.photometry.json"),
                        files_[name]);
-    } else if (name.ends_with(".gltf") || name.ends_with(".glb")) {
+    } else if (scene::is_scene_name(name)) {
         files_[name] = name;
     } else {
-        throw Error("--scene " + one_line(name) +
-                    ": rivoli, rivoli-measured, street, town or a .gltf or .glb file is expected");
+        throw Error("--scene " + one_line(name) + ": rivoli, rivoli-measured, street, town or a " +
+                    scene::scene_endings() + " file is expected");
     }
 }
 
@@ -58,7 +58,7 @@ scene::Scene Scenes::load(const std::string& name, uint32_t lamps, uint64_t tria
                           const std::string& camera) const {
     if (name == "town") return lamp_town(lamps != kOwnLamps ? lamps : kTownLamps, triangles, luminaire);
     if (name == "street") return lamp_street(lamps != kOwnLamps ? lamps : kStreetLamps, triangles, luminaire);
-    scene::Scene scene = scene::read_gltf(files_.at(name)).scene;
+    scene::Scene scene = scene::read_scene(files_.at(name)).scene;
     const gpu_scene::View view = gpu_scene::camera_view(scene, {scene::world_transforms(scene, 0)}, camera, {1, 1});
     if (lamps != kOwnLamps) keep_nearest_lamps(scene, glm::vec3(gpu_scene::eye_of(view)), lamps);
     return scene;

@@ -24,11 +24,11 @@ struct Scratch {
 }  // namespace
 
 scene::LoadedScene load_scene(const fs::path& file, const fs::path& photometry) {
-    if (photometry.empty()) return scene::read_gltf(file);
+    if (photometry.empty()) return scene::read_scene(file);
     const Scratch scratch;
     const fs::path made = scratch.folder / "scene.gltf";
     scene::convert(file, photometry, made);
-    return scene::read_gltf(made);
+    return scene::read_scene(made);
 }
 
 const std::string& lamp_name(const scene::Scene& scene, uint32_t node) {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "scene/gltf.h"
+#include "scene/read_scene.h"
 
 namespace vesper::drive {
 

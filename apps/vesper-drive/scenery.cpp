@@ -128,7 +128,7 @@ Scenery::Scenery(const fs::path& file, const MessageSource& source) : source_(so
         const std::string at = one_line(file.string()) + ": ";
         for (const auto& [role, names] : traffic::kLampRoles) require_lamps(world.roles.*names, at + "/lamps/" + role);
         require_lamps(world.by_day, at + "/lit_by_day");
-    } else if (extension == ".gltf" || extension == ".glb") {
+    } else if (scene::is_scene_name(file)) {
         scene::LoadedScene loaded = load_scene(file, {});
         note(apps::notes_of(loaded, file.string())), scene_ = std::move(loaded.scene);
         scene_.name = file.string();
@@ -137,7 +137,8 @@ Scenery::Scenery(const fs::path& file, const MessageSource& source) : source_(so
         make_room(plain);
         adopt(plain, camera);
     } else {
-        throw Error(one_line(file.string()) + ": a world (.json), roads (.xodr) or a scene (.gltf, .glb) is expected");
+        throw Error(one_line(file.string()) + ": a world (.json), roads (.xodr) or a scene (" +
+                    scene::scene_endings(", ") + ") is expected");
     }
     note(bodies_.notes());
     message_frame_ = frame_of(source, origin);

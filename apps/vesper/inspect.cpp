@@ -21,6 +21,7 @@
 #include "photometry/reflection_table.h"
 #include "picture_arguments.h"
 #include "print.h"
+#include "scene/read_scene.h"
 #include "thread_arguments.h"
 
 namespace vesper::commands {
@@ -36,14 +37,14 @@ bool is_grid(const std::string& file) {
 
 Kind kind_of(const std::string& file) {
     const std::string extension = lower(std::filesystem::path(file).extension().string());
-    if (extension == ".gltf" || extension == ".glb") return Kind::Scene;
+    if (scene::is_scene_name(file)) return Kind::Scene;
     if (extension == ".ies" || extension == ".ldt") return Kind::Distribution;
     if (extension == ".csv")
         return photometry::is_reflection_table(io::read_file(file, 64u << 20)) ? Kind::Table : Kind::Distribution;
     if (extension == ".hdr" || extension == ".pic" || extension == ".rgbe") return Kind::Picture;
     if (extension == ".exr") return is_grid(file) ? Kind::Distribution : Kind::Picture;
-    throw Error(file +
-                ": expected a scene (.gltf, .glb), a lamp (.ies, .ldt, .csv, .exr), an r-table (.csv) or a picture "
+    throw Error(file + ": expected a scene (" + scene::scene_endings(", ") +
+                "), a lamp (.ies, .ldt, .csv, .exr), an r-table (.csv) or a picture "
                 "(.exr, .hdr)");
 }
 

@@ -5,8 +5,8 @@
 #include "indirect_arguments.h"
 #include "inspect.h"
 #include "print.h"
-#include "scene/gltf.h"
 #include "scene/placement.h"
+#include "scene/read_scene.h"
 #include "shadow_arguments.h"
 #include "transport/flux_balance.h"
 
@@ -23,7 +23,7 @@ struct FluxRow {
 }  // namespace
 
 Inspection inspect_balance(const InspectArguments& arguments) {
-    const scene::Scene scene = scene::read_gltf(arguments.file).scene;
+    const scene::Scene scene = scene::read_scene(arguments.file).scene;
     const std::vector<glm::dmat4> world = scene::world_transforms(scene, 0);
     const std::vector<bool> moving = scene::animated_nodes(scene);
     const auto cache = apps::shadow_cache({});

@@ -10,8 +10,8 @@
 #include "inspect.h"
 #include "print.h"
 #include "render/lamp_distances.h"
-#include "scene/gltf.h"
 #include "scene/photometry.h"
+#include "scene/read_scene.h"
 
 namespace vesper::commands {
 namespace {
@@ -154,7 +154,7 @@ void draw(const LampDistances& map, const std::string& title, const std::string&
 }  // namespace
 
 Inspection inspect_lamp_map(const InspectArguments& arguments) {
-    const scene::Scene scene = scene::read_gltf(arguments.file).scene;
+    const scene::Scene scene = scene::read_scene(arguments.file).scene;
     const std::vector<uint32_t> nodes = lamps_named(scene, arguments.lamp);
     if (nodes.empty())
         throw Error(arguments.file + ": no lamp, and no node with a lamp, is named '" + one_line(arguments.lamp) + "'");

@@ -9,7 +9,7 @@
 #include "base/one_line.h"
 #include "inspect.h"
 #include "print.h"
-#include "scene/gltf.h"
+#include "scene/read_scene.h"
 #include "transport/light_tracer.h"
 
 namespace vesper::commands {
@@ -61,7 +61,7 @@ Inspection inspect_light(const InspectArguments& arguments) {
     if (!(glm::length(facing) > 1e-6)) throw Error("--normal " + one_line(arguments.normal) + ": has no direction");
     std::vector<glm::dvec3> points;
     for (const std::string& text : arguments.points) points.push_back(triple("--at", text));
-    const scene::Scene scene = scene::read_gltf(arguments.file).scene;
+    const scene::Scene scene = scene::read_scene(arguments.file).scene;
     const std::vector<glm::dmat4> world = scene::world_transforms(scene, 0);
     const transport::LightTracer tracer(scene, world);
     Inspection made;

@@ -15,7 +15,7 @@
 #include "picture_arguments.h"
 #include "print.h"
 #include "progress.h"
-#include "scene/gltf.h"
+#include "scene/read_scene.h"
 #include "traced_light.h"
 
 namespace vesper::commands {
@@ -112,7 +112,7 @@ void announce_light_picture(const InspectArguments& a) {
 Inspection inspect_light_picture(const InspectArguments& a) {
     const VkExtent2D extent = apps::parse_size(a.size.empty() ? "640x400" : a.size);
     const transport::TraceSettings settings{.paths = a.paths > 0 ? a.paths : kPathsOfPicture, .lamp_looks = kLampLooks};
-    const scene::Scene scene = scene::read_gltf(a.file).scene;
+    const scene::Scene scene = scene::read_scene(a.file).scene;
     const gpu_scene::SceneFrame poses{scene::world_transforms(scene, 0), {}, {}, {}, {}};
     const gpu_scene::View view = gpu_scene::camera_view(scene, poses, a.camera, extent);
     const std::vector<std::string> cameras = gpu_scene::camera_names(scene);

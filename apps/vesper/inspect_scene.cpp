@@ -5,7 +5,7 @@
 #include "inspect.h"
 #include "print.h"
 #include "scene/colour.h"
-#include "scene/gltf.h"
+#include "scene/read_scene.h"
 #include "scene/scene_report.h"
 
 namespace vesper::commands {
@@ -124,7 +124,7 @@ nlohmann::ordered_json json_of(const scene::SceneReport& report) {
 }  // namespace
 
 Inspection inspect_scene(const InspectArguments& arguments) {
-    const scene::LoadedScene loaded = scene::read_gltf(arguments.file);
+    const scene::LoadedScene loaded = scene::read_scene(arguments.file);
     const scene::Scene& scene = loaded.scene;
     const scene::SceneReport report = scene::report_scene(scene);
     std::string text = one_line(arguments.file) + "\n";

@@ -225,7 +225,7 @@ void run(RenderArguments& arguments) {
     for (const std::string& output : arguments.outputs)
         for (unsigned index = 0; index < arguments.frames; ++index)
             io::announce_write("-o", file_of_frame(output, index, arguments.frames));
-    scene::LoadedScene loaded = scene::read_gltf(arguments.scene);
+    scene::LoadedScene loaded = scene::read_scene(arguments.scene);
     loaded.scene.name = arguments.scene;
     check_wanted(arguments);  // a scene that cannot be read is said first
     apps::print_notes(loaded.notes);

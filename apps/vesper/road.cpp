@@ -56,7 +56,7 @@ void check_arguments(const RoadArguments& arguments) {
         throw Error("--target-reflectance has a meaning only beside --stv or --stv-map");
     io::announce_write("--csv", arguments.csv);
     io::announce_write("--json", arguments.json);
-    if (!arguments.scene.empty() && !arguments.scene.ends_with(".gltf") && !arguments.scene.ends_with(".glb"))
+    if (!arguments.scene.empty() && !scene::is_gltf_name(arguments.scene))
         throw Error("--scene " + arguments.scene + ": a .gltf or .glb file is expected");
     io::announce_write("--scene", arguments.scene);
     if (!arguments.device.empty() && arguments.pictures.empty())

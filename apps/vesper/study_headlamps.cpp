@@ -299,7 +299,7 @@ void run(HeadlampArguments& a) {
     check_folder(a.folder);
     std::vector<Beam> beams = read_beams(a.beams);
     distances_of(a);
-    scene::LoadedScene loaded = scene::read_gltf(a.scene);
+    scene::LoadedScene loaded = scene::read_scene(a.scene);
     apps::print_notes(apps::notes_of(loaded, a.scene));
     loaded.scene.name = a.scene;
     HeadlampStudy study(a, std::move(beams), std::move(loaded.scene));

@@ -17,15 +17,13 @@
 namespace vesper::commands {
 namespace {
 
-bool is_scene(const std::string& name) { return name.ends_with(".gltf") || name.ends_with(".glb"); }
-
 /// Renders the scene once.
 StudyPicture rendered(const PictureSource& arguments, gpu::Device& device, const render::ToneChainSettings& settings,
                       const std::string& input) {
     if (arguments.shadows.budget != render::kNoShadowBudget)
         throw Error("--shadow-budget has no meaning here: no frame follows another");
     const VkExtent2D extent = apps::parse_size(arguments.size);
-    scene::LoadedScene loaded = scene::read_gltf(input);
+    scene::LoadedScene loaded = scene::read_scene(input);
     apps::print_notes(apps::notes_of(loaded, input));
     loaded.scene.name = input;
     const gpu_scene::SceneFrame frame{scene::world_transforms(loaded.scene, arguments.start)};
@@ -108,7 +106,8 @@ void add_source_options(apps::Command command, PictureSource& source) {
 
 StudyPicture read_study_picture(const PictureSource& arguments, gpu::Device& device,
                                 const render::ToneChainSettings& settings, const std::string& input) {
-    StudyPicture picture = is_scene(input) ? rendered(arguments, device, settings, input) : loaded(arguments, input);
+    StudyPicture picture =
+        scene::is_scene_name(input) ? rendered(arguments, device, settings, input) : loaded(arguments, input);
     measure(picture, input);
     return picture;
 }

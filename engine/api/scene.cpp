@@ -7,8 +7,8 @@
 #include "io/named_file.h"
 #include "io/read_file.h"
 #include "photometry/table.h"
-#include "scene/gltf.h"
 #include "scene/mesh.h"
+#include "scene/read_scene.h"
 
 namespace vesper::api {
 namespace {
@@ -123,14 +123,14 @@ VesperResult vesper_scene_create(VesperScene** scene, VesperError* error) {
 VesperResult vesper_scene_read(const char* file, VesperScene** scene, VesperError* error) {
     return guarded(error, [&] {
         require(file && scene, "the file, or the pointer to the scene, is null");
-        *scene = new VesperScene{scene::read_gltf(file).scene, 0, {}};
+        *scene = new VesperScene{scene::read_scene(file).scene, 0, {}};
     });
 }
 VesperResult vesper_scene_read_allowing(const char* file, const char* folder, VesperScene** scene, VesperError* error) {
     return guarded(error, [&] {
         require(file && folder && scene, "the file, the folder, or the pointer to the scene is null");
         const io::AllowedFolder allowed(folder);
-        *scene = new VesperScene{scene::read_gltf(file).scene, 0, {}};
+        *scene = new VesperScene{scene::read_scene(file).scene, 0, {}};
     });
 }
 void vesper_scene_destroy(VesperScene* scene) { delete scene; }

@@ -6,11 +6,11 @@
 
 #include "roads/layout_scene.h"
 #include "scene/fixtures.h"
-#include "scene/gltf.h"
+#include "scene/read_scene.h"
 
 namespace vesper::roads {
 
-Occluders::Occluders(const std::filesystem::path& file) : Occluders(scene::read_gltf(file).scene) {}
+Occluders::Occluders(const std::filesystem::path& file) : Occluders(scene::read_scene(file).scene) {}
 
 Occluders::Occluders(scene::Scene scene)
     : scene_(std::move(scene)), world_(scene::world_transforms(scene_, 0)), rays_(scene_, world_) {

@@ -13,6 +13,7 @@
 #include "io/named_file.h"
 #include "io/new_file.h"
 #include "scene/convert_rules.h"
+#include "scene/gltf_save.h"
 #include "scene/gltf_write.h"
 #include "scene/photometry_parts.h"
 #include "scene/uri.h"
@@ -116,9 +117,7 @@ ConversionReport convert_checked(const std::filesystem::path& input, const std::
                                  const SceneLimits& limits) {
     const io::FileGate gate;
     const Budget budget("converting " + one_line(input.string()));
-    const std::string extension = output.extension().string();
-    if (extension != ".gltf" && extension != ".glb")
-        throw Error(one_line(output.string()) + ": the output must be named .gltf or .glb");
+    if (!is_gltf_name(output)) throw Error(one_line(output.string()) + ": the output must be named .gltf or .glb");
     std::optional<io::AllowedFolder> beside_scene(std::in_place, input.has_parent_path() ? input.parent_path() : ".");
     Photometry stated = read_photometry(photometry);
     beside_scene.reset();  // the scene may not name what lies beside the photometry
@@ -156,7 +155,7 @@ ConversionReport convert_checked(const std::filesystem::path& input, const std::
     read_all(result);
     check_reflectances(result.scene, report);
     for (const std::string& note : result.notes.lines()) report.warnings.push_back(note);
-    io::replace_file(output, encode_gltf(document, extension == ".glb", report.warnings));
+    io::replace_file(output, encode_gltf(document, output.extension() == ".glb", report.warnings));
     return report;
 }
 

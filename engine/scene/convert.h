@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scene/colour.h"  // colour_of_temperature
-#include "scene/gltf.h"
+#include "scene/read_scene.h"
 
 namespace vesper::scene {
 

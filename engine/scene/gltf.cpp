@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <new>
+#include <string_view>
 
 #include "base/budget.h"
 #include "base/error.h"
@@ -66,6 +67,12 @@ void read_all(GltfReader& reader) {
     read_animations(reader);
     check_world(reader);
     check_unused(reader);
+}
+
+bool begins_like_gltf(std::span<const uint8_t> start) {
+    const std::string_view text(reinterpret_cast<const char*>(start.data()), start.size());
+    const size_t first = text.find_first_not_of(" \t\r\n");
+    return text.starts_with("glTF") || (first != text.npos && text[first] == '{');
 }
 
 LoadedScene read_gltf(const std::filesystem::path& file, const SceneLimits& limits) {

@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "scene/gltf.h"
 #include "scene/json_value.h"
+#include "scene/read_scene.h"
 #include "scene/tinygltf.h"
 
 namespace vesper::scene {

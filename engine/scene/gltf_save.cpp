@@ -337,10 +337,12 @@ std::vector<uint8_t> encode(Writer& writer, bool binary) {
 
 }  // namespace
 
+bool is_gltf_name(const std::filesystem::path& file) {
+    return file.extension() == ".gltf" || file.extension() == ".glb";
+}
+
 void save_gltf(const Scene& scene, const std::string& source, const std::filesystem::path& file) {
-    const std::string extension = file.extension().string();
-    if (extension != ".gltf" && extension != ".glb")
-        throw Error(one_line(file.string()) + ": the output must be named .gltf or .glb");
+    if (!is_gltf_name(file)) throw Error(one_line(file.string()) + ": the output must be named .gltf or .glb");
     if (!scene.images.empty() || !scene.luminance_pictures.empty() || scene.environment)
         throw Error("scene '" + scene.name + "': has pictures, which only its file can give");
     Writer writer(scene);
@@ -351,7 +353,7 @@ void save_gltf(const Scene& scene, const std::string& source, const std::filesys
     write_animation(writer);
     write_block(scene, block, source);
     writer.model.extras = value_of({{"vesper", std::move(block)}});
-    io::replace_file(file, encode(writer, extension == ".glb"));
+    io::replace_file(file, encode(writer, file.extension() == ".glb"));
 }
 
 }  // namespace vesper::scene

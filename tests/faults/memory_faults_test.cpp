@@ -19,8 +19,8 @@
 #include "roads/layout_file.h"
 #include "roads/opendrive.h"
 #include "scene/display_file.h"
-#include "scene/gltf.h"
 #include "scene/photometry.h"
+#include "scene/read_scene.h"
 #include "scene/scene_files.h"
 #include "support/shared_data.h"
 #include "traffic/world_file.h"
@@ -71,7 +71,7 @@ void expect_survives(const std::string& name, const std::function<void()>& read,
 }
 
 TEST(MemoryFaults, ReadingAScene) {
-    const auto read = [] { scene::read_gltf(kDataFolder / "glare/headlamps.gltf"); };
+    const auto read = [] { scene::read_scene(kDataFolder / "glare/headlamps.gltf"); };
     int64_t left = 0;
     read_once(read, 0, left);  // what is made once stays
     ASSERT_EQ(read_once(read, 0, left), Outcome::Read);

@@ -18,7 +18,7 @@
 #include "render/renderer.h"
 #include "render/tone_mapper.h"
 #include "scene/display_file.h"
-#include "scene/gltf.h"
+#include "scene/read_scene.h"
 #include "scene/scene_files.h"
 
 namespace vesper::test {

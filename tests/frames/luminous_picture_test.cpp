@@ -38,7 +38,7 @@ GltfFile square() {
 
 std::vector<float> rendered(const std::filesystem::path& file, VkExtent2D extent) {
     gpu::Device device(gpu::DeviceOptions{});
-    const scene::Scene scene = scene::read_gltf(file).scene;
+    const scene::Scene scene = scene::read_scene(file).scene;
     render::Renderer renderer(device, scene);
     const gpu_scene::View view = gpu_scene::View::symmetric(extent, float(2 * std::atan(1.0)), glm::mat4(1));
     return renderer.render({}, view, {scene::world_transforms(scene, 0)}, 0, {.display = false, .scene = true}).scene;

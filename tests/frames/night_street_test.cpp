@@ -9,7 +9,7 @@
 #include "places.h"
 #include "render/renderer.h"
 #include "scene/convert.h"
-#include "scene/gltf.h"
+#include "scene/read_scene.h"
 #include "support/reference_chain.h"
 
 namespace vesper::test {
@@ -22,7 +22,7 @@ scene::Scene night_street() {
     fs::create_directories(folder);
     const fs::path rivoli = fs::path(VESPER_SOURCE_DIR) / "data/rivoli";
     scene::convert(rivoli / "rivoli.gltf", rivoli / "rivoli.photometry.json", folder / "night.gltf", {});
-    scene::Scene scene = scene::read_gltf(folder / "night.gltf").scene;
+    scene::Scene scene = scene::read_scene(folder / "night.gltf").scene;
     fs::remove_all(folder);
     return scene;
 }

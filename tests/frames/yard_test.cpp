@@ -10,7 +10,7 @@
 #include "places.h"
 #include "render/renderer.h"
 #include "scene/convert.h"
-#include "scene/gltf.h"
+#include "scene/read_scene.h"
 
 namespace vesper::test {
 namespace {
@@ -31,7 +31,7 @@ TEST(Yard, ShowsTheCutOffAndTheSheen) {
                    data = fs::path(VESPER_SOURCE_DIR) / "data/photometry";
     fs::create_directories(folder);
     scene::convert(data / "yard.gltf", data / "yard.photometry.json", folder / "yard.gltf", {});
-    const scene::Scene scene = scene::read_gltf(folder / "yard.gltf").scene;
+    const scene::Scene scene = scene::read_scene(folder / "yard.gltf").scene;
     fs::remove_all(folder);
     gpu::Device device({.select = ""});
     render::Renderer renderer(device, scene);

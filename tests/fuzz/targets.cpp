@@ -19,8 +19,8 @@
 #include "roads/layout_file.h"
 #include "roads/opendrive.h"
 #include "scene/display_file.h"
-#include "scene/gltf.h"
 #include "scene/photometry.h"
+#include "scene/read_scene.h"
 #include "traffic/world_file.h"
 #include "vision/display_fit.h"
 #include "vision/warp_mesh.h"
@@ -68,8 +68,8 @@ void draw_mesh(Bytes bytes) {
 
 std::map<std::string, FuzzTarget> make_targets() {
     return {
-        {"gltf", of_file("x.gltf", [](const fs::path& file) { scene::read_gltf(file, kFew); })},
-        {"glb", of_file("x.glb", [](const fs::path& file) { scene::read_gltf(file, kFew); })},
+        {"gltf", of_file("x.gltf", [](const fs::path& file) { scene::read_scene(file, kFew); })},
+        {"glb", of_file("x.glb", [](const fs::path& file) { scene::read_scene(file, kFew); })},
         {"photometry", of_file("x.photometry.json", [](const fs::path& file) { scene::read_photometry(file); })},
         {"ies", [](Bytes bytes) { photometry::parse_ies(bytes, "x.ies"); }},
         {"ldt", [](Bytes bytes) { photometry::parse_eulumdat(bytes, "x.ldt"); }},

@@ -454,7 +454,7 @@ TEST(Visibility, NightStreetAgreesWithRays) {
     TempFolder folder;
     const std::filesystem::path data = std::filesystem::path(VESPER_SOURCE_DIR) / "data/rivoli";
     scene::convert(data / "rivoli.gltf", data / "rivoli.photometry.json", folder / "night.gltf");
-    const scene::Scene scene = scene::read_gltf(folder / "night.gltf").scene;
+    const scene::Scene scene = scene::read_scene(folder / "night.gltf").scene;
     PassRig rig;
     Lit street(rig, scene);
     const RayCaster rays(scene, street.poses.world);

@@ -4,7 +4,7 @@
 #include "io/image_file.h"
 #include "io/read_file.h"
 #include "places.h"
-#include "scene/gltf.h"
+#include "scene/read_scene.h"
 #include "support/program.h"
 
 namespace vesper::test {
@@ -18,7 +18,7 @@ TEST_F(Roads, BecomeALitSceneThatRenders) {
     ASSERT_EQ(run("convert " + kStreet), 0) << said;
     EXPECT_NE(printed.find("wrote rivoli.gltf"), std::string::npos) << printed;
     EXPECT_NE(printed.find("street lamps: "), std::string::npos) << printed;
-    const scene::Scene scene = scene::read_gltf(folder / "rivoli.gltf").scene;
+    const scene::Scene scene = scene::read_scene(folder / "rivoli.gltf").scene;
     EXPECT_EQ(scene.cameras.size(), 3u);
     ASSERT_EQ(run("render rivoli.gltf --camera driver --size 97x61 --stats-json stats.json -o out.png"), 0) << said;
     const Image picture = io::decode_image(io::read_file(folder / "out.png", 1 << 20), 1000);
@@ -30,7 +30,7 @@ TEST_F(Roads, LampsAreChosen) {
     ASSERT_EQ(run("convert " + kStreet + " --lamp-spacing 0 -o none.glb"), 0) << said;
     ASSERT_EQ(run("convert " + kStreet + " --lamp-spacing 20 --lamp-side both --lamp-height 7 -o many.glb"), 0) << said;
     const auto lamps = [&](const char* file) {
-        const scene::Scene scene = scene::read_gltf(folder / file).scene;
+        const scene::Scene scene = scene::read_scene(folder / file).scene;
         size_t count = 0;
         for (const scene::Node& node : scene.nodes)
             count += node.lamp != scene::kNone && node.name.starts_with("street_lamp_");

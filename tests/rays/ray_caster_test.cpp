@@ -11,7 +11,7 @@
 #include "base/budget.h"
 #include "base/error.h"
 #include "places.h"
-#include "scene/gltf.h"
+#include "scene/read_scene.h"
 #include "support/occluders.h"
 #include "support/ray_caster.h"
 
@@ -199,7 +199,7 @@ TEST(RayCaster, MeetsPlatesAlongTheAxes) {
 }
 
 TEST(RayCaster, AgreesWithTheReferenceOnTheStreet) {
-    scene::Scene scene = scene::read_gltf(VESPER_SOURCE_DIR "/data/rivoli/rivoli.gltf").scene;
+    scene::Scene scene = scene::read_scene(VESPER_SOURCE_DIR "/data/rivoli/rivoli.gltf").scene;
     for (scene::Material& m : scene.materials) m.base_colour_texture.nearest = true;  // as the reference looks at them
     const Cast cast(scene);
     EXPECT_GT(cast.rays.triangles(), 250'000u);

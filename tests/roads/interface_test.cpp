@@ -5,7 +5,7 @@
 #include "roads/layout_file.h"
 #include "roads/road_lighting.h"
 #include "roads/road_texts.h"
-#include "scene/gltf.h"
+#include "scene/read_scene.h"
 #include "scene/scene_files.h"
 
 namespace vesper::test {
@@ -116,7 +116,7 @@ TEST(RoadsInterface, ConvertsRoadsWithTheirOptions) {
     const auto street_lamps = [&](const ConvertOptions& options) {
         const roads::RoadConversion made = roads::convert_opendrive(file, folder / "a.gltf", options);
         EXPECT_GT(made.parts.size(), 2u);
-        const scene::Scene scene = scene::read_gltf(folder / "a.gltf").scene;
+        const scene::Scene scene = scene::read_scene(folder / "a.gltf").scene;
         size_t count = 0;
         for (const scene::Node& node : scene.nodes)
             count += node.lamp != scene::kNone && node.name.starts_with("street_lamp_");

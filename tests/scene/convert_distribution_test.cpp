@@ -114,7 +114,7 @@ TEST_F(ConvertDistributionTest, EmbedsEachFileOnce) {
         const scene::ConversionReport report = convert_with({street, beam_rule(), again}, output);
         const TempFolder elsewhere;  // nothing beside it
         std::filesystem::copy(folder_ / output, elsewhere / output);
-        const scene::LoadedScene loaded = scene::read_gltf(elsewhere / output);
+        const scene::LoadedScene loaded = scene::read_scene(elsewhere / output);
         const scene::Scene& scene = loaded.scene;
         for (const std::string& note : loaded.notes) EXPECT_TRUE(contains(note, "without material")) << note;
         ASSERT_EQ(scene.distributions.size(), 2u) << output;
@@ -214,7 +214,7 @@ TEST_F(ConvertDistributionTest, KeepsOrRemovesThoseOfTheOriginal) {
         convert_with({beam_rule(), street_rule()}, output, true);
         const TempFolder elsewhere;
         std::filesystem::copy(folder_ / output, elsewhere / output);
-        const scene::Scene scene = scene::read_gltf(elsewhere / output).scene;
+        const scene::Scene scene = scene::read_scene(elsewhere / output).scene;
         ASSERT_EQ(scene.distributions.size(), 3u);
         EXPECT_EQ(scene.lamps[scene.nodes[1].lamp].intensity, 7);  // the new lamp sits on a child
         EXPECT_EQ(std::count_if(scene.nodes.begin(), scene.nodes.end(),

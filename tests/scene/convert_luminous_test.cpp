@@ -65,7 +65,7 @@ TEST_F(ConvertLuminous, APictureGoesIntoTheFile) {
         EXPECT_FALSE(mentions(report.warnings, "picture"));
         const TempFolder elsewhere;  // nothing beside it
         std::filesystem::copy(folder_ / output, elsewhere / output);
-        const scene::Scene scene = scene::read_gltf(elsewhere / output).scene;
+        const scene::Scene scene = scene::read_scene(elsewhere / output).scene;
         ASSERT_EQ(scene.luminance_pictures.size(), 1u);
         EXPECT_EQ(scene.luminance_pictures[0].name, "lit.exr");
         EXPECT_EQ(scene.luminance_pictures[0].rgb, picture(1).rgb) << "every number as it was";
@@ -198,7 +198,7 @@ TEST_F(ConvertLuminous, TheReaderChecks) {
     const auto complaint = [&](const char* pointer, const json& value, const scene::SceneLimits& limits = {}) {
         json bad = good;
         bad[json::json_pointer(std::string("/extras/vesper/") + pointer)] = value;
-        return complaint_of([&] { scene::read_gltf(folder_.write("bad.gltf", bad.dump()), limits); });
+        return complaint_of([&] { scene::read_scene(folder_.write("bad.gltf", bad.dump()), limits); });
     };
     EXPECT_EQ(complaint("luminous/0/scale", 2), "");
     EXPECT_TRUE(contains(complaint("luminance_pictures/0/bufferView", 99), "luminance_pictures/0/bufferView"));

@@ -184,7 +184,7 @@ TEST_F(ConvertSky, TheReaderChecks) {
     const auto complaint = [&](const char* pointer, const json& value) -> std::string {
         json bad = good;
         bad[json::json_pointer(std::string("/extras/vesper/") + pointer)] = value;
-        return complaint_of([&] { scene::read_gltf(folder_.write("bad.gltf", bad.dump())); });
+        return complaint_of([&] { scene::read_scene(folder_.write("bad.gltf", bad.dump())); });
     };
     EXPECT_EQ(complaint("environment/scale", 2), "");
     EXPECT_TRUE(contains(complaint("environment/width", 66), "twice the height"));

@@ -187,7 +187,7 @@ TEST_F(ConvertTest, KeepsPicturesByteForByte) {
         convert_with({{"lamps", lamps()}}, output);
         const TempFolder elsewhere;  // nothing beside it
         std::filesystem::copy(folder_ / output, elsewhere / output);
-        const scene::LoadedScene loaded = scene::read_gltf(elsewhere / output);
+        const scene::LoadedScene loaded = scene::read_scene(elsewhere / output);
         EXPECT_EQ(loaded.scene.images.at(0).rgba, (std::vector<uint8_t>{255, 128, 0, 255, 10, 10, 10, 255}));
         EXPECT_EQ(loaded.scene.lamps.size(), 2u);
         EXPECT_EQ(loaded.scene.meshes.at(2).primitives.at(0).vertices.at(1).position, glm::vec3(20, 0, 0));

@@ -36,7 +36,7 @@ TEST(Examples, TheStreetOfFreeModelsIsAssembledAndConverted) {
         scene::convert(folder / "street.gltf", example / "kaykit-street.photometry.json", folder / "night.glb");
     for (const char* miss : {"no node matches", "no material matches", "earlier rules"})
         EXPECT_FALSE(mentions(report.warnings, miss));
-    const scene::Scene scene = scene::read_gltf(folder / "night.glb").scene;
+    const scene::Scene scene = scene::read_scene(folder / "night.glb").scene;
     EXPECT_EQ(scene.cameras.size(), 3u);
     size_t lamps = 0;
     for (const scene::Node& node : scene.nodes) lamps += node.lamp != scene::kNone;

@@ -60,7 +60,7 @@ TEST(GltfIes, ReadsAFileBesideIt) {
     folder.write("lamp.ies", kProfile);
     GltfFile file = lamps();
     file.root["extensions"]["EXT_lights_ies"]["lights"][0] = {{"uri", "lamp.ies"}};
-    EXPECT_EQ(scene::read_gltf(folder.write("a.gltf", file.text())).scene.distributions[0].name, "Lamp 7");
+    EXPECT_EQ(scene::read_scene(folder.write("a.gltf", file.text())).scene.distributions[0].name, "Lamp 7");
     file.root["extensions"]["EXT_lights_ies"]["lights"][0] = {{"uri", "none.ies"}};
     EXPECT_TRUE(contains(file.complaint(), "/extensions/EXT_lights_ies/lights/0/uri"));
 }

@@ -7,7 +7,7 @@ namespace vesper::test {
 namespace {
 
 using nlohmann::json;
-using scene::read_gltf;
+using scene::read_scene;
 
 /// A valid triangle with indices, to be damaged.
 GltfFile triangle() {
@@ -211,7 +211,7 @@ TEST(GltfMalformed, RefusesMoreThanTheLimits) {
 TEST(GltfMalformed, RefusesNestingWithoutEnd) {
     const TempFolder folder;
     const auto complaint = [&](const std::string& text) {
-        return complaint_of([&] { read_gltf(folder.write("deep.gltf", text)); });
+        return complaint_of([&] { read_scene(folder.write("deep.gltf", text)); });
     };
     EXPECT_TRUE(contains(complaint(std::string(1'000'000, '[')), "nested deeper"));
     EXPECT_TRUE(contains(
@@ -239,7 +239,7 @@ TEST(GltfMalformed, NamesTheExtensionThatBuffersNeed) {
 TEST(GltfMalformed, SaysWhatIsNoUtf8) {
     const TempFolder folder;
     const auto complaint = [&](const std::string& text) {
-        return complaint_of([&] { read_gltf(folder.write("x.gltf", text)); });
+        return complaint_of([&] { read_scene(folder.write("x.gltf", text)); });
     };
     EXPECT_TRUE(contains(complaint("{\"asset\":{\"version\":\"2.0\",\"copyright\":\"M\xfcller\"}}"),
                          "x.gltf: byte 41: not valid JSON: is no UTF-8"));
@@ -251,9 +251,9 @@ TEST(GltfMalformed, SaysWhatIsNoUtf8) {
 
 TEST(GltfMalformed, RefusesFilesThatAreNone) {
     const TempFolder folder;
-    EXPECT_THROW(read_gltf(folder / "missing.gltf"), Error);
-    EXPECT_THROW(read_gltf(folder.path()), Error);
-    EXPECT_THROW(read_gltf("/dev/zero"), Error);
+    EXPECT_THROW(read_scene(folder / "missing.gltf"), Error);
+    EXPECT_THROW(read_scene(folder.path()), Error);
+    EXPECT_THROW(read_scene("/dev/zero"), Error);
 }
 
 /// Every single-byte cut of a binary file, and every byte of its head changed: a scene or an Error, never more.
@@ -271,15 +271,15 @@ TEST(GltfMalformed, SurvivesCutAndChangedBinaryFiles) {
                             text + word(file.bytes.size()) + std::string("BIN\0", 4) +
                             std::string(file.bytes.begin(), file.bytes.end());
     const TempFolder folder;
-    EXPECT_EQ(read_gltf(folder.write("whole.glb", glb)).scene.meshes.size(), 1u);
+    EXPECT_EQ(read_scene(folder.write("whole.glb", glb)).scene.meshes.size(), 1u);
     for (size_t size = 0; size < glb.size(); ++size)
-        EXPECT_THROW(read_gltf(folder.write("cut.glb", glb.substr(0, size))), Error) << size;
+        EXPECT_THROW(read_scene(folder.write("cut.glb", glb.substr(0, size))), Error) << size;
     for (size_t i = 0; i < glb.size(); ++i) {
         for (const int change : {1, 0x10, 0x80}) {
             std::string changed = glb;
             changed[i] = static_cast<char>(changed[i] ^ change);
             try {
-                read_gltf(folder.write("changed.glb", changed));
+                read_scene(folder.write("changed.glb", changed));
             } catch (const Error&) {
             }
         }

@@ -192,13 +192,13 @@ TEST(GltfMaterial, FindsPicturesByEncodedAndByPlainNames) {
     for (const char* uri : {"a%20b%20%E2%9D%A4.png", "a b ❤.png", "50%25.png", "sub/../a b ❤.png"}) {
         GltfFile file = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}});
         add_texture(file, uri);
-        EXPECT_EQ(scene::read_gltf(folder.write("s.gltf", file.text())).scene.images.at(0).rgba[0], 9) << uri;
+        EXPECT_EQ(scene::read_scene(folder.write("s.gltf", file.text())).scene.images.at(0).rgba[0], 9) << uri;
         // A database may keep its textures beside the folder of its models, where that is allowed.
         file.root["images"][0]["uri"] = "../" + std::string(uri);
         const std::filesystem::path beside = folder.write("sub/s.gltf", file.text());
-        EXPECT_TRUE(contains(complaint_of([&] { scene::read_gltf(beside); }), "lies outside the folder")) << uri;
+        EXPECT_TRUE(contains(complaint_of([&] { scene::read_scene(beside); }), "lies outside the folder")) << uri;
         const io::AllowedFolder allowed(folder.path());
-        EXPECT_EQ(scene::read_gltf(folder.write("sub/s.gltf", file.text())).scene.images.size(), 1u) << uri;
+        EXPECT_EQ(scene::read_scene(folder.write("sub/s.gltf", file.text())).scene.images.size(), 1u) << uri;
     }
 }
 

@@ -96,7 +96,7 @@ TEST_P(GltfSave, GivesTheSameSceneBack) {
     const auto file = folder / GetParam();
     const Scene scene = example();
     scene::save_gltf(scene, "test", file);
-    const scene::LoadedScene loaded = scene::read_gltf(file);
+    const scene::LoadedScene loaded = scene::read_scene(file);
     const Scene& got = loaded.scene;
     EXPECT_TRUE(loaded.notes.empty()) << loaded.notes[0];
     ASSERT_EQ(got.materials.size(), 3u);
@@ -161,7 +161,7 @@ TEST(GltfSaveMaterials, GlassStaysGlass) {
         if (i >= 2) material.alpha = scene::Material::Alpha::Mask, material.alpha_cutoff = 0.25f;
     }
     scene::save_gltf(scene, "test", folder / "scene.gltf");
-    const Scene got = scene::read_gltf(folder / "scene.gltf").scene;
+    const Scene got = scene::read_scene(folder / "scene.gltf").scene;
     ASSERT_EQ(got.materials.size(), 4u);
     for (size_t i = 0; i < 4; ++i) {
         EXPECT_EQ(got.materials[i].clear, scene.materials[i].clear) << i;
@@ -175,12 +175,12 @@ TEST(GltfSaveNames, MayBeMissingOrNoUtf8) {
     Scene scene;
     for (const char* name : {"scene.gltf", "scene.glb"}) {
         scene::save_gltf(scene, "test", folder / name);
-        EXPECT_TRUE(scene::read_gltf(folder / name).scene.nodes.empty());
+        EXPECT_TRUE(scene::read_scene(folder / name).scene.nodes.empty());
     }
     scene.nodes.resize(2);
     scene.nodes[1].name = "M\xfcller";
     scene::save_gltf(scene, "K\xf6ln.xodr", folder / "scene.gltf");
-    const Scene got = scene::read_gltf(folder / "scene.gltf").scene;
+    const Scene got = scene::read_scene(folder / "scene.gltf").scene;
     ASSERT_EQ(got.nodes.size(), 2u);
     EXPECT_EQ(got.nodes[0].name, "");
     EXPECT_EQ(got.nodes[0].scale, glm::vec3(1));

@@ -39,7 +39,7 @@ TEST_F(SurfaceTables, TablesSurviveAConversion) {
              {{"materials", "asphalt old"}, {"reflection_table", "mine.csv"}},
              {{"materials", {"asphalt", "kerb"}}, {"reflection_table", "R3"}, {"q0", 0.09}}});
     EXPECT_TRUE(mentions(report.changes, "reflection table R3 of Q0 0.09"));
-    const scene::Scene scene = scene::read_gltf(folder_ / "night.gltf").scene;
+    const scene::Scene scene = scene::read_scene(folder_ / "night.gltf").scene;
     ASSERT_EQ(scene.reflection_tables.size(), 3u);
     const auto table_of = [&](size_t m) { return scene.reflection_tables.at(scene.materials[m].reflection_table); };
     EXPECT_EQ(table_of(0), photometry::rescaled(photometry::find_reflection_table("R3"), 0.09));
@@ -50,7 +50,7 @@ TEST_F(SurfaceTables, TablesSurviveAConversion) {
 
 TEST_F(SurfaceTables, WithoutRulesThereAreNoTables) {
     run({{{"materials", "asphalt"}, {"roughness", 0.9}}});
-    const scene::Scene scene = scene::read_gltf(folder_ / "night.gltf").scene;
+    const scene::Scene scene = scene::read_scene(folder_ / "night.gltf").scene;
     EXPECT_TRUE(scene.reflection_tables.empty());
     EXPECT_EQ(scene.materials[0].reflection_table, scene::kNone);
     EXPECT_FALSE(json::parse(read_text(folder_ / "night.gltf"))["extras"]["vesper"].contains("roads"));
@@ -83,7 +83,7 @@ TEST_F(SurfaceTables, RefusesWhatIsNoTable) {
         json damaged = good;
         damaged["extras"]["vesper"][json::json_pointer(c.pointer)] = c.value;
         const std::string refusal =
-            complaint_of([&] { scene::read_gltf(folder_.write("damaged.gltf", damaged.dump())); });
+            complaint_of([&] { scene::read_scene(folder_.write("damaged.gltf", damaged.dump())); });
         EXPECT_TRUE(contains(refusal, "damaged.gltf: /extras/vesper/")) << c.pointer << " = " << c.value;
     }
 }

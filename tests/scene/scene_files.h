@@ -16,7 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "scene/gltf.h"
+#include "scene/read_scene.h"
 #include "scene/uri.h"
 #include "support/complaints.h"
 
@@ -133,7 +133,7 @@ public:
 
     scene::LoadedScene read(const scene::SceneLimits& limits = {}) {
         const TempFolder folder;
-        return scene::read_gltf(folder.write("scene.gltf", text()), limits);
+        return scene::read_scene(folder.write("scene.gltf", text()), limits);
     }
 
     /// The message of the Error that reading throws; empty when it throws none.

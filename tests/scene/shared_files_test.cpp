@@ -30,7 +30,7 @@ TEST(SharedFiles, EveryGltfGivesASceneOrAnError) {
         for (const fs::path& file : files_below(folder)) {
             if (!is_gltf(file)) continue;
             try {
-                scene::read_gltf(file);
+                scene::read_scene(file);
                 ++scenes;
             } catch (const Error& error) {
                 ++errors;
@@ -61,7 +61,7 @@ TEST(SharedFiles, WholeSetsAreRead) {
     if (files.empty()) GTEST_SKIP() << "the shared set is not here";
     for (const fs::path& file : files) {
         if (!is_gltf(file)) continue;
-        EXPECT_NO_THROW(scene::read_gltf(file)) << file;
+        EXPECT_NO_THROW(scene::read_scene(file)) << file;
     }
     // An inked (YCCK) picture.
     const fs::path inked = shared_data("malformed/image/jpeg/YCbCrK.jpg");

@@ -27,7 +27,7 @@ protected:
                               folder_ / output, transfer);
     }
     scene::Scene converted(const std::string& output = "out.gltf") const {
-        return scene::read_gltf(folder_ / output).scene;
+        return scene::read_scene(folder_ / output).scene;
     }
 
     TempFolder folder_;

@@ -15,8 +15,8 @@
 #include "render/tone_mapper.h"
 #include "roads/opendrive.h"
 #include "scene/display_file.h"
-#include "scene/gltf.h"
 #include "scene/photometry.h"
+#include "scene/read_scene.h"
 #include "scene/scene_files.h"
 #include "support/scene_geometry.h"
 
@@ -93,7 +93,7 @@ TEST(Threads, ReadersReadTheSameFiles) {
     const auto read = [&](size_t i) {
         const io::AllowedFolder allowed(data);  // of this thread
         std::vector<double> seen;
-        seen.push_back(double(scene::read_gltf(data / "glare/headlamps.gltf").scene.nodes.size()));
+        seen.push_back(double(scene::read_scene(data / "glare/headlamps.gltf").scene.nodes.size()));
         seen.push_back(double(io::read_hdr_image(data / "rivoli/signs.exr").rgb[1]));
         seen.push_back(photometry::luminous_flux(photometry::read_distribution(data / "photometry/street-lamp.ies")));
         seen.push_back(photometry::luminous_flux(photometry::read_distribution(data / "road/luminaire.ldt")));

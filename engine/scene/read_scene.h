@@ -1,0 +1,45 @@
+// Reading scenes from files, whatever their format. SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/limits.h"
+#include "scene/scene.h"
+
+namespace vesper::scene {
+
+/// Upper bounds on what a file may ask for. A file that states more is refused before anything is allocated for it. The
+/// standard ones follow VESPER_LIMITS (base/limits.h).
+struct SceneLimits {
+    uint64_t file_bytes = scaled_limit(1ull << 30);  ///< of the scene's file and of every file it names, each
+    uint64_t vertices = scaled_limit(
+        50'000'000);  ///< of all meshes together; a fiftieth of it for elements of accessors without a buffer view
+    uint64_t indices =
+        scaled_limit(150'000'000);  ///< as well; ten times as many corners of triangles for all nodes that show them
+    uint64_t texels = scaled_limit(512ull << 20);  ///< of all images together
+    uint32_t image_side = 16384;                   ///< px
+    uint32_t nodes = static_cast<uint32_t>(scaled_limit(1'000'000));
+    uint32_t lamps = kMaxLamps;
+    uint64_t candela = scaled_limit(16'000'000);  ///< intensities of all measured distributions together
+};
+
+struct LoadedScene {
+    Scene scene;
+    std::vector<std::string> notes;  ///< what was left out or read with a change, one line each
+    bool photometric = false;        ///< whether the file states photometry, as `convert` writes it
+};
+
+/// Reads a scene: glTF 2.0 (docs/gltf.md). The name's ending chooses the format; of a file with another ending, its
+/// first bytes. Throws Error naming the file, the place in it and the reason.
+LoadedScene read_scene(const std::filesystem::path& file, const SceneLimits& limits = {});
+
+/// Whether the name of a file ends as those of scenes do, in capitals or not.
+bool is_scene_name(const std::filesystem::path& file);
+
+/// The endings of scenes' names, for messages: ".gltf or .glb" with " or " between the last two, ", " between others.
+std::string scene_endings(const char* last_separator = " or ");
+
+}  // namespace vesper::scene

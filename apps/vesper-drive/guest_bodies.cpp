@@ -6,9 +6,10 @@
 #include "base/error.h"
 #include "base/one_line.h"
 #include "io/in_file.h"
-#include "load_scene.h"
+#include "lamp_name.h"
 #include "plain_car.h"
 #include "scene/append.h"
+#include "scene/apply_photometry.h"
 #include "scene_notes.h"
 
 namespace vesper::drive {
@@ -108,7 +109,7 @@ void GuestBodies::add_plain(scene::Scene& scene, traffic::WorldFile& file, const
 void GuestBodies::add_model(scene::Scene& scene, traffic::WorldFile& file, size_t index, size_t count) {
     if (count == 0) return;
     const Model& model = models_[index];
-    scene::LoadedScene loaded = load_scene(model.scene, model.photometry);
+    scene::LoadedScene loaded = scene::read_lit_scene(model.scene, model.photometry);
     check_lamps(model, loaded.scene);
     const std::vector<std::string> said = apps::notes_of(loaded, model.scene.string());
     notes_.insert(notes_.end(), said.begin(), said.end());

@@ -15,8 +15,10 @@
 #include "base/budget.h"
 #include "base/error.h"
 #include "base/one_line.h"
-#include "load_scene.h"
+#include "lamp_name.h"
 #include "road_world.h"
+#include "roads/convert_roads.h"
+#include "scene/apply_photometry.h"
 #include "scene/colour.h"
 #include "scene_notes.h"
 #include "traffic/daylight.h"
@@ -103,7 +105,6 @@ Scenery::Scenery(const fs::path& file, const MessageSource& source) : source_(so
             one_line(source.file.string()) +
             ": names no host vehicle: the driver's car is one more (--host ID sits in one of the objects)");
     const Budget budget("reading " + one_line(file.string()));
-    const std::string extension = file.extension().string();
     const auto note = [&](const std::vector<std::string>& more) {
         notes_.insert(notes_.end(), more.begin(), more.end());
     };
@@ -112,15 +113,15 @@ Scenery::Scenery(const fs::path& file, const MessageSource& source) : source_(so
         if (source.any()) bodies_ = GuestBodies(scene_, world, source, messages_);
     };
     glm::dvec3 origin(0);
-    if (extension == ".xodr") {
+    if (roads::is_opendrive_name(file)) {
         RoadWorld roads = road_world(file, source, messages_);
         note(roads.notes), origin = roads.origin;
         scene_ = std::move(roads.scene), lenses_ = std::move(roads.lenses), bodies_ = std::move(roads.bodies);
         scene_.name = file.string();
         adopt(roads.world);
-    } else if (extension == ".json") {
+    } else if (file.extension() == ".json") {
         traffic::WorldFile world = traffic::read_world(file);
-        scene::LoadedScene loaded = load_scene(world.scene, world.photometry);
+        scene::LoadedScene loaded = scene::read_lit_scene(world.scene, world.photometry);
         note(apps::notes_of(loaded, world.scene.string())), scene_ = std::move(loaded.scene);
         scene_.name = world.scene.string();
         make_room(world);
@@ -129,7 +130,7 @@ Scenery::Scenery(const fs::path& file, const MessageSource& source) : source_(so
         for (const auto& [role, names] : traffic::kLampRoles) require_lamps(world.roles.*names, at + "/lamps/" + role);
         require_lamps(world.by_day, at + "/lit_by_day");
     } else if (scene::is_scene_name(file)) {
-        scene::LoadedScene loaded = load_scene(file, {});
+        scene::LoadedScene loaded = scene::read_scene(file);
         note(apps::notes_of(loaded, file.string())), scene_ = std::move(loaded.scene);
         scene_.name = file.string();
         const uint32_t camera = first_camera(scene_);

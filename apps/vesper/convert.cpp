@@ -56,7 +56,7 @@ void run_roads(const ConvertArguments& arguments) {
 }
 
 void run(const ConvertArguments& arguments) {
-    if (arguments.input.ends_with(".xodr")) return run_roads(arguments);
+    if (roads::is_opendrive_name(arguments.input)) return run_roads(arguments);
     refuse(arguments.for_lamps, " has a meaning only for an OpenDRIVE file (.xodr)");
     if (arguments.photometry.empty()) throw Error("--photometry is required for a glTF database");
     if (arguments.output.empty()) throw Error("--output is required for a glTF database");
@@ -65,7 +65,7 @@ void run(const ConvertArguments& arguments) {
     io::announce_write("-o", arguments.output);
     std::optional<scene::Transfer> transfer;
     if (arguments.srgb) transfer = scene::Transfer{scene::Transfer::Kind::Srgb};
-    const scene::ConversionReport made =
+    const scene::PhotometryReport made =
         scene::convert(arguments.input, arguments.photometry, arguments.output, transfer);
     report(made.changes, made.warnings, arguments.output);
 }

@@ -25,6 +25,7 @@
 #include "render/renderer.h"
 #include "render_records.h"
 #include "scale_arguments.h"
+#include "scene/apply_photometry.h"
 #include "scene/placement.h"
 #include "scene_notes.h"
 #include "shadow_arguments.h"
@@ -95,6 +96,7 @@ void check_arguments(RenderArguments& arguments) {
     apps::set_indirect(arguments.indirect, settings);
     check_paths(arguments);
     io::announce_read(arguments.scene);
+    io::announce_read(arguments.photometry);
     io::announce_read(arguments.replay_file);
     io::announce_read(arguments.eye_in);
     io::announce_read(arguments.glare.lamps);
@@ -225,10 +227,12 @@ void run(RenderArguments& arguments) {
     for (const std::string& output : arguments.outputs)
         for (unsigned index = 0; index < arguments.frames; ++index)
             io::announce_write("-o", file_of_frame(output, index, arguments.frames));
-    scene::LoadedScene loaded = scene::read_scene(arguments.scene);
+    scene::PhotometryReport rules;
+    scene::LoadedScene loaded = scene::read_lit_scene(arguments.scene, arguments.photometry, &rules);
     loaded.scene.name = arguments.scene;
     check_wanted(arguments);  // a scene that cannot be read is said first
     apps::print_notes(loaded.notes);
+    apps::print_notes(rules.warnings, "warning: ");
     scaled.print_note();
     const scene::Scene& scene = loaded.scene;
     gpu_scene::SceneFrame moment{scene::world_transforms(scene, moments.front().seconds)};
@@ -318,6 +322,8 @@ void add_render(apps::Command program) {
         program.add_command("render", "Render a photometric scene to a display image or to luminance");
     const auto a = std::make_shared<RenderArguments>();
     command.add_option("scene", a->scene, "A .gltf or .glb, as vesper convert writes it").required();
+    command.add_option("--photometry,-p", a->photometry,
+                       "Makes an unconverted scene photometric in memory, as vesper convert does in a file");
     command.add_option("--output,-o", a->outputs,
                        "OUT.png: display image; OUT.exr: absolute cd/m^2; may be given twice");
     command.add_option("--camera,-c", a->camera, "Name of a camera of the scene (default: the first)");

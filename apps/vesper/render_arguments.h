@@ -18,7 +18,7 @@ namespace vesper::commands {
 constexpr unsigned kPathsOfPixel = 16;  // unless --paths says otherwise
 
 struct RenderArguments {
-    std::string scene, camera, size = "1680x1050", device, lambert = "physical";
+    std::string scene, photometry, camera, size = "1680x1050", device, lambert = "physical";
     apps::ToneArguments tone;
     apps::ShadowArguments shadows;
     apps::IndirectArguments indirect;

@@ -1,7 +1,6 @@
 // Reading a scene from glTF: the table of contents. SPDX-License-Identifier: MIT
 #include "scene/gltf.h"
 
-#include <cmath>
 #include <new>
 #include <string_view>
 
@@ -9,20 +8,10 @@
 #include "base/error.h"
 #include "base/one_line.h"
 #include "scene/gltf_reader.h"
+#include "scene/rotation.h"
 
 namespace vesper::scene {
 namespace {
-
-/// Finite numbers may still multiply to infinity along a branch of the tree.
-void check_world(const GltfReader& reader) {
-    const std::vector<glm::dmat4> world = world_transforms(reader.scene, 0);
-    for (size_t i = 0; i < world.size(); ++i)
-        for (int c = 0; c < 4; ++c)
-            for (int r = 0; r < 4; ++r)
-                if (!std::isfinite(static_cast<float>(world[i][c][r])))
-                    throw Error(reader.document.name() + ": node '" + one_line(reader.scene.nodes[i].name) +
-                                "': its transform and those above it multiply to a number that is not finite");
-}
 
 /// A damaged file is refused also where the damage does not show.
 void check_unused(GltfReader& reader) {
@@ -65,7 +54,7 @@ void read_all(GltfReader& reader) {
     read_nodes(reader);
     read_fixtures(reader);
     read_animations(reader);
-    check_world(reader);
+    check_transforms(reader.scene, reader.document.name());
     check_unused(reader);
 }
 
@@ -81,7 +70,7 @@ LoadedScene read_gltf(const std::filesystem::path& file, const SceneLimits& limi
         GltfDocument document(file, limits);
         GltfReader reader{.document = document, .limits = limits};
         read_all(reader);
-        return {std::move(reader.scene), reader.notes.lines(), reader.photometric};
+        return {std::move(reader.scene), reader.notes.lines(), reader.photometric, std::move(reader.source)};
     } catch (const std::bad_alloc&) {
         throw OutOfHostMemory(one_line(file.string()) + ": not enough memory");
     }

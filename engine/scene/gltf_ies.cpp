@@ -47,7 +47,7 @@ uint32_t read_measured_light(GltfReader& reader, const JsonValue& use) {
     const double multiplier = use.number_or("multiplier", 1, 0);
     glm::dvec3 colour(1);
     if (const auto stated = use.find("color")) {
-        const auto c = stated->numbers<3>(0);
+        const auto c = stated->numbers<3, double>(0);
         colour = glm::min(glm::dvec3(c[0], c[1], c[2]), glm::dvec3(1));  // the extension clamps
     }
     const auto key = std::tuple(index, static_cast<float>(multiplier), static_cast<float>(colour.r),

@@ -10,17 +10,17 @@
 namespace vesper::scene {
 namespace {
 
-glm::vec3 rgb_of(const JsonValue& value) {
-    const auto c = value.numbers<3>(0);
+glm::dvec3 rgb_of(const JsonValue& value) {
+    const auto c = value.numbers<3, double>(0);
     return {c[0], c[1], c[2]};
 }
 
 /// KHR_lights_punctual multiplies colour by intensity; we keep a colour of luminance 1, so that intensity is what a
 /// photometer measures.
-void normalise(Lamp& lamp, double stored_intensity, glm::vec3 stored_colour, const JsonValue& source) {
+void normalise(Lamp& lamp, double stored_intensity, glm::dvec3 stored_colour, const JsonValue& source) {
     const double y = luminance(stored_colour);
     lamp.intensity = static_cast<float>(stored_intensity * y);
-    lamp.colour = y > 0 ? glm::vec3(glm::dvec3(stored_colour) / y) : glm::vec3(1);
+    lamp.colour = y > 0 ? glm::vec3(stored_colour / y) : glm::vec3(1);
     if (!std::isfinite(lamp.intensity) || !std::isfinite(lamp.colour.r + lamp.colour.g + lamp.colour.b))
         source.fail("intensity times colour is not finite");
 }
@@ -51,7 +51,7 @@ Lamp read_light(GltfReader& reader, const JsonValue& source) {
         reader.unknown_lights.insert(static_cast<uint32_t>(reader.scene.lamps.size()));
     }
     const auto colour = source.find("color");
-    normalise(lamp, source.number_or("intensity", 1, 0), colour ? rgb_of(*colour) : glm::vec3(1), source);
+    normalise(lamp, source.number_or("intensity", 1, 0), colour ? rgb_of(*colour) : glm::dvec3(1), source);
     if (const auto spot = source.find("spot"); spot && lamp.kind == Lamp::Kind::Spot) {
         read_cones(lamp, *spot);
         constexpr double kNarrow = 0.5 * kRadiansPerDegree;

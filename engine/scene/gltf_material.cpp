@@ -6,6 +6,7 @@
 #include "io/image_file.h"
 #include "scene/gltf_reader.h"
 #include "scene/reflectance.h"
+#include "scene/uri.h"
 
 namespace vesper::scene {
 namespace {
@@ -29,8 +30,8 @@ uint32_t read_image(GltfReader& reader, uint32_t index) {
         reader.notes.add("a picture of 16 bits is read at 8: below 0.01 its values are coarse");
     reader.texels += static_cast<uint64_t>(image.width) * image.height;
     const auto uri = entry.find("uri");
-    image.name =
-        entry.text_or("name", uri && uri->text().size() < 256 ? uri->text() : "image " + std::to_string(index));
+    const bool named = uri && uri->text().size() < 256 && !is_data_uri(uri->text());
+    image.name = entry.text_or("name", named ? uri->text() : "image " + std::to_string(index));
     reader.scene.images.push_back(std::move(image));
     return reader.image_of[index] = static_cast<uint32_t>(reader.scene.images.size() - 1);
 }
@@ -80,13 +81,24 @@ void read_sampler(GltfReader& reader, uint32_t index, TextureUse& use) {
 
 namespace {
 
+const tinygltf::Texture& texture_of(GltfReader& reader, const JsonValue& info) {
+    const auto& textures = reader.document.model().textures;
+    return textures[info.at("index").index(textures.size(), "textures")];
+}
+
+/// A textureInfo object without its image: sampled how, and where its uv come from.
+TextureUse read_place(GltfReader& reader, const JsonValue& info, UvMapping& mapping) {
+    mapping = read_uv_mapping(info);
+    TextureUse use;
+    if (const tinygltf::Texture& texture = texture_of(reader, info); texture.sampler >= 0)
+        read_sampler(reader, static_cast<uint32_t>(texture.sampler), use);
+    return use;
+}
+
 /// A textureInfo object: which image, sampled how, and where its uv come from.
 TextureUse read_texture(GltfReader& reader, const JsonValue& info, UvMapping& mapping) {
-    mapping = read_uv_mapping(info);
-    const auto& textures = reader.document.model().textures;
-    const tinygltf::Texture& texture = textures[info.at("index").index(textures.size(), "textures")];
-    TextureUse use;
-    if (texture.sampler >= 0) read_sampler(reader, static_cast<uint32_t>(texture.sampler), use);
+    TextureUse use = read_place(reader, info, mapping);
+    const tinygltf::Texture& texture = texture_of(reader, info);
     if (texture.source >= 0)
         use.image = read_image(reader, static_cast<uint32_t>(texture.source));
     else
@@ -165,13 +177,16 @@ void read_emission(GltfReader& reader, Properties& p) {
         if (const auto emission = extensions->find("KHR_materials_emissive_strength"))
             strength = emission->number_or("emissiveStrength", 1, 0);
     for (int c = 0; c < 3; ++c) {
-        const auto factor = static_cast<float>(p.material->emissiveFactor[static_cast<size_t>(c)]);
+        const double factor = p.material->emissiveFactor[static_cast<size_t>(c)];
         p.made.emission[c] = static_cast<float>(factor * strength);
         if (factor < 0 || !std::isfinite(p.made.emission[c]))
             p.material.json.at("emissiveFactor").fail("is negative, or not finite times the emissive strength");
     }
-    if (p.made.emission == glm::vec3(0)) return;  // its texture need not be read
-    if (const auto texture = p.material.json.find("emissiveTexture"))
+    const auto texture = p.material.json.find("emissiveTexture");
+    if (!texture) return;
+    if (p.made.emission == glm::vec3(0))  // its picture need not be read; one of a rule may lie in its place
+        p.made.emission_texture = read_place(reader, *texture, p.emission_uv);
+    else
         p.made.emission_texture = read_texture(reader, *texture, p.emission_uv);
 }
 
@@ -188,6 +203,7 @@ void read_alpha(GltfReader& reader, Properties& p) {
     if (mode == "OPAQUE") return;
     if (mode != "MASK" && mode != "BLEND")
         return reader.notes.add("an alpha mode that glTF does not have is read as OPAQUE");
+    if (mode == "BLEND") mark(reader.source.blended, reader.scene.materials.size());
     if (mode == "BLEND" && p.made.emission != glm::vec3(0)) {
         // The glass of a lamp must not vanish while it shines.
         reader.notes.add("a material of alpha mode BLEND that emits is drawn opaque");
@@ -201,11 +217,16 @@ void read_alpha(GltfReader& reader, Properties& p) {
             "a material of alpha mode BLEND is drawn as MASK: opaque from half opacity on, invisible below");
 }
 
-/// Vertices have one uv: the base colour's, or the first texture's there is.
+/// Vertices have one uv: the base colour's, or the first texture's there is. Without any, that of one
+/// that is not shown: a luminance picture may take its place.
 UvMapping common_uv(GltfReader& reader, const Properties& p) {
     const bool base = p.made.base_colour_texture.image != kNone, emission = p.made.emission_texture.image != kNone;
     const bool roughness = p.made.metallic_roughness_texture.image != kNone;
-    const UvMapping chosen = base ? p.base_uv : emission ? p.emission_uv : p.roughness_uv;
+    const UvMapping chosen = base                                      ? p.base_uv
+                             : emission                                ? p.emission_uv
+                             : roughness                               ? p.roughness_uv
+                             : p.material.json.find("emissiveTexture") ? p.emission_uv
+                                                                       : p.base_uv;
     if ((emission && p.emission_uv != chosen) || (roughness && p.roughness_uv != chosen))
         reader.notes.add("a material whose textures lie differently: all follow its base colour texture");
     return chosen;

@@ -13,15 +13,15 @@ enum class Mode : uint8_t { Points, Lines, LineLoop, LineStrip, Triangles, Strip
 
 /// Material for primitives that name none: grey, reflectance 0.5, Lambert.
 uint32_t default_material(GltfReader& reader) {
-    if (reader.default_material == kNone) {
+    if (reader.source.implied_material == kNone) {
         Material grey;
         grey.name = "default";
         grey.base_colour = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f);  // glTF's own, white metal, would be black at night
         reader.scene.materials.push_back(grey);
         reader.uv_mappings.emplace_back();
-        reader.default_material = static_cast<uint32_t>(reader.scene.materials.size() - 1);
+        reader.source.implied_material = static_cast<uint32_t>(reader.scene.materials.size() - 1);
     }
-    return reader.default_material;
+    return reader.source.implied_material;
 }
 
 /// Corner numbers of a list, strip or fan to a list of triangles.
@@ -162,7 +162,8 @@ std::optional<Primitive> read_primitive(GltfReader& reader, const GltfPart<tinyg
     if (const auto uv = read_attribute(reader, source, uv_set, count, {TINYGLTF_TYPE_VEC2}))
         take_uv(reader, made, *uv);
     else
-        check_needs_no_uv(reader, made.material, source.json.at("attributes"), uv_set);
+        check_needs_no_uv(reader, made.material, source.json.at("attributes"), uv_set),
+            reader.source.without_uv.emplace_back(static_cast<uint32_t>(reader.scene.meshes.size()), made.material);
     if (const auto colours = read_attribute(reader, source, "COLOR_0", count, {TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4}))
         take_colours(reader, made, *colours);
     auto normals = read_attribute(reader, source, "NORMAL", count, {TINYGLTF_TYPE_VEC3});
@@ -200,7 +201,11 @@ Mesh make_mesh(GltfReader& reader, uint32_t index, Pose pose) {
 
 }  // namespace
 
-void check_mesh(GltfReader& reader, uint32_t mesh) { make_mesh(reader, mesh, {}); }
+void check_mesh(GltfReader& reader, uint32_t mesh) {
+    const size_t known = reader.source.without_uv.size();
+    make_mesh(reader, mesh, {});
+    reader.source.without_uv.resize(known);
+}
 
 std::optional<Floats> read_attribute(GltfReader& reader, const GltfPart<tinygltf::Primitive>& primitive,
                                      const std::string& name, size_t count, std::initializer_list<int> types) {

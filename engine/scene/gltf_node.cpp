@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "scene/gltf_reader.h"
+#include "scene/rotation.h"
 
 namespace vesper::scene {
 namespace {
@@ -70,11 +71,9 @@ std::vector<uint32_t> read_roots(GltfReader& reader, const std::vector<uint32_t>
 
 /// `xyzw` as floats, which need not be of length 1.
 glm::quat rotation_of(const JsonValue& holder, glm::vec4 xyzw) {
-    const glm::dvec4 q(xyzw);
-    const double length = glm::length(q);
-    if (!(length > 1e-6) || !std::isfinite(length)) holder.fail("is no rotation");
-    return glm::quat(static_cast<float>(q.w / length), static_cast<float>(q.x / length),
-                     static_cast<float>(q.y / length), static_cast<float>(q.z / length));
+    const auto rotation = unit_rotation(xyzw);
+    if (!rotation) holder.fail("is no rotation");
+    return *rotation;
 }
 
 void read_transform(Node& node, const GltfPart<tinygltf::Node>& source) {
@@ -152,7 +151,8 @@ void read_instances(GltfReader& reader, const JsonValue& instancing, uint32_t pa
             const auto q = (*rotations)[i];
             instance.rotation = rotation_of(attributes, {q[0], q[1], q[2], q[3]});
         }
-        add_node(reader, instancing, std::move(instance));
+        const uint32_t made = add_node(reader, instancing, std::move(instance));
+        mark(reader.source.added, made), mark(reader.source.instances, made);
     }
 }
 
@@ -199,7 +199,7 @@ void read_node(GltfReader& reader, uint32_t index, uint32_t parent, const std::v
     if (second.lamp != kNone) {
         second.name = reader.scene.nodes[made].name;
         second.parent = made;
-        add_node(reader, source.json, std::move(second));
+        mark(reader.source.added, add_node(reader, source.json, std::move(second)));
     }
     if (instancing && has_mesh) read_instances(reader, *instancing, made);
 }

@@ -56,15 +56,15 @@ struct GltfReader {
     GltfDocument& document;
     const SceneLimits& limits;
     Scene scene{};
+    SceneSource source{};
     Notes notes{};
     std::vector<UvMapping> uv_mappings{};  ///< one per scene material
     std::vector<uint32_t> node_of{}, image_of{};
     /// Scene mesh for a mesh of the file, the skin that puts it in place or kNone, and the node's weights.
     std::map<std::tuple<uint32_t, uint32_t, std::vector<float>>, uint32_t> meshes{};
-    std::map<uint32_t, bool> jointed{};  ///< see hangs_on_joints
-    std::set<uint32_t> skinned{};        ///< nodes of the file whose mesh a skin puts in place
-    bool photometric = false;            ///< there is an extras block
-    uint32_t default_material = kNone;
+    std::map<uint32_t, bool> jointed{};               ///< see hangs_on_joints
+    std::set<uint32_t> skinned{};                     ///< nodes of the file whose mesh a skin puts in place
+    bool photometric = false;                         ///< there is an extras block
     std::map<uint32_t, glm::dvec4> specular_means{};  ///< of pictures that specularGlossinessTextures name
     std::set<uint32_t> unknown_lights{};              ///< of a type that glTF does not have: no node shows them
     uint32_t punctual_lights = 0;                     ///< those of KHR_lights_punctual, the first of the scene's

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -12,13 +13,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "base/angle.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "io/new_file.h"
-#include "photometry/ies.h"
-#include "scene/photometry_parts.h"
-#include "scene/reflection_json.h"
+#include "scene/gltf_parts.h"
 #include "scene/tinygltf.h"
 
 namespace vesper::scene {
@@ -60,7 +58,6 @@ tinygltf::Value value_of(const json& value) {
 }
 
 std::vector<double> doubles_of(glm::dvec3 v) { return {v.x, v.y, v.z}; }
-json json_of(glm::dvec3 v) { return {v.x, v.y, v.z}; }
 
 /// The model under way. Its bytes lie in one buffer.
 struct Writer {
@@ -110,10 +107,9 @@ void write_materials(Writer& writer) {
         made.pbrMetallicRoughness.metallicFactor = material.metallic;
         made.pbrMetallicRoughness.roughnessFactor = material.roughness;
         made.emissiveFactor = {0, 0, 0};
-        const float brightest = std::max({material.emission.r, material.emission.g, material.emission.b});
-        if (brightest > 0) {
-            made.emissiveFactor = doubles_of(material.emission / brightest);
-            made.extensions["KHR_materials_emissive_strength"] = value_of({{"emissiveStrength", brightest}});
+        if (const EmissionParts emission = emission_parts(material.emission); emission.strength > 0) {
+            made.emissiveFactor = doubles_of(emission.factor);
+            made.extensions["KHR_materials_emissive_strength"] = value_of({{"emissiveStrength", emission.strength}});
             writer.use("KHR_materials_emissive_strength");
         }
         if (material.alpha == Material::Alpha::Mask) {
@@ -169,65 +165,11 @@ void write_meshes(Writer& writer) {
     }
 }
 
-void add_opening(json& openings, const char* of, size_t index, const photometry::LuminousOpening& opening) {
-    if (!(opening.area() > 0)) return;
-    openings.push_back({{of, index}, {"width_m", opening.length}, {"height_m", opening.width}});
-    if (opening.round) openings.back()["round"] = true;
-    if (!opening.drawn) openings.back()["drawn"] = false;
-}
-
-/// The extension by which a node uses a lamp.
-struct LampUse {
-    std::string extension;
-    tinygltf::Value value;
-};
-
-/// Lists of punctual lights and light profiles, and how nodes use each lamp of the scene.
-std::vector<LampUse> write_lamps(Writer& writer, json& block) {
-    std::vector<LampUse> uses;
-    json profiles = json::array(), openings = json::array(), lobes = json::array();
-    for (const Lamp& lamp : writer.scene.lamps) {
-        // A colour of luminance 1 becomes one whose largest component is 1; the intensity takes the factor.
-        const float factor = std::max({lamp.colour.r, lamp.colour.g, lamp.colour.b});
-        const glm::dvec3 colour = lamp.colour / factor;
-        const double intensity = lamp.intensity * double(factor);
-        if (lamp.kind == Lamp::Kind::Measured) {
-            // One profile for each light: openings belong to profiles.
-            const std::string text = photometry::write_ies(writer.scene.distributions.at(lamp.distribution));
-            profiles.push_back({{"name", lamp.name},
-                                {"bufferView", writer.view(text.data(), text.size())},
-                                {"mimeType", "application/x-ies-lm-63"}});
-            add_opening(openings, "profile", profiles.size() - 1, lamp.opening);
-            uses.push_back(
-                {"EXT_lights_ies",
-                 value_of({{"light", profiles.size() - 1}, {"multiplier", intensity}, {"color", json_of(colour)}})});
-            continue;
-        }
-        const size_t index = writer.model.lights.size();
-        tinygltf::Light& made = writer.model.lights.emplace_back();
-        made.name = utf8(lamp.name);
-        made.intensity = intensity;
-        made.color = doubles_of(colour);
-        made.type = lamp.kind == Lamp::Kind::Point         ? "point"
-                    : lamp.kind == Lamp::Kind::Directional ? "directional"
-                                                           : "spot";
-        made.spot.innerConeAngle = lamp.inner_cone;
-        made.spot.outerConeAngle = lamp.outer_cone;
-        if (lamp.kind == Lamp::Kind::CosinePower)
-            lobes.push_back({{"light", index}, {"type", "cosine_power"}, {"exponent", lamp.exponent}});
-        add_opening(openings, "light", index, lamp.opening);
-        if (lamp.kind == Lamp::Kind::Directional && lamp.angular_diameter != Lamp{}.angular_diameter)
-            openings.push_back(
-                {{"light", index}, {"angular_diameter_deg", double(lamp.angular_diameter) * kDegreesPerRadian}});
-        uses.push_back({"KHR_lights_punctual", value_of({{"light", index}})});
-    }
-    if (!profiles.empty()) {
-        writer.model.extensions["EXT_lights_ies"] = value_of({{"lights", std::move(profiles)}});
-        writer.use("EXT_lights_ies");
-    }
-    if (!openings.empty()) block["openings"] = std::move(openings);
-    if (!lobes.empty()) block["lobes"] = std::move(lobes);
-    return uses;
+/// The list of lights of an extension of the file.
+void add_lights(Writer& writer, const char* extension, json lights) {
+    if (lights.empty()) return;
+    writer.model.extensions[extension] = value_of({{"lights", std::move(lights)}});
+    writer.use(extension);
 }
 
 void write_transform(const Node& node, tinygltf::Node& made) {
@@ -255,7 +197,7 @@ void write_nodes(Writer& writer, const std::vector<LampUse>& lamps) {
         write_transform(node, made);
         if (node.mesh != kNone) made.mesh = static_cast<int>(node.mesh);
         if (node.camera != kNone) made.camera = static_cast<int>(node.camera);
-        if (node.lamp != kNone) made.extensions[lamps.at(node.lamp).extension] = lamps[node.lamp].value;
+        if (node.lamp != kNone) made.extensions[lamps.at(node.lamp).extension] = value_of(lamps[node.lamp].value);
         (node.parent == kNone ? scene.nodes : model.nodes[node.parent].children).push_back(static_cast<int>(i));
     }
     if (!scene.nodes.empty() || !scene.name.empty()) {
@@ -297,31 +239,6 @@ void write_animation(Writer& writer) {
     if (!animation.channels.empty()) writer.model.animations.push_back(std::move(animation));
 }
 
-void write_block(const Scene& scene, json& block, const std::string& source) {
-    block["version"] = 1;
-    block["transfer"] = {{"kind", scene.transfer.kind == Transfer::Kind::Gamma ? "gamma" : "srgb"}};
-    if (scene.transfer.kind == Transfer::Kind::Gamma) block["transfer"]["gamma"] = scene.transfer.gamma;
-    block["ambient"] = {{"illuminance_lx", scene.ambient_illuminance}, {"colour", json_of(scene.ambient_colour)}};
-    block["sky"] = {{"luminance_cd_m2", scene.sky_luminance}, {"colour", json_of(scene.sky_colour)}};
-    for (const photometry::ReflectionTable& table : scene.reflection_tables)
-        block["reflection_tables"].push_back(scene::json_of(table));
-    for (const photometry::Retroreflector& one : scene.retroreflectors)
-        block["retroreflectors"].push_back(scene::json_of(one));
-    for (size_t m = 0; m < scene.materials.size(); ++m) {
-        const Material& material = scene.materials[m];
-        if (material.reflection_table != kNone)
-            block["roads"].push_back({{"material", m}, {"table", material.reflection_table}});
-        if (material.retroreflector != kNone)
-            block["retroreflective"].push_back({{"material", m}, {"retroreflector", material.retroreflector}});
-    }
-    for (size_t i = 0; i < scene.nodes.size(); ++i) {
-        const std::optional<uint32_t>& fixture = scene.nodes[i].fixture;
-        if (scene.nodes[i].lamp != kNone && fixture)
-            block["fixtures"].push_back({{"node", i}, {"fixture", *fixture == kNone ? json("none") : json(*fixture)}});
-    }
-    block["provenance"] = {{"input", source}, {"vesper", VESPER_VERSION}};
-}
-
 std::vector<uint8_t> encode(Writer& writer, bool binary) {
     const auto too_large = [&] { return Error("scene '" + writer.scene.name + "': takes more than 4 GiB as glTF"); };
     std::vector<tinygltf::Buffer>& buffers = writer.model.buffers;
@@ -346,12 +263,19 @@ void save_gltf(const Scene& scene, const std::string& source, const std::filesys
     if (!scene.images.empty() || !scene.luminance_pictures.empty() || scene.environment)
         throw Error("scene '" + scene.name + "': has pictures, which only its file can give");
     Writer writer(scene);
-    json block;
     write_materials(writer);
     write_meshes(writer);
-    write_nodes(writer, write_lamps(writer, block));
+    const LampParts lamps = lamp_parts(scene, 0, 0, [&](std::span<const uint8_t> bytes) {
+        return static_cast<size_t>(writer.view(bytes.data(), bytes.size()));
+    });
+    add_lights(writer, "KHR_lights_punctual", lamps.lights);
+    add_lights(writer, "EXT_lights_ies", lamps.profiles);
+    write_nodes(writer, lamps.uses);
     write_animation(writer);
-    write_block(scene, block, source);
+    std::vector<uint32_t> nodes(scene.nodes.size());
+    std::iota(nodes.begin(), nodes.end(), 0u);
+    json block = photometry_block(scene, lamps, nodes);
+    block["provenance"] = {{"input", source}, {"vesper", VESPER_VERSION}};
     writer.model.extras = value_of({{"vesper", std::move(block)}});
     io::replace_file(file, encode(writer, file.extension() == ".glb"));
 }

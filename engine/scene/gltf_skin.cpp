@@ -129,7 +129,10 @@ void read_skinned(GltfReader& reader, const std::vector<uint32_t>& parents) {
             const std::vector<float> weights(source->weights.begin(), source->weights.end());
             drawn.mesh = read_mesh(reader, static_cast<uint32_t>(source->mesh), {weights, index, &skin});
             const uint32_t made = add_node(reader, source.json, std::move(drawn));
-            if (reader.node_of[holder] == kNone) reader.node_of[holder] = made;
+            if (reader.node_of[holder] == kNone)
+                reader.node_of[holder] = made;
+            else
+                mark(reader.source.added, made);
         }
     }
 }

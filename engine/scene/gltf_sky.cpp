@@ -2,9 +2,8 @@
 #include <cmath>
 #include <numbers>
 
-#include <glm/gtc/packing.hpp>
-
 #include "scene/gltf_reader.h"
+#include "scene/half_sky.h"
 #include "scene/photometry_parts.h"
 
 namespace vesper::scene {
@@ -22,8 +21,7 @@ void read_environment(GltfReader& reader, const JsonValue& source) {
         uint32_t(width), uint32_t(height), {}, source.number_or("rotation_deg", 0, -360, 360) * std::numbers::pi / 180};
     made.rgb.reserve(bytes.size() / 2);
     for (size_t i = 0; i < bytes.size(); i += 2) {
-        const auto half = static_cast<uint16_t>(bytes[i] | bytes[i + 1] << 8);
-        const float value = static_cast<float>(scale * glm::unpackHalf1x16(half));
+        const float value = half_luminance(&bytes[i], scale);
         if (!(value >= 0) || !std::isfinite(value)) number.fail("holds luminances that are negative or not finite");
         made.rgb.push_back(value);
     }

@@ -93,6 +93,13 @@ void append_chunk(std::vector<uint8_t>& file, uint32_t type, std::span<const uin
     append(file, bytes);
 }
 
+/// A picture without a name keeps that of its file.
+void keep_name(json& image) {
+    const auto uri = image.find("uri");
+    if (uri == image.end() || !uri->is_string() || image.contains("name")) return;
+    if (!is_data_uri(uri->get_ref<const std::string&>())) image["name"] = *uri;
+}
+
 std::vector<uint8_t> encode_text(json& root, const Parts& parts) {
     for (size_t i = 0; i < parts.buffers.size(); ++i)
         if (parts.buffers[i])
@@ -100,6 +107,7 @@ std::vector<uint8_t> encode_text(json& root, const Parts& parts) {
     for (size_t i = 0; i < parts.images.size(); ++i) {
         json& image = root["images"][i];
         if (parts.images[i].empty()) continue;
+        keep_name(image);
         image["uri"] = encode_data_uri(type_of(image, parts.images[i]), parts.images[i]);
     }
     const std::string text = root.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
@@ -126,6 +134,7 @@ std::vector<uint8_t> encode_binary(json& root, const Parts& parts, const std::st
     for (size_t i = 0; i < parts.images.size(); ++i) {
         json& image = root["images"][i];
         if (parts.images[i].empty()) continue;
+        keep_name(image);
         image["mimeType"] = type_of(image, parts.images[i]);
         image["bufferView"] = root["bufferViews"].size();
         image.erase("uri");

@@ -216,7 +216,7 @@ Photometry read_photometry(const std::filesystem::path& file) {
         {"$schema", "version", "textures", "ambient", "sky", "directional", "lights", "lamps", "emitters", "surfaces"});
     const JsonValue version = root.at("version");
     if (version.integer() != 1) version.fail("must be 1: this program knows no other");
-    Photometry made;
+    Photometry made{.file = file};
     if (const auto textures = root.find("textures")) made.transfer = read_transfer(*textures);
     if (const auto ambient = root.find("ambient")) made.ambient = read_quantity(*ambient, "illuminance_lx", 2e5);
     if (const auto sky = root.find("sky")) {

@@ -87,6 +87,7 @@ struct DirectionalRule {
 };
 
 struct Photometry {
+    std::filesystem::path file;
     Transfer transfer{Transfer::Kind::Gamma, 2.2f};
     std::optional<ColouredQuantity> ambient;  ///< illuminance, lx
     std::optional<ColouredQuantity> sky;      ///< luminance, cd/m^2

@@ -15,7 +15,7 @@ namespace {
 
 /// A format of scenes.
 struct SceneReader {
-    std::vector<std::string_view> endings;  ///< of names, in small letters
+    std::vector<std::string_view> endings;           ///< of names, in small letters
     bool (*begins)(std::span<const uint8_t> start);  ///< whether a file that begins like this is one
     LoadedScene (*read)(const std::filesystem::path&, const SceneLimits&);
 };

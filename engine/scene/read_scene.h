@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/limits.h"
@@ -26,10 +27,26 @@ struct SceneLimits {
     uint64_t candela = scaled_limit(16'000'000);  ///< intensities of all measured distributions together
 };
 
+/// What a file says beyond its scene, for rules that go by the file's own nodes and materials. Lists may be shorter
+/// than those of the scene: what they do not have is not marked.
+struct SceneSource {
+    std::vector<bool> added;            ///< nodes that the reader made beside the file's own: no rule matches them
+    std::vector<bool> instances;        ///< of these, the places of a mesh that its parent shows many times
+    std::vector<bool> blended;          ///< materials that are opaque while they emit, and else masked
+    uint32_t implied_material = kNone;  ///< of what names none: no rule matches it
+    std::vector<std::pair<uint32_t, uint32_t>> without_uv;  ///< meshes, and materials in them, for vertices at uv 0
+};
+inline bool marked(const std::vector<bool>& list, size_t i) { return i < list.size() && list[i]; }
+inline void mark(std::vector<bool>& list, size_t i) {
+    if (list.size() <= i) list.resize(i + 1);
+    list[i] = true;
+}
+
 struct LoadedScene {
     Scene scene;
     std::vector<std::string> notes;  ///< what was left out or read with a change, one line each
     bool photometric = false;        ///< whether the file states photometry, as `convert` writes it
+    SceneSource source{};
 };
 
 /// Reads a scene: glTF 2.0 (docs/gltf.md). The name's ending chooses the format; of a file with another ending, its

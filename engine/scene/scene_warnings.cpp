@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/convert_rules.h"
+#include "scene/apply_rules.h"
 
 namespace vesper::scene {
 namespace {

@@ -18,8 +18,8 @@
 #include "roads/esmini_run.h"
 #include "roads/layout_file.h"
 #include "roads/opendrive.h"
+#include "scene/apply_photometry.h"
 #include "scene/display_file.h"
-#include "scene/photometry.h"
 #include "scene/read_scene.h"
 #include "traffic/world_file.h"
 #include "vision/display_fit.h"
@@ -66,11 +66,29 @@ void draw_mesh(Bytes bytes) {
     gpu_scene::projection_of({64, 36}, {48, 27}, &mesh);
 }
 
+// The rules of a file, applied to a scene that has something for most of them.
+void apply(const fs::path& file) {
+    const scene::Photometry rules = scene::read_photometry(file);
+    scene::Scene scene;
+    scene.images.push_back({"texture", 1, 1, {255, 128, 0, 255}});
+    for (const char* name : {"road", "lamp_glass"}) {
+        scene.materials.push_back({.name = name});
+        scene.materials.back().base_colour_texture.image = 0;
+    }
+    scene::Primitive triangle{.material = 1, .vertices = {{{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}}, .indices = {0, 1, 2}};
+    for (const scene::Vertex& vertex : triangle.vertices) triangle.bounds.add(vertex.position);
+    scene.meshes.push_back({"triangle", {triangle}});
+    scene.nodes.push_back({.name = "street_lamp_0", .mesh = 0});
+    scene.nodes.push_back({.name = "light", .parent = 0});
+    scene.nodes.push_back({.name = "car"});
+    scene::apply_photometry(scene, rules, "x.gltf");
+}
+
 std::map<std::string, FuzzTarget> make_targets() {
     return {
         {"gltf", of_file("x.gltf", [](const fs::path& file) { scene::read_scene(file, kFew); })},
         {"glb", of_file("x.glb", [](const fs::path& file) { scene::read_scene(file, kFew); })},
-        {"photometry", of_file("x.photometry.json", [](const fs::path& file) { scene::read_photometry(file); })},
+        {"photometry", of_file("x.photometry.json", apply)},
         {"ies", [](Bytes bytes) { photometry::parse_ies(bytes, "x.ies"); }},
         {"ldt", [](Bytes bytes) { photometry::parse_eulumdat(bytes, "x.ldt"); }},
         {"grid_csv", [](Bytes bytes) { photometry::parse_grid_csv(bytes, "x.csv"); }},

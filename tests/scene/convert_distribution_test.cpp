@@ -42,7 +42,7 @@ protected:
     json beam_rule() const {
         return {{"name", "beam"}, {"nodes", "car_*"}, {"type", "distribution"}, {"file", "beam.csv"}};
     }
-    scene::ConversionReport convert_with(const std::vector<json>& lamps, const std::string& output = "out.gltf",
+    scene::PhotometryReport convert_with(const std::vector<json>& lamps, const std::string& output = "out.gltf",
                                          bool keep = false) {
         return ConversionTest::convert_with({{"lamps", lamps}, {"lights", {{"keep", keep}}}}, output);
     }
@@ -111,7 +111,7 @@ TEST_F(ConvertDistributionTest, EmbedsEachFileOnce) {
         street["colour_temperature_K"] = 3000;
         again["nodes"] = "car_1/*";
         again["flux_scale"] = 0.5;
-        const scene::ConversionReport report = convert_with({street, beam_rule(), again}, output);
+        const scene::PhotometryReport report = convert_with({street, beam_rule(), again}, output);
         const TempFolder elsewhere;  // nothing beside it
         std::filesystem::copy(folder_ / output, elsewhere / output);
         const scene::LoadedScene loaded = scene::read_scene(elsewhere / output);
@@ -141,7 +141,7 @@ TEST_F(ConvertDistributionTest, ScalesFlux) {
     rule["flux_lm"] = 9000;
     rule["maintenance_factor"] = 0.8;
     rule["dimming"] = 0.5;
-    const scene::ConversionReport report = convert_with({rule});
+    const scene::PhotometryReport report = convert_with({rule});
     EXPECT_NEAR(converted().lamps[0].intensity, 9000 / measured * 0.4, 1e-4);
     EXPECT_TRUE(mentions(report.changes, "3600 lm each"));
     rule.erase("flux_lm");
@@ -168,7 +168,7 @@ TEST_F(ConvertDistributionTest, TurnsAStreetLampToTheRoad) {
     EXPECT_NEAR(seen(way({1, 0, 0}, {0, 0, -1})), 5000, 1);
     rule.erase("rotation_deg");
     rule["mirror"] = true;  // C0 and C180 exchanged, C90 kept
-    const scene::ConversionReport report = convert_with({rule});
+    const scene::PhotometryReport report = convert_with({rule});
     EXPECT_NEAR(seen(way({0, 0, -1}, {1, 0, 0})), 5000, 1);
     EXPECT_TRUE(mentions(report.changes, "'lamp.ies' mirrored, "));
 }
@@ -208,7 +208,7 @@ TEST_F(ConvertDistributionTest, KeepsOrRemovesThoseOfTheOriginal) {
     street_.root["extensions"]["EXT_lights_ies"]["lights"] = {{{"uri", "old.ies"}}};
     street_.root["nodes"][1]["extensions"]["EXT_lights_ies"] = {{"light", 0}, {"multiplier", 7}};
     for (const char* output : {"out.gltf", "out.glb"}) {
-        const scene::ConversionReport removing = convert_with({beam_rule()}, output);
+        const scene::PhotometryReport removing = convert_with({beam_rule()}, output);
         EXPECT_TRUE(mentions(removing.changes, "removed 1 light"));
         EXPECT_EQ(converted(output).distributions.size(), 1u);
         convert_with({beam_rule(), street_rule()}, output, true);

@@ -30,7 +30,7 @@ protected:
         return rule;
     }
     /// Names of the nodes that are the fixture of each lamp, after a conversion by this rule.
-    std::vector<Names> fixtures(const json& rule, scene::ConversionReport* report = nullptr) {
+    std::vector<Names> fixtures(const json& rule, scene::PhotometryReport* report = nullptr) {
         const auto made = convert_with({{"lamps", {rule}}}, "out.glb");
         if (report) *report = made;
         const scene::Scene scene = converted("out.glb");
@@ -63,7 +63,7 @@ TEST_F(ConvertFixturesTest, AreThoseThatTheRuleStates) {
 }
 
 TEST_F(ConvertFixturesTest, AreReported) {
-    scene::ConversionReport report;
+    scene::PhotometryReport report;
     fixtures(lamp("none"), &report);
     EXPECT_TRUE(mentions(report.changes, "lm each, no fixture"));
     EXPECT_FALSE(mentions(report.warnings, "fixture"));

@@ -44,7 +44,7 @@ protected:
     }
     void write(const std::string& name, double white) const { io::write_exr(folder_ / name, picture(white)); }
 
-    scene::ConversionReport convert_with(json emitter, const std::string& output = "out.gltf") {
+    scene::PhotometryReport convert_with(json emitter, const std::string& output = "out.gltf") {
         return ConversionTest::convert_with({{"emitters", emitter.is_array() ? emitter : json::array({emitter})}},
                                             output);
     }
@@ -57,7 +57,7 @@ TEST_F(ConvertLuminous, APictureGoesIntoTheFile) {
     const std::vector<uint8_t> bytes = io::read_file(folder_ / "lit.exr", 1 << 20);
     for (const char* output : {"out.gltf", "out.glb"}) {
         SCOPED_TRACE(output);
-        const scene::ConversionReport report =
+        const scene::PhotometryReport report =
             convert_with({{"name", "shop"}, {"materials", "window"}, {"image", "lit.exr"}}, output);
         EXPECT_TRUE(mentions(
             report.changes,

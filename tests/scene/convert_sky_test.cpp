@@ -44,7 +44,7 @@ protected:
 
 // 0.018 to 0.024 cd/m^2 over a big city, 0.1 to 1 lx in towns.
 TEST_F(ConvertSky, WhatIsNotStatedIsANightInTown) {
-    const scene::ConversionReport report = convert_with(json::object());
+    const scene::PhotometryReport report = convert_with(json::object());
     EXPECT_TRUE(mentions(report.changes, "not stated"));
     const scene::Scene scene = converted();
     EXPECT_FLOAT_EQ(scene.sky_luminance, 0.02f);
@@ -59,7 +59,7 @@ TEST_F(ConvertSky, WhatIsNotStatedIsANightInTown) {
 TEST_F(ConvertSky, APictureGoesIntoTheFile) {
     for (const char* output : {"out.gltf", "out.glb"}) {
         SCOPED_TRACE(output);
-        const scene::ConversionReport report =
+        const scene::PhotometryReport report =
             convert_with({{"sky", {{"image", "night.exr"}, {"scale", 0.02}, {"rotation_deg", 90}}}}, output);
         EXPECT_TRUE(mentions(report.changes, "night.exr"));
         std::filesystem::rename(folder_ / "night.exr", folder_ / "away.exr");

@@ -7,7 +7,7 @@
 #include "io/hdr_image.h"
 #include "photometry/ies.h"
 #include "places.h"
-#include "scene/convert_rules.h"
+#include "scene/apply_rules.h"
 #include "scene/lamp.h"
 #include "support/conversion.h"
 
@@ -40,10 +40,10 @@ protected:
                 {"intensity_cd", candela}, {"exponent", 9},       {"aim", {1, 0, 0}}};
     }
     static json opening() { return {{"width_m", 0.3}, {"height_m", 0.2}}; }
-    scene::ConversionReport convert_with(const json& lamp_rule, const json& emitter) {
+    scene::PhotometryReport convert_with(const json& lamp_rule, const json& emitter) {
         return ConversionTest::convert_with({{"lamps", {lamp_rule}}, {"emitters", {emitter}}});
     }
-    static size_t given(const scene::ConversionReport& report) {
+    static size_t given(const scene::PhotometryReport& report) {
         size_t count = 0;
         for (const std::string& line : report.warnings) count += line.find(" cd/m^2 given") != std::string::npos;
         return count;
@@ -67,7 +67,7 @@ TEST_F(ConvertSourcesTest, OpeningsAreStored) {
     EXPECT_TRUE(converted().lamps.at(0).opening.drawn);
     // One that only gives shadows their penumbrae may lie in a surface that emits.
     rule["opening"]["drawn"] = false;
-    const scene::ConversionReport hidden =
+    const scene::PhotometryReport hidden =
         convert_with(rule, {{"materials", "glass"}, {"luminance_cd_m2", 600 / (std::numbers::pi * 0.01)}});
     EXPECT_NEAR(converted().lamps.at(0).opening.area(), std::numbers::pi * 0.01, 1e-12);
     EXPECT_FALSE(converted().lamps.at(0).opening.drawn);
@@ -126,11 +126,11 @@ TEST_F(ConvertSourcesTest, PicturesAreComparedByTheirMean) {
 TEST_F(ConvertSourcesTest, GlassOfALampDoesNotEmitBesides) {
     json rule = lamp(600);
     rule["opening"] = opening();
-    const scene::ConversionReport named = convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}});
+    const scene::PhotometryReport named = convert_with(rule, {{"materials", "glass"}, {"lamp", "beam"}});
     EXPECT_EQ(converted().materials.at(0).emission, glm::vec3(0));
     EXPECT_FALSE(mentions(named.warnings, "seen twice"));
     EXPECT_EQ(given(named), 0u);
-    const scene::ConversionReport twice = convert_with(rule, {{"materials", "glass"}, {"luminance_cd_m2", 10000}});
+    const scene::PhotometryReport twice = convert_with(rule, {{"materials", "glass"}, {"luminance_cd_m2", 10000}});
     EXPECT_TRUE(
         mentions(twice.warnings, "emitter 'glass': lies where lamp 'beam' shows its opening and would be seen twice"));
     EXPECT_EQ(given(twice), 0u);
@@ -161,7 +161,7 @@ TEST_F(ConvertSourcesTest, DisagreementsAboveTenPercentAreReported) {
         for (const double luminance : {7000.0, 8900.0, 9300.0, 10000.0, 10800.0, 11300.0, 15000.0, 90000.0}) {
             json rule = lamp(600), emitter = {{"name", "E"}, {"materials", "glass"}, {"luminance_cd_m2", luminance}};
             if (stated) rule["opening"] = opening(), emitter["lamp"] = "beam";
-            const scene::ConversionReport report = convert_with(rule, emitter);
+            const scene::PhotometryReport report = convert_with(rule, emitter);
             const bool wrong = luminance > 11000 || luminance < 10000 / 1.1;
             EXPECT_EQ(given(report), wrong ? 1u : 0u) << luminance << (stated ? " stated" : " measured");
             if (luminance == 15000) {
@@ -171,7 +171,7 @@ TEST_F(ConvertSourcesTest, DisagreementsAboveTenPercentAreReported) {
                 EXPECT_EQ(mentions(report.warnings, "the most of 2 nodes"), !stated);
             }
         }
-    const scene::ConversionReport off = convert_with(lamp(600), {{"materials", "glass"}, {"luminance_cd_m2", 0}});
+    const scene::PhotometryReport off = convert_with(lamp(600), {{"materials", "glass"}, {"luminance_cd_m2", 0}});
     EXPECT_EQ(given(off), 0u) << "what is off is meant to be";
 }
 
@@ -244,7 +244,7 @@ TEST_F(ConvertSourcesTest, OwnStreetsAgree) {
     const std::filesystem::path rivoli = std::filesystem::path(VESPER_SOURCE_DIR) / "data/rivoli";
     for (const auto& [street, photometry] :
          {std::pair("rivoli", "rivoli"), {"rivoli", "rivoli.measured"}, {"rivoli-drive", "rivoli-drive"}}) {
-        const scene::ConversionReport report =
+        const scene::PhotometryReport report =
             scene::convert(rivoli / (std::string(street) + ".gltf"),
                            rivoli / (std::string(photometry) + ".photometry.json"), folder_ / "own.gltf");
         EXPECT_FALSE(report.changes.empty());

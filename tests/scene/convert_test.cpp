@@ -85,7 +85,7 @@ TEST_F(ConvertTest, PicturesThatNothingShowsNeedNotBeThere) {
     street_.root["textures"].push_back({{"source", 1}});
     street_.root["materials"][1]["normalTexture"] = {{"index", 1}};
     for (const char* output : {"out.gltf", "out.glb"}) {
-        const scene::ConversionReport report = convert_with(json::object(), output);
+        const scene::PhotometryReport report = convert_with(json::object(), output);
         EXPECT_TRUE(mentions(report.warnings, "/images/1/uri")) << output;
         EXPECT_TRUE(contains(read_text(folder_ / output), "\"uri\":\"missing_normal.png\"")) << output;
         EXPECT_EQ(converted(output).images.size(), 1u);
@@ -95,7 +95,7 @@ TEST_F(ConvertTest, PicturesThatNothingShowsNeedNotBeThere) {
 }
 
 TEST_F(ConvertTest, PutsLampsOnNodes) {
-    const scene::ConversionReport report = convert_with({{"lamps", lamps()}});
+    const scene::PhotometryReport report = convert_with({{"lamps", lamps()}});
     const scene::Scene scene = converted();
     ASSERT_EQ(scene.lamps.size(), 2u);
     const scene::Lamp &street = scene.lamps[0], &beam = scene.lamps[1];
@@ -151,7 +151,7 @@ TEST_F(ConvertTest, StoresStandardGltf) {
 }
 
 TEST_F(ConvertTest, MakesMaterialsEmit) {
-    const scene::ConversionReport report = convert_with(
+    const scene::PhotometryReport report = convert_with(
         {{"emitters",
           {{{"name", "glass"}, {"materials", "lamp_gl*"}, {"luminance_cd_m2", 7000}, {"colour_temperature_K", 2100}},
            {{"name", "rest"}, {"materials", "*glass"}, {"luminance_cd_m2", 1}},
@@ -169,7 +169,7 @@ TEST_F(ConvertTest, MakesMaterialsEmit) {
 }
 
 TEST_F(ConvertTest, ChangesSurfaces) {
-    const scene::ConversionReport report =
+    const scene::PhotometryReport report =
         convert_with({{"surfaces",
                        {{{"materials", "asphalt*"}, {"reflectance_scale", 0.5}, {"roughness", 0.8}, {"metallic", 0}},
                         {{"materials", "lamp_glass"}, {"reflectance_scale", 4}}}}});
@@ -214,7 +214,7 @@ TEST_F(ConvertTest, RecordsTransferAmbientAndSky) {
 }
 
 TEST_F(ConvertTest, KeepsLightsWhenAsked) {
-    const scene::ConversionReport report = convert_with({{"lights", {{"keep", true}}}, {"lamps", lamps()}});
+    const scene::PhotometryReport report = convert_with({{"lights", {{"keep", true}}}, {"lamps", lamps()}});
     const scene::Scene scene = converted();
     ASSERT_EQ(scene.lamps.size(), 3u);
     EXPECT_EQ(scene.lamps[0].kind, scene::Lamp::Kind::Directional);
@@ -235,7 +235,7 @@ TEST_F(ConvertTest, PutsSeveralLampsOnOneNode) {
 TEST_F(ConvertTest, WarnsOfWhatCannotBeRight) {
     street_.root["materials"][1]["pbrMetallicRoughness"]["baseColorFactor"] = {0.95, 0.95, 0.95, 1};
     street_.root["nodes"].push_back({{"name", "forgotten_lantern"}});
-    const scene::ConversionReport report =
+    const scene::PhotometryReport report =
         convert_with({{"lamps",
                        {{{"name", "none"}, {"nodes", "no_such_node"}, {"type", "point"}, {"intensity_cd", 5}},
                         {{"name", "star"}, {"nodes", "light"}, {"type", "point"}, {"intensity_cd", 5e6}}}},

@@ -32,7 +32,7 @@ TEST(Examples, TheStreetOfFreeModelsIsAssembledAndConverted) {
     const std::string command = "python3 '" + (example / "assemble.py").string() + "' '" + assets.string() + "' -o '" +
                                 (folder / "street.gltf").string() + "'";
     ASSERT_EQ(std::system(command.c_str()), 0);
-    const scene::ConversionReport report =
+    const scene::PhotometryReport report =
         scene::convert(folder / "street.gltf", example / "kaykit-street.photometry.json", folder / "night.glb");
     for (const char* miss : {"no node matches", "no material matches", "earlier rules"})
         EXPECT_FALSE(mentions(report.warnings, miss));

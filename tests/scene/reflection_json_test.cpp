@@ -20,7 +20,7 @@ protected:
         }
         folder_.write("street.gltf", street_.text());
     }
-    scene::ConversionReport run(const json& surfaces) {
+    scene::PhotometryReport run(const json& surfaces) {
         return scene::convert(folder_ / "street.gltf",
                               folder_.write("p.json", json({{"version", 1}, {"surfaces", surfaces}}).dump()),
                               folder_ / "night.gltf");
@@ -34,7 +34,7 @@ protected:
 
 TEST_F(SurfaceTables, TablesSurviveAConversion) {
     folder_.write("mine.csv", "t,0,90,180\n0,100,100,100\n1.5,50,20,\n");
-    const scene::ConversionReport report =
+    const scene::PhotometryReport report =
         run({{{"materials", "asphalt wet"}, {"reflection_table", "W3"}},
              {{"materials", "asphalt old"}, {"reflection_table", "mine.csv"}},
              {{"materials", {"asphalt", "kerb"}}, {"reflection_table", "R3"}, {"q0", 0.09}}});

@@ -1,10 +1,10 @@
-// What a conversion warns of: values that cannot be right, and lights that may have been forgotten.
+// What is warned of when photometry is applied: values that cannot be right, and lights that may have been forgotten.
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
 
 #include "base/lower.h"
-#include "scene/convert_rules.h"
+#include "scene/apply_rules.h"
 #include "scene/reflectance.h"
 #include "scene/scene_warnings.h"
 
@@ -15,7 +15,7 @@ constexpr double kHighestReflectance = 0.9;  // fresh snow; plaster has 0.8
 
 }  // namespace
 
-void check_reflectances(const Scene& scene, ConversionReport& report) {
+void check_reflectances(const Scene& scene, PhotometryReport& report) {
     const std::vector<MaterialUse> uses = material_uses(scene);
     for (size_t i = 0; i < uses.size(); ++i) {
         const Material& material = scene.materials[i];
@@ -32,20 +32,20 @@ void check_reflectances(const Scene& scene, ConversionReport& report) {
 
 namespace {
 
-void check_lamps(Conversion& conversion) {
-    for (const LampRule& rule : conversion.photometry.lamps) {
+void check_lamps(Application& application) {
+    for (const LampRule& rule : application.photometry.lamps) {
         double candela = rule.lamp.intensity;
         if (rule.lamp.kind == Lamp::Kind::Measured)
             candela *=
-                photometry::largest_intensity(conversion.photometry.measured[rule.lamp.distribution].distribution);
+                photometry::largest_intensity(application.photometry.measured[rule.lamp.distribution].distribution);
         if (candela < kFaintestLamp || candela > kBrightestLamp)
-            conversion.report.warnings.push_back("lamp " + in_quotes(rule.name) + ": " + decimal(candela) +
-                                                 " cd is beyond the lamps of a street (0.1 to 1e6 cd)");
+            application.report.warnings.push_back("lamp " + in_quotes(rule.name) + ": " + decimal(candela) +
+                                                  " cd is beyond the lamps of a street (0.1 to 1e6 cd)");
     }
 }
 
-void check_size(Conversion& conversion) {
-    const Scene& scene = conversion.original.scene;
+void check_size(Application& application) {
+    const Scene& scene = application.scene;
     const std::vector<glm::dmat4> world = world_transforms(scene, 0);
     Bounds bounds;
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -62,16 +62,17 @@ void check_size(Conversion& conversion) {
     const glm::vec3 size = bounds.high - bounds.low;
     const double longest = std::max({size.x, size.y, size.z});
     if (longest < 1 || longest > 1e5)
-        conversion.report.warnings.push_back("the scene is " + decimal(longest) +
-                                             " m long: are its lengths in metres? Illuminance falls with their square");
+        application.report.warnings.push_back(
+            "the scene is " + decimal(longest) +
+            " m long: are its lengths in metres? Illuminance falls with their square");
 }
 
 /// Scene nodes that show a material some emitter rule matches.
-std::set<uint32_t> glowing_nodes(const Conversion& conversion) {
-    const Scene& scene = conversion.original.scene;
+std::set<uint32_t> glowing_nodes(const Application& application) {
+    const Scene& scene = application.scene;
     const auto emits = [&](const Primitive& primitive) {
         const std::string& name = scene.materials[primitive.material].name;
-        for (const EmitterRule& rule : conversion.photometry.emitters)
+        for (const EmitterRule& rule : application.photometry.emitters)
             for (const std::string& pattern : rule.materials)
                 if (matches_name(pattern, name)) return true;
         return false;
@@ -86,29 +87,24 @@ std::set<uint32_t> glowing_nodes(const Conversion& conversion) {
 }
 
 /// Nodes that sound like lights, with no lamp on them, above them or below them.
-void check_forgotten(Conversion& conversion, const std::set<size_t>& lamp_nodes) {
-    const auto nodes = conversion.document.list("nodes");
-    std::vector<uint32_t> parents(nodes.size(), kNone);
-    for (uint32_t i = 0; i < nodes.size(); ++i)
-        for (const JsonValue& child : nodes[i].elements_of("children")) parents[child.index(nodes.size(), "nodes")] = i;
+void check_forgotten(Application& application, const std::set<uint32_t>& lamp_nodes) {
+    const std::vector<Node>& nodes = application.scene.nodes;
     std::vector<bool> lit(nodes.size()), below(nodes.size());
     const auto light_up = [&](uint32_t node) {
-        for (; node != kNone && !lit[node]; node = parents[node]) lit[node] = true;
+        for (; node != kNone && !lit[node]; node = nodes[node].parent) lit[node] = true;
     };
-    for (const size_t lamp : lamp_nodes) {
+    for (const uint32_t lamp : lamp_nodes) {
         below[lamp] = true;
-        light_up(static_cast<uint32_t>(lamp));
+        light_up(lamp);
     }
-    const std::set<uint32_t> glowing = glowing_nodes(conversion);
-    for (uint32_t i = 0; i < nodes.size(); ++i)
-        if (glowing.contains(conversion.original.node_of[i])) light_up(i);
+    for (const uint32_t glowing : glowing_nodes(application)) light_up(glowing);
     std::vector<std::string> forgotten;
     for (uint32_t i = 0; i < nodes.size(); ++i) {
-        const std::string name = nodes[i].text_or("name", "");
-        if (lit[i] || !sounds_like_light(name)) continue;
+        const std::string& name = nodes[i].name;
+        if (lit[i] || application.is_added(i) || !sounds_like_light(name)) continue;
         bool under_a_lamp = false;
         uint32_t up = i;
-        for (int level = 0; level < 100 && up != kNone && !under_a_lamp; ++level, up = parents[up])
+        for (int level = 0; level < 100 && up != kNone && !under_a_lamp; ++level, up = nodes[up].parent)
             under_a_lamp = below[up];
         if (!under_a_lamp) forgotten.push_back(name);
     }
@@ -116,7 +112,7 @@ void check_forgotten(Conversion& conversion, const std::set<size_t>& lamp_nodes)
     std::string names;
     for (size_t i = 0; i < std::min<size_t>(3, forgotten.size()); ++i)
         names += (i ? ", " : "") + in_quotes(forgotten[i]);
-    conversion.report.warnings.push_back(
+    application.report.warnings.push_back(
         std::to_string(forgotten.size()) + (forgotten.size() == 1 ? " node sounds" : " nodes sound") +
         " like a light, but no lamp rule matches: " + names + (forgotten.size() > 3 ? ", ..." : ""));
 }
@@ -130,10 +126,10 @@ bool sounds_like_light(const std::string& name) {
     return false;
 }
 
-void check_plausibility(Conversion& conversion, const std::set<size_t>& lamp_nodes) {
-    check_size(conversion);
-    check_lamps(conversion);
-    check_forgotten(conversion, lamp_nodes);
+void check_plausibility(Application& application, const std::set<uint32_t>& lamp_nodes) {
+    check_size(application);
+    check_lamps(application);
+    check_forgotten(application, lamp_nodes);
 }
 
 }  // namespace vesper::scene

@@ -2,10 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "base/one_line.h"
-#include "scene/convert_rules.h"
+#include "scene/apply_rules.h"
 #include "scene/lamp.h"
 
 namespace vesper::scene {
@@ -24,22 +25,20 @@ struct Placed {
     } front, back;                  // towards the axis and away from it
 };
 
-double axis_intensity(const Conversion& conversion, const LampRule& rule) {
+double axis_intensity(const Application& application, const LampRule& rule) {
     Lamp lamp = rule.lamp;
     if (lamp.kind != Lamp::Kind::Measured) return luminous_intensity(lamp, {}, {0, 0, -1});
     lamp.distribution = 0;
-    const photometry::Distribution& distribution = conversion.photometry.measured[rule.lamp.distribution].distribution;
+    const photometry::Distribution& distribution = application.photometry.measured[rule.lamp.distribution].distribution;
     return luminous_intensity(lamp, {&distribution, 1}, {0, 0, -1});
 }
 
-std::vector<Placed> reported_lamps(const Conversion& conversion, const std::vector<glm::dmat4>& world,
+std::vector<Placed> reported_lamps(const Application& application, const std::vector<glm::dmat4>& world,
                                    size_t rule_index) {
-    const LampRule& rule = conversion.photometry.lamps[rule_index];
+    const LampRule& rule = application.photometry.lamps[rule_index];
     const dvec3 aim = rule.turn ? *rule.turn * dvec3(0, 0, -1) : rule.aim.value_or(dvec3(0, 0, -1));
     std::vector<Placed> lamps;
-    for (const uint32_t file_node : conversion.lamp_nodes[rule_index]) {
-        const uint32_t node = conversion.original.node_of[file_node];
-        if (node == kNone) continue;
+    for (const uint32_t node : application.lamp_nodes[rule_index]) {
         const glm::dmat4& m = world[node];
         dvec3 position(m[3]);
         for (int axis = 0; axis < 3; ++axis)
@@ -111,12 +110,12 @@ std::string disagreement(const EmitterRule& emitter, const LampRule& lamp, doubl
 bool disagree(double a, double b) { return a > kAgreement * b || b > kAgreement * a; }
 
 /// Emitters that name their lamps.
-void check_named(Conversion& conversion, const EmitterRule& emitter) {
-    for (const LampRule& lamp : conversion.photometry.lamps) {
+void check_named(Application& application, const EmitterRule& emitter) {
+    for (const LampRule& lamp : application.photometry.lamps) {
         if (std::find(emitter.lamps.begin(), emitter.lamps.end(), lamp.name) == emitter.lamps.end()) continue;
-        const double intensity = axis_intensity(conversion, lamp), area = lamp.lamp.opening.area();
+        const double intensity = axis_intensity(application, lamp), area = lamp.lamp.opening.area();
         if (emitter.luminance > 0 && area > 0 && disagree(intensity / area, emitter.luminance))
-            conversion.report.warnings.push_back(disagreement(emitter, lamp, emitter.luminance, intensity, area));
+            application.report.warnings.push_back(disagreement(emitter, lamp, emitter.luminance, intensity, area));
     }
 }
 
@@ -143,14 +142,14 @@ std::vector<Bounds> pieces_of(const Primitive& primitive, const glm::dmat4& worl
 }
 
 /// Glass whose lamps are to show in it, but where none is: it is dark.
-void check_lit(Conversion& conversion, const EmitterRule& emitter, const std::vector<uint32_t>& shining,
+void check_lit(Application& application, const EmitterRule& emitter, const std::vector<uint32_t>& shining,
                const std::vector<glm::dmat4>& world) {
-    const Scene& scene = conversion.original.scene;
+    const Scene& scene = application.scene;
     std::vector<dvec3> lamps;
-    for (size_t r = 0; r < conversion.photometry.lamps.size(); ++r)
-        if (std::find(emitter.lamps.begin(), emitter.lamps.end(), conversion.photometry.lamps[r].name) !=
+    for (size_t r = 0; r < application.photometry.lamps.size(); ++r)
+        if (std::find(emitter.lamps.begin(), emitter.lamps.end(), application.photometry.lamps[r].name) !=
             emitter.lamps.end())
-            for (const Placed& lamp : reported_lamps(conversion, world, r)) lamps.push_back(lamp.position);
+            for (const Placed& lamp : reported_lamps(application, world, r)) lamps.push_back(lamp.position);
     size_t surfaces = 0, dark = 0;
     std::string first;
     for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
@@ -168,7 +167,7 @@ void check_lit(Conversion& conversion, const EmitterRule& emitter, const std::ve
         }
     }
     if (dark > 0)
-        conversion.report.warnings.push_back(
+        application.report.warnings.push_back(
             "emitter " + in_quotes(emitter.name) + ": " + std::to_string(dark) + " of " + std::to_string(surfaces) +
             (dark == 1 ? " surfaces has" : " surfaces have") + " no lamp " + in_quotes(emitter.lamps.front()) +
             " within " + decimal(kReach) + " m and " + (dark == 1 ? "is" : "are") + " dark (node " + in_quotes(first) +
@@ -176,17 +175,17 @@ void check_lit(Conversion& conversion, const EmitterRule& emitter, const std::ve
 }
 
 /// One emitter against one lamp rule, by the meshes beside its lamps; one line for all nodes.
-void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::vector<uint32_t>& shining,
+void check_pair(Application& application, const EmitterRule& emitter, const std::vector<uint32_t>& shining,
                 size_t rule_index, const std::vector<glm::dmat4>& world) {
-    const Scene& scene = conversion.original.scene;
-    const LampRule& rule = conversion.photometry.lamps[rule_index];
+    const Scene& scene = application.scene;
+    const LampRule& rule = application.photometry.lamps[rule_index];
     const auto shines = [&](const Primitive& p) {
         return std::find(shining.begin(), shining.end(), p.material) != shining.end();
     };
-    std::vector<Placed> lamps = reported_lamps(conversion, world, rule_index);
+    std::vector<Placed> lamps = reported_lamps(application, world, rule_index);
     const Neighbours neighbours(scene, lamps);
     std::optional<photometry::PictureMeans> means;
-    if (emitter.picture != kNone) means.emplace(conversion.photometry.pictures[emitter.picture].picture);
+    if (emitter.picture != kNone) means.emplace(application.photometry.pictures[emitter.picture].picture);
     for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
         if (scene.nodes[node].mesh == kNone) continue;
         const std::vector<Primitive>& primitives = scene.meshes[scene.nodes[node].mesh].primitives;
@@ -198,7 +197,7 @@ void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::v
                 add_area(p, world[node], scene.materials[p.material].double_sided, emitter, means ? &*means : nullptr,
                          beside);
     }
-    const double intensity = axis_intensity(conversion, rule);
+    const double intensity = axis_intensity(application, rule);
     size_t glazed = 0, wrong = 0;
     double worst = 0, its_area = 0, its_luminance = 0;
     for (const Placed& lamp : lamps) {
@@ -210,12 +209,12 @@ void check_pair(Conversion& conversion, const EmitterRule& emitter, const std::v
         if (off > worst) worst = off, its_area = area, its_luminance = candela / area;
     }
     if (glazed > 0 && rule.lamp.opening.area() > 0 && rule.lamp.opening.drawn)
-        conversion.report.warnings.push_back(
+        application.report.warnings.push_back(
             "emitter " + in_quotes(emitter.name) + ": lies where lamp " + in_quotes(rule.name) +
             " shows its opening and would be seen twice: give it \"lamp\": \"" + one_line(rule.name) + "\"");
     if (wrong > 0)
-        conversion.report.warnings.push_back(disagreement(emitter, rule, its_luminance, intensity, its_area) +
-                                             (wrong > 1 ? ", the most of " + std::to_string(wrong) + " nodes" : ""));
+        application.report.warnings.push_back(disagreement(emitter, rule, its_luminance, intensity, its_area) +
+                                              (wrong > 1 ? ", the most of " + std::to_string(wrong) + " nodes" : ""));
 }
 
 }  // namespace
@@ -226,18 +225,18 @@ std::string deviation(double factor) {
                       : std::to_string(percent) + (factor < 1 ? " % less" : " % more");
 }
 
-void check_sources(Conversion& conversion, const std::vector<std::vector<uint32_t>>& emitting) {
-    const Photometry& photometry = conversion.photometry;
-    const std::vector<glm::dmat4> world = world_transforms(conversion.original.scene, 0);
+void check_sources(Application& application, const std::vector<std::vector<uint32_t>>& emitting) {
+    const Photometry& photometry = application.photometry;
+    const std::vector<glm::dmat4> world = world_transforms(application.scene, 0);
     for (size_t e = 0; e < photometry.emitters.size(); ++e) {
         const EmitterRule& emitter = photometry.emitters[e];
         if (!emitter.lamps.empty()) {
-            check_named(conversion, emitter);
-            check_lit(conversion, emitter, emitting[e], world);
+            check_named(application, emitter);
+            check_lit(application, emitter, emitting[e], world);
         }
         // The mean of a texture of 8 bits is not known here, and what is off is meant to be.
         if (!emitter.lamps.empty() || emitter.modulate || !(emitter.luminance > 0) || emitting[e].empty()) continue;
-        for (size_t r = 0; r < photometry.lamps.size(); ++r) check_pair(conversion, emitter, emitting[e], r, world);
+        for (size_t r = 0; r < photometry.lamps.size(); ++r) check_pair(application, emitter, emitting[e], r, world);
     }
 }
 

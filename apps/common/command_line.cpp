@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <new>
 #include <optional>
+#include <set>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -56,6 +57,26 @@ void handle_signals() {
         action.sa_flags = int(SA_RESETHAND);
         ::sigaction(number, &action, nullptr);
     }
+}
+
+constexpr const char* kSwitch = "SWITCH";  // as pages of help name the type
+
+/// Names of all switches of a command and of the commands below it.
+void find_switches(const CLI::App& app, std::set<std::string>& names) {
+    for (const CLI::Option* option : app.get_options({}))
+        if (option->get_type_name().starts_with(kSwitch))
+            for (const std::string& name : option->get_lnames()) names.insert("--" + name);
+    for (const CLI::App* below : app.get_subcommands({})) find_switches(*below, names);
+}
+
+/// Parses words, in which a switch without a value is on.
+void parse_words(CLI::App& app, std::vector<std::string> words) {
+    std::set<std::string> switches;
+    find_switches(app, switches);
+    for (size_t i = 0; i < words.size(); ++i)
+        if (switches.contains(words[i]) && (i + 1 == words.size() || words[i + 1].starts_with('-'))) words[i] += "=on";
+    std::ranges::reverse(words);
+    app.parse(std::move(words));
 }
 
 /// Returns true if everything printed was written; prints the reason to standard error otherwise.
@@ -157,6 +178,9 @@ Option Command::add_option(const std::string& names, const std::string& help) {
 Option Command::add_flag(const std::string& names, bool& value, const std::string& help) {
     return Option(app_->add_flag(names, value, help));
 }
+Option Command::add_switch(const std::string& names, const std::string& help) {
+    return Option(app_->add_option(names, help)->type_name(kSwitch));
+}
 void Command::add_allow_outside() {
     const auto folders = std::make_shared<std::vector<std::unique_ptr<const io::AllowedFolder>>>();
     const CLI::callback_t allow = [folders](const CLI::results_t& given) {
@@ -254,7 +278,7 @@ int Program::run(int argc, char** argv) {
     Ranks::set_program(name, common_arguments(argc, argv));
     std::string failure;
     try {
-        app_->parse(argc, argv);
+        parse_words(*app_, {argv + std::min(argc, 1), argv + argc});
         Ranks::finish();
         return output_ended(name) ? 0 : kBadInput;
     } catch (const CLI::ParseError& error) {
@@ -292,7 +316,7 @@ int Program::run(int argc, char** argv) {
 
 void Program::parse(const std::vector<std::string>& words) {
     try {
-        app_->parse(std::vector<std::string>(words.rbegin(), words.rend()));
+        parse_words(*app_, words);
     } catch (const CLI::ParseError& error) {
         throw Error(one_line(error.what()));
     }

@@ -9,18 +9,16 @@
 #include "base/error.h"
 #include "base/one_line.h"
 #include "base/parallel.h"
-#include "edge_arguments.h"
-#include "indirect_arguments.h"
+#include "cache_arguments.h"
 #include "io/file_gate.h"
 #include "machine.h"
 #include "measure.h"
 #include "picture_arguments.h"
 #include "print.h"
 #include "progress.h"
-#include "quality_arguments.h"
 #include "scene/scene.h"
 #include "scenes.h"
-#include "shadow_arguments.h"
+#include "setting_arguments.h"
 #include "start.h"
 #include "thread_arguments.h"
 #include "tone_arguments.h"
@@ -34,11 +32,8 @@ struct BenchArguments {
     uint32_t triangles = 10000, threads = 0;
     RunPlan run{.settings = {.frames = 48, .laps = 3, .warm_up = 4}, .render = {}, .camera = {}, .device = {}};
     apps::ToneArguments tone;
-    apps::ShadowArguments shadows;
-    apps::IndirectArguments indirect{.indirect = "off"};
-    apps::EdgeArguments edges;
-    apps::QualityArguments quality;
-    std::string json, picture, growth, tables;
+    apps::SettingArguments light;
+    std::string cache, json, picture, growth, tables;
     std::vector<std::string> compared;
     bool no_start = false;
     apps::Command command;
@@ -85,15 +80,9 @@ std::vector<Planned> planned_runs(const BenchArguments& a) {
         s.scene = short_name(run.scene) + (run.luminaire.empty() ? "" : "(" + run.luminaire + ")");
         s.tone_operator = apps::name_of(run.plan.render.tone_operator), s.glare = glare, s.channels = channels;
         s.width = apps::parse_size(size).width, s.height = apps::parse_size(size).height;
-        apps::set_quality(a.quality, run.plan.render);
-        s.quality = apps::recorded_quality(a.quality, run.plan.render);
-        apps::set_shadows(a.shadows, run.plan.render);
-        s.shadows = run.plan.render.shadows;
-        apps::set_indirect(a.indirect, run.plan.render);
-        s.indirect = run.plan.render.indirect;
-        apps::set_edges(a.edges, run.plan.render);
-        s.anti_aliasing = run.plan.render.anti_aliasing, s.samples = run.plan.render.samples;
-        if (!a.shadows.cache.empty()) run.plan.map_cache = apps::shadow_cache(a.shadows.cache);
+        apps::apply_settings(a.light, run.plan.render);
+        s.light = apps::recorded_settings(a.light.quality, run.plan.render);
+        if (!a.cache.empty()) run.plan.map_cache = apps::cache_of(a.cache);
         runs.push_back(std::move(run));
     };
     for (const std::string& scene : a.scenes)
@@ -166,7 +155,7 @@ void run(BenchArguments& a) {
     if (planned.size() == 1 && !a.no_start)
         starts = time_starts(scenes.folder("shaders"), [&](const auto& shown) {
             RunPlan plan = planned[0].plan;
-            if (a.shadows.cache.empty()) plan.map_cache = apps::shadow_cache(scenes.folder("shadows"));
+            if (a.cache.empty()) plan.map_cache = apps::cache_of(scenes.folder("shadows"));
             first_frame(plan, load(0), shown);
         });
 
@@ -193,7 +182,7 @@ void run(BenchArguments& a) {
         apps::print_text("\n" + (planned.size() > 1 ? title(measured) + "\n" : "") + text_of(result, measured));
     if (!a.picture.empty())
         apps::write_codes(a.picture, last, planned.back().plan.render.display,
-                          apps::describe_quality(planned.back().plan.settings.quality));
+                          apps::describe_settings(planned.back().plan.settings.light));
     if (!a.growth.empty())
         for (const std::string& file : save_growth(a.growth, result)) apps::print("%s\n", file.c_str());
 }
@@ -248,11 +237,10 @@ void add_bench(apps::Command program) {
     program.add_option("--warm-up", s.warm_up, "Frames from all along the path before the first lap, not counted")
         .check(apps::range(0u, 10000u))
         .shows_default();
-    apps::add_shadow_options(program, a->shadows, "all", "off; one that is empty at first for the timing of starts");
-    apps::add_indirect_options(program, a->indirect);
-    apps::add_edge_options(program, a->edges);
-    apps::add_quality_option(program, a->quality);
-    apps::add_bound_options(program, a->quality);
+    apps::add_cache_option(program, a->cache, "off; one that is empty at first for the timing of starts");
+    apps::add_quality_option(program, a->light);
+    a->light.own.set("indirect", 0);
+    apps::add_setting_options(program, a->light, {"display_average", "scale"});
     program.add_option("--device", a->run.device,
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     apps::add_thread_option(program, a->threads);

@@ -15,8 +15,7 @@ using apps::format;
 bool alike(const RunSettings& a, const RunSettings& b) {
     return a.scene == b.scene && a.tone_operator == b.tone_operator && a.glare == b.glare && a.width == b.width &&
            a.height == b.height && a.channels == b.channels && a.lamps == b.lamps && a.triangles == b.triangles &&
-           a.quality.bounds_equal(b.quality) && a.shadows == b.shadows && a.indirect == b.indirect &&
-           a.anti_aliasing == b.anti_aliasing && a.samples == b.samples;
+           a.light.same_values(b.light);
 }
 
 // `laps`: whether there were several of either; one says nothing about the next.

@@ -8,13 +8,13 @@
 
 #include "base/error.h"
 #include "base/stopwatch.h"
+#include "cache_arguments.h"
+#include "gathered_light.h"
 #include "graph/times.h"
-#include "indirect_arguments.h"
 #include "machine.h"
 #include "print.h"
 #include "render/seen_triangles.h"
 #include "scene/placement.h"
-#include "shadow_arguments.h"
 
 namespace vesper::bench {
 namespace {

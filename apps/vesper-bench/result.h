@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "quality_arguments.h"
 #include "samples.h"
+#include "setting_arguments.h"
 
 namespace vesper::bench {
 
@@ -18,11 +18,7 @@ struct RunSettings {
     uint32_t channels = 1;           ///< views in every frame, side by side
     uint32_t lamps = 0;              ///< that shine
     uint64_t triangles = 0;
-    apps::RecordedQuality quality;  ///< of what frames leave out
-    bool shadows = false;           ///< lamps light only what they see
-    bool indirect = false;          ///< light between surfaces, which is gathered before
-    bool anti_aliasing = false;
-    uint32_t samples = 1;  ///< of each pixel
+    apps::RecordedSettings light = apps::recorded_standard();
     uint32_t frames = 0, laps = 0, warm_up = 0;
 
     /// "1680x1050 rivoli ward".

@@ -1,4 +1,7 @@
 // Results of benchmarks as files. SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
 #include "arguments.h"
@@ -31,15 +34,7 @@ Json of(const RunSettings& s) {
             {"glare", s.glare},
             {"lamps", s.lamps},
             {"triangles", s.triangles},
-            {"quality", s.quality.name},
-            {"threshold_lx", s.quality.threshold},
-            {"merge_error", s.quality.merge_error},
-            {"shadow_error", s.quality.shadow_error},
-            {"reflections_left_out", s.quality.reflections_left_out},
-            {"shadows", s.shadows},
-            {"indirect", s.indirect},
-            {"anti_aliasing", s.anti_aliasing},
-            {"samples", s.samples},
+            {"light", Json::parse("{" + apps::settings_json(s.light) + "}")},
             {"frames", s.frames},
             {"laps", s.laps},
             {"warm_up", s.warm_up}};
@@ -81,16 +76,23 @@ Spread read_spread(const JsonValue& value) {
     return s;
 }
 
-// Older files, without bounds, are of the standard.
-apps::RecordedQuality read_quality(const JsonValue& value) {
-    apps::RecordedQuality quality = apps::recorded_standard();
-    if (value.find("quality")) quality.name = words(value.at("quality"));
-    quality.threshold = amount(value.at("threshold_lx"));
-    for (const auto& [name, bound] : {std::pair("merge_error", &quality.merge_error),
-                                      {"shadow_error", &quality.shadow_error},
-                                      {"reflections_left_out", &quality.reflections_left_out}})
-        if (value.find(name)) *bound = amount(value.at(name));
-    return quality;
+// A setting that the file lacks has the value of its set.
+apps::RecordedSettings read_light(const JsonValue& value) {
+    const JsonValue quality = value.at("quality");
+    if (std::ranges::find(render::kQualityNames, quality.text()) == render::kQualityNames.end())
+        quality.fail("\"" + words(quality) + "\" is no quality");
+    apps::RecordedSettings light{quality.text(), {}};
+    for (const render::Setting& row : render::settings()) {
+        double number = row.value(render::quality_named(light.quality));
+        if (const std::optional<JsonValue> given = value.find(std::string(row.name).c_str())) {
+            const bool unlimited = std::isinf(row.high) && given->json().is_string();
+            number = unlimited                                 ? row.high
+                     : row.kind == render::SettingKind::Switch ? double(given->boolean())
+                                                               : given->number(row.low, std::min(row.high, kMost));
+        }
+        light.values.push_back(row.rounded(number));
+    }
+    return light;
 }
 
 RunSettings read_settings(const JsonValue& value) {
@@ -102,11 +104,7 @@ RunSettings read_settings(const JsonValue& value) {
             .channels = count(value.at("channels")),
             .lamps = count(value.at("lamps")),
             .triangles = value.at("triangles").integer(),
-            .quality = read_quality(value),
-            .shadows = value.boolean_or("shadows", false),
-            .indirect = value.boolean_or("indirect", false),
-            .anti_aliasing = value.boolean_or("anti_aliasing", false),
-            .samples = value.find("samples") ? count(value.at("samples")) : 1,
+            .light = read_light(value.at("light")),
             .frames = count(value.at("frames")),
             .laps = count(value.at("laps")),
             .warm_up = count(value.at("warm_up"))};

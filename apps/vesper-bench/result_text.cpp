@@ -37,7 +37,8 @@ std::string RunSettings::title() const {
 
 std::string RunSettings::details() const {
     std::string text = ", " + std::to_string(lamps) + " lamps, glare " + glare;
-    if (!quality.bounds_equal(apps::recorded_standard())) text += ", quality " + apps::quality_words(quality);
+    const std::string words = apps::settings_words(light);
+    if (words != apps::settings_words(apps::recorded_standard())) text += ", quality " + words;
     if (channels != 1) text += ", " + std::to_string(channels) + " channels";
     return text;
 }
@@ -59,16 +60,9 @@ std::string headline(const BenchResult& result, const RunResult& run) {
 std::string text_of(const BenchResult& result, const RunResult& run) {
     const RunSettings& s = run.settings;
     std::string text = format(
-        "quality %s, %u lamps, %llu triangles, shadows %s, indirect light %s, "
-        "anti-aliasing %s, %u "
-        "sample%s, glare %s, %u "
-        "channel%s; %u lap%s of %u "
-        "frames, after "
-        "%u\n",
-        apps::quality_words(s.quality).c_str(), s.lamps, static_cast<unsigned long long>(s.triangles),
-        s.shadows ? "on" : "off", s.indirect ? "on" : "off", s.anti_aliasing ? "on" : "off", s.samples,
-        s.samples == 1 ? "" : "s", s.glare.c_str(), s.channels, s.channels == 1 ? "" : "s", s.laps,
-        s.laps == 1 ? "" : "s", s.frames, s.warm_up);
+        "quality %s; %u lamps, %llu triangles, glare %s, %u channel%s; %u lap%s of %u frames, after %u\n",
+        apps::settings_words(s.light).c_str(), s.lamps, static_cast<unsigned long long>(s.triangles), s.glare.c_str(),
+        s.channels, s.channels == 1 ? "" : "s", s.laps, s.laps == 1 ? "" : "s", s.frames, s.warm_up);
     text += "vesper " + result.version + ", " + result.driver + ", " + std::to_string(result.threads) + " threads of " +
             result.host + "\n\n";
     text += "frame     median " + with_spread(run.frame, " ms") +

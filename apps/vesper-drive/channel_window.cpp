@@ -3,12 +3,12 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
+#include "cache_arguments.h"
 #include "channel_ranks.h"
 #include "drive_log.h"
 #include "picture_arguments.h"
 #include "print.h"
 #include "screen.h"
-#include "shadow_arguments.h"
 
 namespace vesper::drive {
 namespace {
@@ -57,7 +57,7 @@ void show_channels(const DriveArguments& a) {
     check_displays(channels, session.settings().render().display);
     session.share_channels(&ranks, a.latency);
     apps::Ranks::all().agree_on_start();
-    const std::shared_ptr<Cache> cache = apps::shadow_cache(a.shadow_cache);
+    const std::shared_ptr<Cache> cache = apps::cache_of(a.cache);
     session.keep_maps(cache);
     apps::Ranks::all().in_turns([&] { session.gather_light(cache.get()); });
     if (a.replay.empty()) session.set_shadow_budget(kWindowShadowBudget);

@@ -8,13 +8,14 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/one_line.h"
+#include "cache_arguments.h"
 #include "io/file_gate.h"
 #include "obstacle_arguments.h"
 #include "osi/receiver.h"
 #include "own_data.h"
 #include "picture_arguments.h"
 #include "ranks.h"
-#include "scale_arguments.h"
+#include "setting_arguments.h"
 #include "thread_arguments.h"
 #include "windowed.h"
 
@@ -72,7 +73,7 @@ void refuse_idle(const apps::Command& program, const DriveArguments& a) {
          {"--free"},
          "only that camera stands there: give --camera free"},
         {a.headless && !replays && shadows != a.settings.end() && shadows->second != "on",
-         {"--shadow-budget", "--shadow-cache"},
+         {"--shadow-budget"},
          "of which shadows? --shadows is off"},
     };
     for (const Rule& rule : rules)
@@ -193,10 +194,11 @@ void add_drive(apps::Command program) {
                     "WIDTHxHEIGHT of pictures, px\nDefault: in a replay as recorded, in a window its size")
         .shows_default();
     program.help_group("Speed");
-    apps::add_scale_option(program, a->scale);
+    apps::add_setting_option(program, "scale", a->scale);
     apps::add_thread_option(program, a->threads);
     program.help_group("Files");
     program.add_allow_outside();
+    apps::add_cache_option(program, a->cache);
     program.help_group("Window");
     program.add_option("--channels", a->channels,
                        "A file of views of the driver's eye, on screens side by side (docs/simulator.md)");
@@ -238,7 +240,8 @@ void add_drive(apps::Command program) {
     program.callback_of_ranks([a, program] {
         apps::use_threads(a->threads);
         a->settings = DriveSettings::given(program);
-        if (program.count("--shadow-cache")) a->shadow_cache = program.option("--shadow-cache").results().back();
+        if (const auto set = a->settings.find("quality"); set != a->settings.end() && program.count("--scale") == 0)
+            a->scale = render::setting("scale").value(render::quality_named(set->second));
         take_messages(program, *a);
         check(program, *a);
         a->size_given = program.count("--size") > 0;

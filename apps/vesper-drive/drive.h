@@ -27,13 +27,13 @@ struct DriveArguments {
     double osi_delay = 0.1;        ///< s
     unsigned latency = 0;          ///< moments, of what the eye sees of channels: 0 or 1
     bool headless = false, autopilot = false;
-    double seconds = 20;  ///< of a drive without a window, s
-    double scale = 1;     ///< of each side of pictures, rendered and then enlarged
-    double fps = 0;       ///< of films, 1/s; 0: the recording's own frames, or 30
+    double seconds = 20;                           ///< of a drive without a window, s
+    double scale = render::LightSettings{}.scale;  ///< of each side of pictures, rendered and then enlarged
+    double fps = 0;                                ///< of films, 1/s; 0: the recording's own frames, or 30
     uint64_t seed = 1;
     unsigned threads = 0;  ///< as apps::use_threads() takes it
     DriveSettings::Values settings;
-    std::string shadow_cache;  ///< as apps::shadow_cache() takes it
+    std::string cache;  ///< as apps::cache_of() takes it
 
     // Of a window.
     std::string window = "1280x800", vsync = "wait", scaling = "fit", controllers;

@@ -7,14 +7,14 @@
 #include "arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
+#include "cache_arguments.h"
 #include "channel_ranks.h"
 #include "drive.h"
 #include "drive_file.h"
 #include "drive_log.h"
-#include "edge_arguments.h"
 #include "frame_relay.h"
+#include "gathered_light.h"
 #include "hatching.h"
-#include "indirect_arguments.h"
 #include "io/file_gate.h"
 #include "io/image_file.h"
 #include "message_feed.h"
@@ -25,9 +25,8 @@
 #include "playback.h"
 #include "print.h"
 #include "progress.h"
-#include "scale_arguments.h"
+#include "scaled_picture.h"
 #include "session.h"
-#include "shadow_arguments.h"
 #include "tone_arguments.h"
 #include "video.h"
 
@@ -173,9 +172,7 @@ private:
     }
     // How its frames are rendered, for every kind of picture.
     io::Header rendering(const DriveSettings& settings) const {
-        io::Header made = apps::describe_quality(settings.recorded_quality());
-        for (const auto& [name, text] : apps::describe_scale(arguments_.scale)) made.emplace_back(name, text);
-        return made;
+        return apps::describe_settings(settings.recorded(arguments_.scale));
     }
     io::Header header(const Session& session, const render::ToneMapped& frame, uint32_t lamps) const {
         std::string options;  // settings other than the defaults
@@ -188,9 +185,8 @@ private:
                         {"vesper:options", options},
                         {"vesper:seconds", apps::digits(session.world().seconds())},
                         {"vesper:lights", std::to_string(lamps)}};
-        const render::RenderSettings& settings = session.settings().render();
         for (const io::Header& part :
-             {rendering(session.settings()), apps::describe_edges(settings), apps::describe_tone(settings, frame)})
+             {rendering(session.settings()), apps::describe_tone(session.settings().render(), frame)})
             made.insert(made.end(), part.begin(), part.end());
         return made;
     }
@@ -317,7 +313,7 @@ void run_headless(const DriveArguments& a) {
     if (channels) check_displays(*channels, session.settings().render().display);
     if (channels) session.share_channels(ranks ? &*ranks : nullptr, a.latency);
     apps::Ranks::all().agree_on_start();
-    const std::shared_ptr<Cache> cache = apps::shadow_cache(a.shadow_cache);
+    const std::shared_ptr<Cache> cache = apps::cache_of(a.cache);
     session.keep_maps(cache);
     const bool renders = outlet.wanted() && (!ranks || !ranks->own(channels->screens.size()).empty());
     apps::Ranks::all().in_turns([&] {

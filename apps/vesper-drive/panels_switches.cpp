@@ -44,6 +44,27 @@ public:
             change(name, format("%.6g", double(now)));
     }
 
+    /// A row of the table, by its kind. Numbers without a limit have no slider.
+    void row(const render::Setting& row, double now) {
+        const std::string name = row.option();
+        std::string label(row.name);
+        std::ranges::replace(label, '_', ' ');
+        const std::string pattern =
+            (row.kind == render::SettingKind::Count ? "%.0f " : "%.3g ") + std::string(row.unit);
+        auto slid = float(now);
+        bool on = now != 0;
+        if (row.kind == render::SettingKind::Switch) {
+            if (ImGui::Checkbox(label.c_str(), &on)) change(name, row.text(on));
+        } else if (std::isfinite(row.high)) {
+            if (ImGui::SliderFloat(label.c_str(), &slid, float(row.low), float(row.high), pattern.c_str(),
+                                   ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
+                change(name, row.text(std::clamp(double(slid), row.low, row.high)));
+        } else {
+            return;
+        }
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", std::string(row.help).c_str());
+    }
+
 private:
     const DriveSettings::Values& values_;
     std::vector<Change>& changes_;
@@ -101,13 +122,10 @@ void Instruments::draw_switches(const FrameState& now, std::vector<Change>& chan
             ImGui::SameLine();
             to.slider("##sun", "sun", float(*settings.sun()), -18, 60, "%.1f° above the horizon");
         }
-        bool shadows = render.shadows;
-        if (ImGui::Checkbox("shadows of lamps (F10)", &shadows)) to.change("shadows", shadows ? "on" : "off");
-        bool indirect = render.indirect;
-        if (ImGui::Checkbox("light between surfaces", &indirect)) to.change("indirect", indirect ? "cached" : "off");
-        bool moving = render.moving_reflections;
-        if (ImGui::Checkbox("reflections of lamps that move", &moving))
-            to.change("moving-reflections", moving ? "on" : "off");
+        const std::vector<std::string> sets(render::kQualityNames.begin(), render::kQualityNames.end());
+        to.choice("quality", "quality", settings.quality(), sets);
+        for (const render::Setting& row : render::settings())
+            if (DriveSettings::knows(row.option())) to.row(row, row.get(render));
         ImGui::PopItemWidth();
     }
     ImGui::End();

@@ -5,7 +5,7 @@
 
 #include "base/angle.h"
 #include "base/error.h"
-#include "indirect_arguments.h"
+#include "gathered_light.h"
 #include "osi/trace.h"
 #include "world_message.h"
 
@@ -128,7 +128,7 @@ render::Frame Session::render(VkExtent2D extent, render::Outputs outputs) { retu
 
 render::RenderSettings Session::frame_settings() const {
     render::RenderSettings settings = settings_.render();
-    const bool exact = settings_.quality().quality == "exact";
+    const bool exact = settings_.quality() == "exact";
     if (!exact && !settings_.values().contains("shadow-budget")) settings.shadow_budget = shadow_budget_;
     settings.obstacles = obstacles_, settings.obstacle_pixels = obstacle_pixels_;
     return settings;

@@ -9,9 +9,7 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/one_line.h"
-#include "edge_arguments.h"
-#include "indirect_arguments.h"
-#include "shadow_arguments.h"
+#include "setting_arguments.h"
 #include "tone_arguments.h"
 
 namespace vesper::drive {
@@ -28,10 +26,7 @@ struct SettingsArguments {
     std::string camera = "driver";
     std::vector<double> free{0, 2, 0, 0, 0};
     double sun = 0, fov = 0;
-    apps::QualityArguments quality;
-    apps::ShadowArguments shadows;
-    apps::IndirectArguments indirect;
-    apps::EdgeArguments edges;
+    apps::SettingArguments light;
 };
 
 void add(apps::Command command, SettingsArguments& a) {
@@ -50,14 +45,10 @@ void add(apps::Command command, SettingsArguments& a) {
         .add_option("--sun", a.sun,
                     "Elevation of the sun under a closed cover of cloud, degrees\nDefault: the night of the scene")
         .check(apps::between(-90.0, 90.0));
-    command.help_group("Cameras and lamps");
-    apps::add_shadow_options(command, a.shadows,
-                             std::to_string(kWindowShadowBudget) + " in a window, all without one and in replays");
-    apps::add_indirect_options(command, a.indirect);
-    apps::add_edge_options(command, a.edges);
-    apps::add_bound_options(command, a.quality);
-    command.help_group();
-    apps::add_quality_option(command, a.quality);
+    apps::add_quality_option(command, a.light);
+    apps::add_setting_options(command, a.light, {"display_average", "scale"});  // scale: fixed when a drive begins
+    command.option("--shadow-budget")
+        .shows_default(std::to_string(kWindowShadowBudget) + " in a window, all without one and in replays");
 }
 
 // Names of all settings but lamps, without dashes.
@@ -68,7 +59,6 @@ const std::set<std::string>& setting_names() {
         add(known, a);
         std::set<std::string> found;
         for (const apps::Option& option : known.options()) found.insert(option.name().substr(2));
-        found.erase("shadow-cache");  // of the machine, and no part of a drive
         return found;
     }();
     return names;
@@ -131,18 +121,23 @@ void DriveSettings::apply(const Values& values) {
     }
     render::RenderSettings render;
     static_cast<render::ToneChainSettings&>(render) = apps::tone_settings(a.tone);
-    apps::set_quality(a.quality, render);
-    apps::set_shadows(a.shadows, render);
-    apps::set_indirect(a.indirect, render);
-    apps::set_edges(a.edges, render);
+    apps::apply_settings(a.light, render);
     const FreeCamera free = free_camera_of(a.free);
     render_ = std::move(render);
     sun_ = command.count("--sun") ? std::optional(a.sun) : std::nullopt;
     camera_ = kCameras.at(a.camera);
     free_ = free;
     fov_ = a.fov;
-    quality_ = a.quality;
+    quality_ = a.light.quality;
     lamps_ = std::move(lamps);
+}
+
+bool DriveSettings::knows(const std::string& name) { return setting_names().contains(name); }
+
+apps::RecordedSettings DriveSettings::recorded(double scale) const {
+    render::RenderSettings settings = render_;
+    settings.scale = scale;
+    return apps::recorded_settings(quality_, settings);
 }
 
 void DriveSettings::add_options(apps::Command command) {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "command_line.h"
-#include "quality_arguments.h"
+#include "setting_arguments.h"
 
 #include "render/renderer.h"
 
@@ -48,10 +48,13 @@ public:
     /// "fov": of the picture's height, degrees; 0: the camera's own.
     double vertical_fov() const { return fov_; }
     const std::map<std::string, double>& lamps() const { return lamps_; }
-    /// "quality": of what frames may leave out; recorded with pictures.
-    const apps::QualityArguments& quality() const { return quality_; }
-    apps::RecordedQuality recorded_quality() const { return apps::recorded_quality(quality_, render_); }
+    /// "quality": the set of values of all settings of light.
+    const std::string& quality() const { return quality_; }
+    /// What pictures record, which are rendered with a part of the pixels of each side.
+    apps::RecordedSettings recorded(double scale) const;
 
+    /// Whether there is a setting of this name, lamps not counted.
+    static bool knows(const std::string& name);
     /// Adds them all as options to a command, and takes over those that were given.
     static void add_options(apps::Command);
     static Values given(const apps::Command&);
@@ -65,7 +68,7 @@ private:
     CameraKind camera_ = CameraKind::Driver;
     FreeCamera free_;
     double fov_ = 0;
-    apps::QualityArguments quality_;
+    std::string quality_ = "standard";
     std::map<std::string, double> lamps_;
 };
 

@@ -13,14 +13,14 @@
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/one_line.h"
+#include "cache_arguments.h"
 #include "channel_window.h"
 #include "hatching.h"
 #include "obstacle_arguments.h"
 #include "picture_arguments.h"
 #include "print.h"
 #include "render/passes/operators.h"
-#include "scale_arguments.h"
-#include "shadow_arguments.h"
+#include "scaled_picture.h"
 #include "tone_arguments.h"
 
 namespace vesper::drive {
@@ -303,7 +303,7 @@ void WindowedDrive::watch_contacts() {
 }
 
 void WindowedDrive::keep_maps() {
-    if (!map_cache_) map_cache_ = apps::shadow_cache(arguments_.shadow_cache);
+    if (!map_cache_) map_cache_ = apps::cache_of(arguments_.cache);
     session_->keep_maps(map_cache_);
     session_->on_maps = [](const render::MapReport& report) { apps::print_cache_note(report.note); };
 }
@@ -314,7 +314,7 @@ void WindowedDrive::take_light() {
     if (!light_) {
         gpu_scene::SceneFrame rest = session_->moment();
         light_ = std::make_unique<LightGatherer>(session_->scenery().scene(), std::move(rest.world),
-                                                 std::move(rest.moving), apps::shadow_cache(arguments_.shadow_cache));
+                                                 std::move(rest.moving), apps::cache_of(arguments_.cache));
     }
     try {
         if (auto radiosity = light_->take()) session_->set_radiosity(std::move(radiosity)), stale_ = true;

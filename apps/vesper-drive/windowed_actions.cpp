@@ -6,7 +6,6 @@
 #include "base/error.h"
 #include "print.h"
 #include "render/passes/operators.h"
-#include "scale_arguments.h"
 #include "tone_arguments.h"
 #include "windowed.h"
 
@@ -84,9 +83,8 @@ void WindowedDrive::save_picture() {
     try {
         const std::string name = free_name("picture-", ".png");
         const DriveSettings& settings = session_->settings();
-        io::Header texts = apps::describe_quality(settings.recorded_quality());
-        for (const auto& [key, text] : apps::describe_scale(picture_scale())) texts.emplace_back(key, text);
-        apps::write_codes(name, frame_, settings.render().display, texts);
+        apps::write_codes(name, frame_, settings.render().display,
+                          apps::describe_settings(settings.recorded(picture_scale())));
         say("saved " + name);
     } catch (const Error& error) {
         say(error.what(), true);

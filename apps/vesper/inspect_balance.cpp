@@ -2,12 +2,12 @@
 #include <array>
 
 #include "base/one_line.h"
-#include "indirect_arguments.h"
+#include "cache_arguments.h"
+#include "gathered_light.h"
 #include "inspect.h"
 #include "print.h"
 #include "scene/placement.h"
 #include "scene/read_scene.h"
-#include "shadow_arguments.h"
 #include "transport/flux_balance.h"
 
 namespace vesper::commands {
@@ -26,7 +26,7 @@ Inspection inspect_balance(const InspectArguments& arguments) {
     const scene::Scene scene = scene::read_scene(arguments.file).scene;
     const std::vector<glm::dmat4> world = scene::world_transforms(scene, 0);
     const std::vector<bool> moving = scene::animated_nodes(scene);
-    const auto cache = apps::shadow_cache({});
+    const auto cache = apps::cache_of({});
     const auto radiosity = apps::gathered(scene, world, moving, cache.get());
     const transport::FluxBalance b = transport::flux_balance(scene, world, moving, *radiosity, kReflections);
     const std::array<FluxRow, 7> rows{{{"emitted by lamps", "lamps", b.lamps},

@@ -6,13 +6,13 @@
 
 #include "arguments.h"
 #include "base/one_line.h"
+#include "cache_arguments.h"
 #include "commands.h"
-#include "edge_arguments.h"
 #include "frame_files.h"
 #include "frame_relay.h"
+#include "gathered_light.h"
 #include "glare_arguments.h"
 #include "gpu_scene/cameras.h"
-#include "indirect_arguments.h"
 #include "io/file_gate.h"
 #include "io/growing_file.h"
 #include "io/image_file.h"
@@ -21,14 +21,13 @@
 #include "picture_arguments.h"
 #include "print.h"
 #include "progress.h"
-#include "quality_arguments.h"
 #include "render/renderer.h"
 #include "render_records.h"
-#include "scale_arguments.h"
+#include "scaled_picture.h"
 #include "scene/apply_photometry.h"
 #include "scene/placement.h"
 #include "scene_notes.h"
-#include "shadow_arguments.h"
+#include "setting_arguments.h"
 #include "statistics.h"
 #include "thread_arguments.h"
 #include "tone_arguments.h"
@@ -64,23 +63,23 @@ void write_outputs(const RenderArguments& arguments, const gpu::Device& device, 
 
 bool is_png(const std::string& output) { return output.ends_with(".png"); }
 
-// Of --indirect exact. All reflections count there unless a number is given.
+// Of light that is traced. All reflections count there unless a number is given.
 void check_paths(RenderArguments& a) {
     const apps::Command& command = a.tone.eye.command;
-    a.traces = a.indirect.indirect == "exact";
-    if (!a.traces && command.count("--paths") > 0) throw Error("--paths has a meaning only beside --indirect exact");
+    a.traces = a.paths > 0;
+    if (a.traces && !a.settings.indirect) throw Error("--paths has no meaning with --indirect off");
     if (a.traces && a.settings.tone_operator == render::Operator::Ldr)
-        throw Error("--indirect exact has no meaning with the ldr operator, which shows the light of lamps alone");
+        throw Error("--paths has no meaning with the ldr operator, which shows the light of lamps alone");
     if (a.traces && a.settings.moving_reflections)
-        throw Error("--moving-reflections has no meaning with --indirect exact, which traces light of all lamps");
+        throw Error("--moving-reflections has no meaning with --paths, which traces light of all lamps");
     if (a.traces && a.settings.samples > 1)
-        throw Error("--samples has no meaning with --indirect exact, which traces light for the middles of pixels");
+        throw Error("--samples has no meaning with --paths, which traces light for the middles of pixels");
     if (uint64_t{a.frames} * a.settings.samples > UINT32_MAX / 2)
         throw Error("--frames times --samples is more than 2,147,483,647");
     if (a.settings.display_average && (a.settings.samples == 1 || std::ranges::none_of(a.outputs, is_png)))
         throw Error("--display-average has a meaning only beside --samples of 2 and more, and -o OUT.png");
     a.tracing.paths = a.paths, a.tracing.lamp_looks = kLampLooks;
-    if (command.count("--reflections") > 0) a.tracing.most_reflections = a.indirect.reflections;
+    if (command.count("--reflections") > 0) a.tracing.most_reflections = a.settings.reflections;
     a.tracing.threshold = HUGE_VAL;  // light of lamps directly is the device's
 }
 
@@ -89,11 +88,7 @@ void check_arguments(RenderArguments& arguments) {
     render::RenderSettings& settings = arguments.settings;
     static_cast<render::ToneChainSettings&>(settings) = apps::tone_settings(arguments.tone);
     apps::check_target(arguments.glare, settings);
-    settings.paper_lambert = arguments.lambert == "paper";
-    apps::set_edges(arguments.edges, settings);
-    apps::set_quality(arguments.quality, settings);
-    apps::set_shadows(arguments.shadows, settings);
-    apps::set_indirect(arguments.indirect, settings);
+    apps::apply_settings(arguments.light, settings);
     check_paths(arguments);
     io::announce_read(arguments.scene);
     io::announce_read(arguments.photometry);
@@ -107,7 +102,7 @@ void check_arguments(RenderArguments& arguments) {
             throw Error("-o " + output + ": the ldr operator has no luminances to write; use .png");
     }
     if (apps::Ranks::several()) {
-        if (settings.shadow_budget != render::kNoShadowBudget)
+        if (settings.shadow_budget != render::kUnlimited)
             throw Error("--shadow-budget: a frame then depends on the one before; not with several ranks");
         if (settings.display_average) throw Error("--display-average is not made by several ranks");
         if (!arguments.obstacles.empty()) throw Error("--obstacle: obstacles are not measured by several ranks");
@@ -209,7 +204,7 @@ private:
 void run(RenderArguments& arguments) {
     const VkExtent2D extent = apps::parse_size(arguments.size);
     check_arguments(arguments);
-    const apps::ScaledPicture scaled(extent, arguments.scale);
+    const apps::ScaledPicture scaled(extent, arguments.settings.scale);
     const bool wants_statistics = arguments.statistics || !arguments.statistics_file.empty();
     render::Outputs outputs{.display = wants_statistics, .scene = false};  // what is timed includes the display image
     for (const std::string& output : arguments.outputs)
@@ -245,7 +240,7 @@ void run(RenderArguments& arguments) {
     apps::Ranks& ranks = apps::Ranks::all();
     gpu::Device device({.select = arguments.device});
     render::Renderer renderer(device, scene);
-    const std::shared_ptr<Cache> cache = apps::shadow_cache(arguments.shadows.cache);
+    const std::shared_ptr<Cache> cache = apps::cache_of(arguments.cache);
     renderer.keep_maps(cache);
     ranks.agree_on_start();
     if (arguments.settings.indirect && !arguments.traces && !ldr)  // which shows lamps alone
@@ -301,7 +296,8 @@ void run(RenderArguments& arguments) {
         if (!arguments.sources_file.empty())
             rows.sources = apps::glare_sources_lines(index, scene, frame.glare_sources, arguments.settings.scatter.eye);
         if (last) rows.eye = rows.log;
-        if (index == 0 && arguments.plan) apps::print_text(renderer.plan());
+        if (index == 0 && arguments.plan)
+            apps::print_text(apps::settings_lines(recorded_of(arguments)) + renderer.plan());
         if (last) {
             if (wants_target) apps::print_text(apps::target_line(glare));
             apps::print_text(apps::obstacle_lines(obstacles, frame.obstacles, arguments.settings));
@@ -328,7 +324,6 @@ void add_render(apps::Command program) {
                        "OUT.png: display image; OUT.exr: absolute cd/m^2; may be given twice");
     command.add_option("--camera,-c", a->camera, "Name of a camera of the scene (default: the first)");
     command.add_option("--size,-s", a->size, "WIDTHxHEIGHT, px").shows_default();
-    apps::add_scale_option(command, a->scale);
     command.add_option("--frames", a->frames, "How many frames; files are numbered")
         .check(apps::range(1u, 1000000u))
         .shows_default();
@@ -359,43 +354,30 @@ void add_render(apps::Command program) {
     apps::add_thread_option(command, a->threads);
     command.help_group("Files");
     command.add_allow_outside();
-    command.help_group("Light");
-    command.add_option("--lambert", a->lambert, "physical: L = E R / pi; paper: L = E R")
-        .check(apps::one_of({"physical", "paper"}))
-        .shows_default();
-    apps::add_bound_options(command, a->quality);
+    apps::add_cache_option(command, a->cache);
     command.help_group();
-    apps::add_quality_option(command, a->quality);
+    apps::add_quality_option(command, a->light);
     apps::add_tone_options(command, a->tone);
     apps::add_glare_options(command, a->glare);
     command.help_group("Glare");
     apps::add_obstacle_option(command, a->obstacles);
+    apps::add_setting_options(command, a->light, {});
     command.help_group("Light");
-    apps::add_shadow_options(command, a->shadows);
-    apps::add_indirect_options(command, a->indirect, true);
     command
-        .add_option(
-            "--paths", a->paths,
-            "With --indirect exact: of rays from each pixel; noise, with 16 some 45 % of that light, falls with "
-            "their root")
-        .check(apps::range(1u, kMostPathsOfPixel))
-        .shows_default();
-    apps::add_edge_options(command, a->edges);
-    command.add_flag("--display-average", a->settings.display_average,
-                     "With --samples, in a .png: the mean of what the display shows of each sample, as a finer display "
-                     "would; without, what it shows of their mean luminance");
-    command.add_flag("--all-lamps,--all-lights", a->settings.all_lamps,
-                     "Shade every lamp above the threshold in every pixel (slow, for comparison)");
+        .add_option("--paths", a->paths,
+                    "Traces indirect light for each pixel of each frame (slow), along so many paths of rays; noise, "
+                    "with 16 some 45 % of that light, falls with their root")
+        .check(apps::range(1u, kMostPathsOfPixel));
     command.help_group();
     command.footer(
         "Examples:\n  vesper render night.gltf --camera driver --stats -o night.png\n"
         "  vesper render night.gltf --camera driver --samples 64 -o night.exr\n"
-        "  vesper render night.gltf --camera driver --size 640x400 --indirect exact --paths 64 -o exact.png\n"
+        "  vesper render night.gltf --camera driver --size 640x400 --paths 64 -o exact.png\n"
         "  mkdir drive && vesper render night.gltf --camera driver --frames 300 --dt 0.0333 -o drive/%04d.png\n");
     command.callback_of_ranks([a, command] {
         apps::use_threads(a->threads);
         a->options = apps::options_of(command, {"--output", "--log", "--glare-sources", "--eye-out", "--stats",
-                                                "--stats-json", "--plan", "--shadow-cache", "--threads"});
+                                                "--stats-json", "--plan", "--cache", "--threads"});
         run(*a);
     });
 }

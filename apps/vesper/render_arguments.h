@@ -4,28 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "edge_arguments.h"
 #include "glare_arguments.h"
-#include "indirect_arguments.h"
-#include "quality_arguments.h"
 #include "render/renderer.h"
-#include "shadow_arguments.h"
+#include "setting_arguments.h"
 #include "tone_arguments.h"
 #include "traced_light.h"
 
 namespace vesper::commands {
 
-constexpr unsigned kPathsOfPixel = 16;  // unless --paths says otherwise
-
 struct RenderArguments {
-    std::string scene, photometry, camera, size = "1680x1050", device, lambert = "physical";
+    std::string scene, photometry, camera, size = "1680x1050", device, cache;
     apps::ToneArguments tone;
-    apps::ShadowArguments shadows;
-    apps::IndirectArguments indirect;
-    apps::EdgeArguments edges;
-    apps::QualityArguments quality;
-    double scale = 1;
-    unsigned paths = kPathsOfPixel;
+    apps::SettingArguments light;
+    unsigned paths = 0;   // 0: no light is traced
     bool traces = false;  // light for each pixel
     transport::TraceSettings tracing;
     apps::GlareArguments glare;

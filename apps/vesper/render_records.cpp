@@ -6,20 +6,15 @@
 #include "base/parallel.h"
 #include "picture_arguments.h"
 #include "print.h"
-#include "scale_arguments.h"
 #include "statistics.h"
 
 namespace vesper::commands {
 
 using apps::format, apps::print;
 
-namespace {
-
-apps::RecordedQuality quality_of(const RenderArguments& arguments) {
-    return apps::recorded_quality(arguments.quality, arguments.settings);
+apps::RecordedSettings recorded_of(const RenderArguments& arguments) {
+    return apps::recorded_settings(arguments.light.quality, arguments.settings);
 }
-
-}  // namespace
 
 io::Header describe_frame(const RenderArguments& arguments, const gpu::Device& device, const gpu_scene::View& view,
                           const render::Frame& frame, const vision::GlareReport& glare, double seconds) {
@@ -37,39 +32,30 @@ io::Header describe_frame(const RenderArguments& arguments, const gpu::Device& d
                            apps::digits(double(view.tangent_high.x)) + " " + apps::digits(double(view.tangent_high.y))},
                       {"vesper:seconds", apps::digits(seconds)},
                       {"vesper:lights", std::to_string(frame.lamps)},
-                      {"vesper:lambert", arguments.lambert},
                       {"vesper:device", device.name() + ", " + device.driver()}};
     render::RenderSettings luminance = arguments.settings;
     luminance.display_average = false;  // of codes
-    for (const io::Header& part : {apps::describe_quality(quality_of(arguments)), apps::describe_scale(arguments.scale),
-                                   apps::describe_edges(luminance), apps::describe_tone(arguments.settings, frame)})
+    for (const io::Header& part :
+         {apps::describe_settings(apps::recorded_settings(arguments.light.quality, luminance)),
+          apps::describe_tone(arguments.settings, frame), apps::describe_glare(arguments.settings, glare)})
         header.insert(header.end(), part.begin(), part.end());
-    const io::Header dazzled = apps::describe_glare(arguments.settings, glare);
-    header.insert(header.end(), dazzled.begin(), dazzled.end());
     return header;
 }
 
 std::string statistics_json(const RenderArguments& arguments, const render::Frame& frame) {
-    return "{" + apps::quality_json(quality_of(arguments)) + ", \"scale\": " + apps::digits(arguments.scale) +
-           ", \"threads\": " + std::to_string(parallel_threads()) + ", " +
-           apps::json_of(apps::luminance_statistics(frame.scene)).substr(1);
+    return "{" + apps::settings_json(recorded_of(arguments)) + ", \"threads\": " + std::to_string(parallel_threads()) +
+           ", " + apps::json_of(apps::luminance_statistics(frame.scene)).substr(1);
 }
 
-io::Header describe_codes(const RenderArguments& arguments) {
-    io::Header header;
-    for (const io::Header& part : {apps::describe_quality(quality_of(arguments)), apps::describe_scale(arguments.scale),
-                                   apps::describe_edges(arguments.settings)})
-        header.insert(header.end(), part.begin(), part.end());
-    return header;
-}
+io::Header describe_codes(const RenderArguments& arguments) { return apps::describe_settings(recorded_of(arguments)); }
 
 void print_statistics(const RenderArguments& arguments, const gpu::Device& device, const render::Renderer& renderer,
                       const render::Frame& frame, std::vector<double> milliseconds) {
     print("%s on %s (%s), %u threads of the host\n", arguments.scene.c_str(), device.name().c_str(),
           device.driver().c_str(), parallel_threads());
-    print("%ux%u, scale %g, %s, quality %s, %llu triangles, %u lamps, %.0f MiB on the device\n", frame.extent.width,
-          frame.extent.height, arguments.scale, apps::name_of(arguments.settings.tone_operator).c_str(),
-          apps::quality_words(quality_of(arguments)).c_str(),
+    print("%ux%u, %s, quality %s, %llu triangles, %u lamps, %.0f MiB on the device\n", frame.extent.width,
+          frame.extent.height, apps::name_of(arguments.settings.tone_operator).c_str(),
+          apps::settings_words(recorded_of(arguments)).c_str(),
           static_cast<unsigned long long>(renderer.scene().triangles()), frame.lamps,
           double(renderer.device_bytes()) / (1 << 20));
     print("clusters: to %.0f m, at most %u lamps in a froxel, %u froxels overflowed (and looked at every lamp)\n",

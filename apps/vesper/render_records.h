@@ -9,6 +9,9 @@
 
 namespace vesper::commands {
 
+/// The settings of light, as asked for.
+apps::RecordedSettings recorded_of(const RenderArguments& arguments);
+
 /// The header of a picture of luminances.
 io::Header describe_frame(const RenderArguments& arguments, const gpu::Device& device, const gpu_scene::View& view,
                           const render::Frame& frame, const vision::GlareReport& glare, double seconds);

@@ -84,7 +84,7 @@ scene::Scene with_luminaires(scene::Scene scene, const std::vector<bool>& wanted
 /// Every lamp counts, as in the calculation, however dim: contributions of 1e-9 lx are left out.
 render::RenderSettings road_settings() {
     render::RenderSettings settings;
-    settings.clusters.threshold = 1e-9f;
+    settings.threshold = 1e-9f;
     return settings;
 }
 

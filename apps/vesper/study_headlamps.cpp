@@ -9,13 +9,14 @@
 #include "base/error.h"
 #include "base/one_line.h"
 #include "beam_plot.h"
+#include "cache_arguments.h"
+#include "gathered_light.h"
 #include "gpu_scene/cameras.h"
-#include "indirect_arguments.h"
 #include "io/file_gate.h"
 #include "picture_arguments.h"
 #include "print.h"
 #include "scene_notes.h"
-#include "shadow_arguments.h"
+#include "setting_arguments.h"
 #include "sightings.h"
 #include "study.h"
 #include "thread_arguments.h"
@@ -38,10 +39,8 @@ struct HeadlampArguments {
     std::vector<double> place, ages{25, 65};
     double from = 100, to = 10, step = 5, level = 7, picture_at = 50;
     unsigned threads = 0;
-    apps::EdgeArguments edges;
-    apps::QualityArguments quality;
-    apps::ShadowArguments shadows;
-    apps::IndirectArguments indirect;
+    apps::SettingArguments light;
+    std::string cache;
     apps::ToneArguments tone;
 };
 
@@ -139,11 +138,8 @@ private:
 void HeadlampStudy::render(const render::ToneChainSettings& tone) {
     const VkExtent2D extent = apps::parse_size(arguments_.size);
     static_cast<render::ToneChainSettings&>(settings_) = tone;
-    apps::set_edges(arguments_.edges, settings_);
-    apps::set_quality(arguments_.quality, settings_);
-    apps::set_shadows(arguments_.shadows, settings_);
-    apps::set_indirect(arguments_.indirect, settings_);
-    const std::shared_ptr<Cache> cache = apps::shadow_cache(arguments_.shadows.cache);
+    apps::apply_settings(arguments_.light, settings_);
+    const std::shared_ptr<Cache> cache = apps::cache_of(arguments_.cache);
     gpu::Device device({.select = arguments_.device});
     render::Renderer renderer(device, approach_.scene());
     renderer.keep_maps(cache);
@@ -289,8 +285,6 @@ void HeadlampStudy::write() {
 void run(HeadlampArguments& a) {
     const render::ToneChainSettings tone = apps::tone_settings(a.tone);
     if (tone.tone_operator == render::Operator::Ldr) throw Error("--operator ldr has no luminances to measure");
-    if (a.shadows.budget != render::kNoShadowBudget)
-        throw Error("--shadow-budget has no meaning here: no frame follows another");
     apps::parse_size(a.size);
     if (!a.place.empty()) a.approach.obstacle_place = glm::dvec3(a.place[0], a.place[1], a.place[2]);
     std::ranges::sort(a.ages);
@@ -358,10 +352,7 @@ void add_headlamps(apps::Command studies) {
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     apps::add_thread_option(command, a->threads);
     command.add_allow_outside();
-    apps::add_edge_options(command, a->edges);
-    apps::add_quality_option(command, a->quality);
-    apps::add_shadow_options(command, a->shadows);
-    apps::add_indirect_options(command, a->indirect);
+    add_light_options(command, a->light, a->cache);
     apps::add_tone_options(command, a->tone);
     command.footer(
         "Example:\n  vesper study headlamps night.gltf --camera driver --obstacle pedestrian_00 "

@@ -7,6 +7,8 @@
 
 #include "base/error.h"
 #include "base/one_line.h"
+#include "cache_arguments.h"
+#include "gathered_light.h"
 #include "picture_arguments.h"
 #include "print.h"
 #include "render/renderer.h"
@@ -20,8 +22,6 @@ namespace {
 /// Renders the scene once.
 StudyPicture rendered(const PictureSource& arguments, gpu::Device& device, const render::ToneChainSettings& settings,
                       const std::string& input) {
-    if (arguments.shadows.budget != render::kNoShadowBudget)
-        throw Error("--shadow-budget has no meaning here: no frame follows another");
     const VkExtent2D extent = apps::parse_size(arguments.size);
     scene::LoadedScene loaded = scene::read_scene(input);
     apps::print_notes(apps::notes_of(loaded, input));
@@ -31,11 +31,8 @@ StudyPicture rendered(const PictureSource& arguments, gpu::Device& device, const
     render::Renderer renderer(device, loaded.scene);
     render::RenderSettings render;
     static_cast<render::ToneChainSettings&>(render) = settings;
-    apps::set_edges(arguments.edges, render);
-    apps::set_quality(arguments.quality, render);
-    apps::set_shadows(arguments.shadows, render);
-    apps::set_indirect(arguments.indirect, render);
-    const std::shared_ptr<Cache> cache = apps::shadow_cache(arguments.shadows.cache);
+    apps::apply_settings(arguments.light, render);
+    const std::shared_ptr<Cache> cache = apps::cache_of(arguments.cache);
     renderer.keep_maps(cache);
     apps::give_indirect(renderer, render, loaded.scene, frame.world, scene::animated_nodes(loaded.scene), cache.get());
     render::Frame made = renderer.render(render, view, frame, 0, {.display = false, .scene = true});
@@ -82,16 +79,20 @@ double StudyPicture::luminance(size_t i) const {
     return double(scale * (shared::kRed * rgb[0] + shared::kGreen * rgb[1] + shared::kBlue * rgb[2]));
 }
 
+// No frame follows another, luminance is not shown, and --scale is the unit of a picture.
+void add_light_options(apps::Command command, apps::SettingArguments& light, std::string& cache) {
+    apps::add_quality_option(command, light);
+    apps::add_setting_options(command, light, {"shadow_budget", "display_average", "scale"});
+    apps::add_cache_option(command, cache);
+}
+
 void add_source_options(apps::Command command, PictureSource& source) {
     command.add_option("--camera,-c", source.camera, "Of a scene: name of a camera (default: the first)");
     command.add_option("--size,-s", source.size, "Of a scene: WIDTHxHEIGHT, px").shows_default();
     command.add_option("--start", source.start, "Of a scene: its time, s")
         .check(apps::between(0.0, 1e6))
         .shows_default();
-    apps::add_edge_options(command, source.edges);
-    apps::add_quality_option(command, source.quality);
-    apps::add_shadow_options(command, source.shadows);
-    apps::add_indirect_options(command, source.indirect);
+    add_light_options(command, source.light, source.cache);
     command.add_allow_outside();
     command.add_option("--layer", source.layer, apps::kLayerHelp);
     apps::add_scale_options(command, source.scale,

@@ -6,12 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "edge_arguments.h"
-#include "indirect_arguments.h"
 #include "picture_arguments.h"
-#include "quality_arguments.h"
 #include "render/tone_mapper.h"
-#include "shadow_arguments.h"
+#include "setting_arguments.h"
 
 namespace vesper::commands {
 
@@ -40,16 +37,16 @@ struct StudyPicture {
 struct PictureSource {
     std::string camera, size = "1680x1050";  ///< of a scene
     double start = 0;                        ///< s, of a scene
-    apps::EdgeArguments edges;               ///< of a scene
-    apps::QualityArguments quality;          ///< of a scene
-    apps::ShadowArguments shadows;           ///< of a scene
-    apps::IndirectArguments indirect;        ///< of a scene
+    apps::SettingArguments light;            ///< of a scene
+    std::string cache;                       ///< as apps::cache_of() takes it
     std::string layer;                       ///< of OpenEXR files, see read_hdr_image
     apps::ScaleArguments scale;              ///< of a picture
     double fov = 0;                          ///< angle a picture covers in height, degrees; 0: as its file says, or 40
     bool angle_matters = false;              ///< to the study, so that a guess is noted
 };
 
+/// Settings of light and --cache, as far as they have a meaning for a study.
+void add_light_options(apps::Command, apps::SettingArguments&, std::string& cache);
 void add_source_options(apps::Command, PictureSource&);
 
 /// A picture without a name. Prints notes. Throws Error if it cannot be read or is black.

@@ -74,7 +74,7 @@ static_assert(sizeof(void*) != 8 ||
               (sizeof(VesperDeviceOptions) == 40 && sizeof(VesperToneSettings) == 136 &&
                sizeof(VesperFrameReport) == 32 && sizeof(VesperOutputs) == 40 && sizeof(VesperPicture) == 48 &&
                sizeof(VesperMaterial) == 56 && sizeof(VesperMesh) == 56 && sizeof(VesperLamp) == 80 &&
-               sizeof(VesperView) == 128 && sizeof(VesperImage) == 40 && sizeof(VesperHandover) == 32 &&
+               sizeof(VesperView) == 96 && sizeof(VesperImage) == 40 && sizeof(VesperHandover) == 32 &&
                sizeof(VesperImagePicture) == 40));
 
 }  // namespace
@@ -85,7 +85,7 @@ VesperResult result_of(VesperError* error, void (*call)(const void*), const void
         call(what);
         return VESPER_OK;
     } catch (const BadArgument& bad) {
-        say(error, bad.what);
+        say(error, bad.what.c_str());
         return VESPER_BAD_ARGUMENT;
     } catch (const std::bad_alloc&) {
         say(error, "out of memory");

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "render/renderer.h"
+#include "render/settings.h"
 #include "render/tone_mapper.h"
 #include "scene/display_file.h"
 
@@ -53,6 +54,7 @@ struct VesperRenderer {
     std::map<uint32_t, float> dimming;            // of lamps and meshes at nodes
     std::optional<std::vector<bool>> reflecting;  // nodes that move, for which the engine has reflections of lamps
     std::shared_ptr<vesper::Cache> cache;         // of what is kept for later runs
+    vesper::render::ChosenSettings chosen;        // of its light
     std::optional<VesperFrameReport> report;  // of the last submitted frame that was finished, until it is asked for
 };
 
@@ -60,7 +62,7 @@ namespace vesper::api {
 
 /// Thrown for what only a caller can get wrong.
 struct BadArgument {
-    const char* what;
+    std::string what;
 };
 
 inline void require(bool holds, const char* otherwise) {
@@ -80,8 +82,6 @@ template <class T>
 constexpr size_t kFirstSize = sizeof(T);
 template <>
 inline constexpr size_t kFirstSize<VesperToneSettings> = offsetof(VesperToneSettings, options);
-template <>
-inline constexpr size_t kFirstSize<VesperView> = offsetof(VesperView, no_shadows);
 
 /// Copies a caller's structure. Fields that an older caller lacks are zero; fields that only a newer caller has are
 /// ignored.

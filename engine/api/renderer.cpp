@@ -5,7 +5,6 @@
 #include "gpu_scene/cameras.h"
 #include "io/cache_folder.h"
 #include "render/passes/samples.h"
-#include "render/quality.h"
 #include "scene/placement.h"
 #include "transport/kept_radiosity.h"
 
@@ -42,51 +41,20 @@ gpu_scene::View view_of(const VesperView& v, const scene::Scene& scene, const gp
     return gpu_scene::View::symmetric(extent, v.vertical_fov, world_to_view, v.near_plane);
 }
 
-// Sizes of a VesperView before there was a field that lies where such views have padding.
-constexpr uint32_t kViewWithoutIndirect = 104, kViewWithoutAntiAliasing = 112, kViewWithoutQuality = 120;
-static_assert(int(render::Quality::Standard) == VESPER_QUALITY_STANDARD &&
-              int(render::Quality::Draft) == VESPER_QUALITY_DRAFT &&
-              int(render::Quality::Exact) == VESPER_QUALITY_EXACT);
-
-/// What is drawn and from where.
-struct Seen {
+/// The request for a frame: what is drawn, from where, and how.
+struct FrameRequest {
     gpu_scene::SceneFrame frame;
     gpu_scene::View view;
-    bool shadows, indirect, moving_reflections, anti_aliasing;
-    uint32_t samples;
-    render::Quality quality;
-    float threshold;  // lx; 0: that of the quality
+    render::RenderSettings settings;
 };
-void apply(const Seen& seen, render::RenderSettings& how) {
-    render::set_quality(how, seen.quality);
-    if (seen.threshold > 0) how.clusters.threshold = seen.threshold;
-    how.shadows = seen.shadows, how.indirect = seen.indirect, how.moving_reflections = seen.moving_reflections;
-    how.anti_aliasing = seen.anti_aliasing, how.samples = seen.samples;
-}
-Seen see(const VesperRenderer& renderer, const VesperView* view) {
-    VesperView v = known(view, "a view without its size");
-    if (v.size <= kViewWithoutIndirect) v.no_indirect = 0;
-    if (v.size <= kViewWithoutAntiAliasing) v.no_anti_aliasing = 0;
-    if (v.size <= kViewWithoutQuality) v.quality = VESPER_QUALITY_STANDARD;
+FrameRequest request_of(VesperRenderer& renderer, const VesperToneSettings* tone, const VesperView* view) {
+    FrameRequest request{.frame = {}, .view = {}, .settings = settings_of(tone, renderer.displays)};
+    renderer.chosen.apply(request.settings);
+    const VesperView v = known(view, "a view without its size");
     require(v.scene_seconds >= 0 && v.scene_seconds <= 1e9, "the scene's time is 0 to 1e9 s");
-    require(v.no_shadows == 0 || v.no_shadows == 1, "VesperView::no_shadows is 0 or 1");
-    require(v.no_indirect == 0 || v.no_indirect == 1, "VesperView::no_indirect is 0 or 1");
-    require(v.moving_reflections == 0 || v.moving_reflections == 1, "VesperView::moving_reflections is 0 or 1");
-    require(v.no_anti_aliasing == 0 || v.no_anti_aliasing == 1, "VesperView::no_anti_aliasing is 0 or 1");
-    require(v.samples <= render::kMostSamples, "VesperView::samples is at most 65536");
-    require(v.quality <= VESPER_QUALITY_EXACT, "there is no such quality");
-    require(v.threshold == 0 || within(v.threshold, 1e-9f, 1e3f), "a threshold is 0, or 1e-9 to 1000 lx");
-    Seen seen{frame_of(renderer, v.scene_seconds),
-              {},
-              v.no_shadows == 0,
-              v.no_indirect == 0,
-              v.moving_reflections == 1,
-              v.no_anti_aliasing == 0,
-              std::max(v.samples, 1u),
-              render::Quality(v.quality),
-              v.threshold};
-    seen.view = view_of(v, renderer.scene.scene, seen.frame);
-    return seen;
+    request.frame = frame_of(renderer, v.scene_seconds);
+    request.view = view_of(v, renderer.scene.scene, request.frame);
+    return request;
 }
 
 /// With all that changed in it. After everything a call is given has been checked: a call that is refused changes
@@ -110,13 +78,13 @@ std::vector<bool> all_moving(const scene::Scene& scene, const gpu_scene::SceneFr
     return moving;
 }
 
-void find_lamp_reflections(VesperRenderer& renderer, const Seen& seen) {
-    if (!seen.moving_reflections) return;
+void find_lamp_reflections(VesperRenderer& renderer, const FrameRequest& request) {
+    if (!request.settings.moving_reflections) return;
     const scene::Scene& scene = renderer.scene.scene;
-    std::vector<bool> moving = all_moving(scene, seen.frame);
+    std::vector<bool> moving = all_moving(scene, request.frame);
     if (renderer.reflecting == moving) return;
     renderer.engine.set_lamp_reflections(
-        std::make_shared<const transport::LampReflections>(scene, seen.frame.world, moving));
+        std::make_shared<const transport::LampReflections>(scene, request.frame.world, moving));
     renderer.reflecting = std::move(moving);
 }
 
@@ -157,7 +125,7 @@ VesperResult vesper_renderer_dim(VesperRenderer* renderer, uint32_t node, float 
     });
 }
 
-VesperResult vesper_renderer_keep_shadows(VesperRenderer* renderer, const char* folder, VesperError* error) {
+VesperResult vesper_renderer_set_cache(VesperRenderer* renderer, const char* folder, VesperError* error) {
     return guarded(error, [&] {
         require(renderer, VesperRenderer::kNone);
         require(!folder || *folder, "the name of the folder is empty");
@@ -194,14 +162,13 @@ VesperResult vesper_render(VesperRenderer* renderer, const VesperToneSettings* s
     return guarded(error, [&] {
         require(renderer, VesperRenderer::kNone);
         const VesperOutputs to = outputs_of(outputs);
-        render::RenderSettings how = settings_of(settings, renderer->displays);
         const float passed = seconds_of(seconds);
-        const Seen seen = see(*renderer, view);
-        apply(seen, how);
+        const FrameRequest request = request_of(*renderer, settings, view);
         finish(*renderer);  // what it left stays should this frame fail
         take_over_scene(*renderer);
-        find_lamp_reflections(*renderer, seen);
-        const render::Frame frame = renderer->engine.render(how, seen.view, seen.frame, passed, wanted(to));
+        find_lamp_reflections(*renderer, request);
+        const render::Frame frame =
+            renderer->engine.render(request.settings, request.view, request.frame, passed, wanted(to));
         give(frame, to);
     });
 }
@@ -211,16 +178,14 @@ VesperResult vesper_render_image(VesperRenderer* renderer, const VesperToneSetti
                                  VesperError* error) {
     return guarded(error, [&] {
         require(renderer, VesperRenderer::kNone);
-        render::RenderSettings how = settings_of(settings, renderer->displays);
         const float passed = seconds_of(seconds);
         const graph::SubmitSemaphores semaphores = semaphores_of(handover);
-        const Seen seen = see(*renderer, view);
-        apply(seen, how);
+        const FrameRequest request = request_of(*renderer, settings, view);
         require(renderer->device.borrowed(), kBorrowed);
-        const render::Outputs to{.display = false, .shown = shown_image(shown, seen.view.extent)};
+        const render::Outputs to{.display = false, .shown = shown_image(shown, request.view.extent)};
         take_over_scene(*renderer);
-        find_lamp_reflections(*renderer, seen);
-        submit_frame(*renderer, how, seen.view, seen.frame, passed, to, semaphores);
+        find_lamp_reflections(*renderer, request);
+        submit_frame(*renderer, request.settings, request.view, request.frame, passed, to, semaphores);
     });
 }
 

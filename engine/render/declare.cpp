@@ -56,9 +56,9 @@ SceneLight declare(const FrameContext& frame, ResidentScene& scene, const Prepar
     const GBuffer surfaces = add_gbuffer(frame, data.resident, poses, prepared.small_emitters.parts);
     const Clusters clusters = add_clusters(frame, surfaces.surface, prepared.lamps, tables, prepared.clusters);
     Blocks blocks = add_blocks(frame, surfaces, clusters);
-    blocks = add_visibility(frame, surfaces, clusters, blocks, shading.maps, shading.faint);
+    blocks = add_visibility(frame, surfaces, clusters, blocks, shading.maps, shading.shadow_error);
     blocks = add_directional_visibility(frame, surfaces, clusters, blocks, directional);
-    blocks = add_merging(frame, surfaces, clusters, blocks, shading.merge_tolerance);
+    blocks = add_merging(frame, surfaces, clusters, blocks, shading.merge_error);
     Resource luminance = add_shading(frame, surfaces, clusters, blocks, shading);
     luminance = add_daylight(frame, surfaces, luminance, prepared.daylight);
     luminance = add_light_between_surfaces(frame, scene, prepared, poses, view, surfaces, luminance);

@@ -20,7 +20,7 @@ IndirectLight::IndirectLight(const gpu::Device& device, std::shared_ptr<const tr
 
 bool IndirectLight::solve(const transport::RadiosityLight& light, const std::vector<bool>& moving) {
     if (radiosity_->cells() == 0) return false;
-    Lit lit{std::vector<float>(sources_.size(), 1), light.sky, light.reflections, light.left_out};
+    Lit lit{std::vector<float>(sources_.size(), 1), light.sky, light.reflections, light.reflection_error};
     std::vector<float> factors(sources_.empty() ? 0 : sources_.back() + size_t{1});  // of nodes
     for (size_t i = 0; i < sources_.size(); ++i) {
         const uint32_t node = sources_[i];

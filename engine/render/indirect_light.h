@@ -39,7 +39,7 @@ private:
         std::vector<float> factors;  // of sources_
         glm::dvec3 sky{0};
         uint32_t reflections = 0;
-        double left_out = 0;
+        double reflection_error = 0;
         bool operator==(const Lit&) const = default;
     };
 

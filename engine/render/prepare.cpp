@@ -38,7 +38,7 @@ void prepare_indirect(Prepared& frame, ResidentScene& scene, const RenderSetting
                            .sky = glm::dvec3(ambient.sky),
                            .sky_picture = scene.data.sky_on ? &*scene.data.sky_on : nullptr,
                            .reflections = settings.reflections,
-                           .left_out = settings.reflections_left_out};
+                           .reflection_error = settings.reflection_error};
         if (!scene.indirect->solve(frame.radiosity, poses.moving)) return;  // nothing stands still
         frame.indirect = Prepared::Indirect::Cells;
         if (settings.moving_reflections && scene.lamp_reflections)
@@ -61,15 +61,15 @@ Prepared prepare(ResidentScene& scene, const gpu::Device& device, Cache* map_cac
     if (settings.unit_lamps) gpu_scene::set_to_one(frame.lamps, settings.ldr_reference_distance);
     const std::optional<float> white = settings.unit_lamps ? std::optional(1.0f) : std::nullopt;
     frame.luminaires = gpu_scene::luminaire_list(data.luminaires, poses, view, white);
-    frame.clusters = settings.clusters;
+    frame.clusters.threshold = settings.threshold;
     frame.edges = settings.anti_aliasing && settings.samples == 1;
     if (frame.edges && !settings.unit_lamps && has_facets(device, data.resident))
         frame.small_emitters = gpu_scene::small_emitter_list(data.emitting, data.resident, poses, view);
     frame.clusters.far = data.resident.farthest_depth(poses, view);
     if (settings.shadows) prepare_shadows(frame, scene, device, map_cache, settings, view, poses);
     frame.shading.all_lamps = settings.all_lamps;
-    frame.shading.merge_tolerance = settings.all_lamps ? kMergesNothing : settings.merge_error;
-    frame.shading.faint = settings.shadow_error;
+    frame.shading.merge_error = settings.all_lamps ? 0 : settings.merge_error;
+    frame.shading.shadow_error = settings.shadow_error;
     if (settings.paper_lambert) frame.shading.lambert = 1;
     if (settings.unit_lamps) frame.shading.emission_limit = 1;
     if (settings.lamps_alone) {

@@ -14,43 +14,11 @@
 #include "render/passes/cluster.h"
 #include "render/passes/shade.h"
 #include "render/seen_obstacles.h"
-#include "render/tone_chain.h"
-#include "scene/obstacles.h"
+#include "render/settings.h"
 #include "transport/lamp_reflections.h"
 #include "transport/radiosity.h"
 
 namespace vesper::render {
-
-/// RenderSettings::merge_error of no lamp at all.
-constexpr float kMergesNothing = -1;
-
-struct RenderSettings : ToneChainSettings {
-    bool paper_lambert = false;                ///< L = E R instead of E R / pi
-    bool all_lamps = false;                    ///< shade without clusters, for comparison
-    bool shadows = true;                       ///< lamps light only what they see
-    uint64_t shadow_budget = kNoShadowBudget;  ///< of tiles of distance maps drawn for a frame, see DistanceMaps
-    bool indirect = true;  ///< light of emitting surfaces and of the sky, and reflected light, if the renderer has it
-    uint32_t reflections = 100;           ///< of light, at most
-    double reflections_left_out = 0.002;  ///< and they end where the rest would add less than this share
-    bool anti_aliasing = true;  ///< pixels beside edges are means of the surfaces that fill them; of one sample
-    /// Of each pixel, at sample_places(); at least 1. Luminance is their mean, before glare and the eye. With more than
-    /// one all shadows are those of the moment, whatever the budget.
-    uint32_t samples = 1;
-    bool display_average = false;  ///< codes of render() are the mean of what the display shows of each sample, to one
-                                   ///< eye, in place of what it shows of their mean
-    bool moving_reflections = false;  ///< with it, the first reflection of lamps that move, if the renderer has them
-    ClusterSettings clusters;
-    float merge_error = ShadeSettings{}.merge_tolerance;  ///< as ShadeSettings::merge_tolerance
-    float shadow_error = ShadeSettings{}.faint;           ///< as ShadeSettings::faint
-    std::vector<gpu_scene::OffscreenLamp>
-        offscreen_lamps;  ///< on other screens: scattered in the eye, not drawn; directions in the view frame
-    float ldr_reference_distance = 6.5f;  ///< m: where an LDR lamp of 1.0 gives 1.0; the paper's lamp height
-    bool unit_lamps = false;  ///< lamps and luminaires of 1.0 instead of their candela, emission of at most 1.0
-    bool lamps_alone =
-        false;  ///< without ambient light, daylight, sky, retroreflection and light from outside the picture
-    std::vector<scene::Obstacle> obstacles;  ///< of the scene, to be measured in the picture (Frame::obstacles)
-    bool obstacle_pixels = false;            ///< Frame::obstacle_pixels, too
-};
 
 /// With Operator::Ldr: the settings of the paper's baseline without any HDR. Otherwise the same settings.
 RenderSettings ldr_baseline(RenderSettings settings);

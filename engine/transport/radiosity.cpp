@@ -133,11 +133,11 @@ Radiosity::Solution Radiosity::solve(const RadiosityLight& light) const {
                 if (met[ray] != kNowhere) sum += sent[met[ray]];
             other[i] = unreflected[i] + sum / float(rays);
         });
-        if (!(light.left_out > 0)) continue;
+        if (!(light.reflection_error > 0)) continue;
         const double all = sum_of(other);
         // What is added falls by about the same factor each time, so that all that is to come is a geometric series.
         const double gain = all - before, factor = gained > 0 ? gain / gained : 1;
-        if (reflection > 0 && factor < 1 && gain * factor / (1 - factor) <= light.left_out * all) break;
+        if (reflection > 0 && factor < 1 && gain * factor / (1 - factor) <= light.reflection_error * all) break;
         before = all, gained = gain;
     }
     // Of neighbours, for less noise.

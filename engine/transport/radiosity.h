@@ -21,7 +21,7 @@ struct RadiosityLight {
     glm::dvec3 sky{0};               ///< luminance of all directions without a surface, RGB cd/m^2
     const photometry::Irradiance9* sky_picture = nullptr;  ///< instead of it: illuminance by direction, unobstructed
     uint32_t reflections = 3;                              ///< that are counted, at most
-    double left_out = 0;  ///< reflections end where those to come would add less than this part of the mean
+    double reflection_error = 0;  ///< reflections end where those to come would add less than this part of the mean
 };
 
 /// Of the sky alone, RGB lx on a surface that sees nothing else.

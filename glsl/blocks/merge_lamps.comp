@@ -5,7 +5,7 @@
 
 // Light merging: adds up the lamps whose illuminance is smooth over a block of pixels (shared/blocks.h), one block per invocation, leaves the
 // others on the block's list, and puts the block in its class. Smooth is what the polynomial through 3 x 3 nodes
-// meets, within the tolerance, at four pixels between them.
+// meets, within merge_error, at four pixels between them.
 
 #include "blocks.glsl"
 #include "normal.glsl"
@@ -125,7 +125,7 @@ bool shows_nodes(vec2 at[kPoints]) {
     return apart2 <= kOfCell * kOfCell;
 }
 
-// Adds a lamp if it is smooth over the plane: wrong by at most the tolerance, or by a quarter of the threshold, below which lamps are left out
+// Adds a lamp if it is smooth over the plane: wrong by at most merge_error, or by a quarter of the threshold, below which lamps are left out
 // anyway. Such a lamp counts where it gives less than that, too. Returns whether it stays on the list.
 bool remains(FetchedLamp lamp, float share, bool cone) {
     float value[kPoints];
@@ -145,7 +145,7 @@ bool remains(FetchedLamp lamp, float share, bool cone) {
         // Where it is dark a beam may still reach in between the points.
         none_counts = none_counts && (normal_lamp <= 0.0 || (relative > 0.0 && 2.0 * facing * (paved ? 1.0 : normal_lamp) < push.view.threshold));
         // Light that grazes sees the least unevenness.
-        even = even && 2.0 * (tilt + lift * inverse) <= push.tolerance * normal_lamp;
+        even = even && 2.0 * (tilt + lift * inverse) <= push.merge_error * normal_lamp;
         least = min(least, value[k]);
         nearest = max(nearest, inverse);
     }
@@ -153,7 +153,7 @@ bool remains(FetchedLamp lamp, float share, bool cone) {
     [[unroll]] for (uint k = kNodes; k < kPoints; ++k) error = max(error, abs(between(value, k) - value[k]));
     bool resolved = radius * nearest <= widest_cone(lamp, cone);
     if (!cone && kTables != 0u) resolved = resolved && (!lamp.measured || shows_nodes(at));
-    const bool taken = resolved && even && lit && error <= max(push.tolerance * least, 0.25 * push.view.threshold);
+    const bool taken = resolved && even && lit && error <= max(push.merge_error * least, 0.25 * push.view.threshold);
     [[unroll]] for (uint k = 0u; k < kNodes; ++k) sum[k] += lamp.colour * (taken ? share * value[k] : 0.0);
     return !(taken || (resolved && none_counts));
 }
@@ -167,7 +167,7 @@ bool merge_block(uint block) {
     const uint cones = block_counts[counts], others = block_counts[counts + 1];
     lookups = kMaps != 0u && cones == kAllLamps;
     const uint tables_from = push.view.lamps.cones + push.view.lamps.powers;
-    if (!plane || cones == kAllLamps || push.tolerance < 0.0) return cones + others != 0u || push.tolerance < 0.0;
+    if (!plane || cones == kAllLamps || push.merge_error <= 0.0) return cones + others != 0u || push.merge_error <= 0.0;
     int kept_cones = 0, kept_others = 0;
     if (kCones != 0u)
         for (int i = 0; i < int(cones); ++i) {

@@ -32,7 +32,7 @@ struct MergePush {
     uint blocks_y;
     uint capacity;
     uint roads;      // as in ShadePush
-    float tolerance; // largest relative error of a lamp at the pixels between the nodes; negative: every lamp stays where it is
+    float merge_error; // largest relative error of a lamp at the pixels between the nodes; 0: every lamp stays where it is
 };
 SHARED_SIZE(MergePush, 92)
 

@@ -12,7 +12,7 @@ struct VisibilityPush {
     uint blocks_y;
     uint capacity;
     LampCounts lamps;
-    float faint;      // of a block's light: lamps of less count with the mean of what the block sees of them
+    float shadow_error; // of a block's light: lamps of less count with the mean of what the block sees of them
 };
 SHARED_SIZE(VisibilityPush, 80)
 

@@ -248,8 +248,8 @@ uvec4 see(uint x, uint y) {
         listed[i] = entry;
         light += probe(i, lamp_of(entry), i < cones);
     }
-    // What a lamp must give for more probes to look at it: more than the faint share of the block's mean light.
-    float limit = max(push.faint * lanes_add(light), 1e-9);
+    // What a lamp must give for more probes to look at it: more than the share shadow_error of the block's mean light.
+    float limit = max(push.shadow_error * lanes_add(light), 1e-9);
     uint number = 0u;
     for (uint begin = 0u; begin < all_; begin += kBlockSize) {
         const uint i = begin + lane;

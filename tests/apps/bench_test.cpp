@@ -35,8 +35,6 @@ bench::RunResult made_up_run(uint32_t lamps, double scale) {
                     .channels = 2,
                     .lamps = lamps,
                     .triangles = 1ull << 40,
-                    .quality = apps::recorded_standard(),
-                    .shadows = true,
                     .frames = 3,
                     .laps = 2,
                     .warm_up = 1};
@@ -79,17 +77,17 @@ TEST_F(BenchProgram, ReadsWhatItWrites) {
     EXPECT_NEAR(json["runs"][0]["passes"][0]["copy_fraction"].get<double>(), 0.125, 1e-12);
     EXPECT_EQ(json["runs"][0]["host_ms"]["wait"]["median"], 5);
     EXPECT_EQ(json["runs"][0]["triangles"]["seen"], 700);
-    EXPECT_EQ(json["runs"][0]["settings"]["quality"], "standard");
+    EXPECT_EQ(json["runs"][0]["settings"]["light"]["quality"], "standard");
     // Older files have neither.
     nlohmann::json old = json;
     for (const char* member : {"parts", "triangles"}) old["runs"][0].erase(member);
-    for (const char* member : {"quality", "merge_error", "shadow_error", "reflections_left_out"})
-        old["runs"][0]["settings"].erase(member);
-    old["runs"][0]["settings"]["threshold_lx"] = double(0.001f);  // as they were written
+    for (const char* member : {"merge_error", "shadow_error", "threshold"})
+        old["runs"][0]["settings"]["light"].erase(member);
+    old["runs"][0]["settings"]["light"]["threshold"] = double(0.001f);
     const bench::RunResult run = bench::read_result(put("old.json", old.dump())).runs[0];
     EXPECT_EQ(run.triangles.seen, 0);
-    EXPECT_EQ(run.settings.quality.name, "standard");
-    EXPECT_TRUE(run.settings.quality.bounds_equal(result.runs[0].settings.quality)) << "it is compared with new ones";
+    EXPECT_EQ(run.settings.light.quality, "standard");
+    EXPECT_TRUE(run.settings.light.same_values(result.runs[0].settings.light)) << "it is compared with new ones";
 }
 
 TEST_F(BenchProgram, ComparesTwoFiles) {
@@ -130,10 +128,10 @@ TEST_F(BenchProgram, ComparesRunsThatAreAlike) {
 
 TEST_F(BenchProgram, RunsWithOtherBoundsAreNotAlike) {
     BenchResult b = made_up({64, 256});
-    for (bench::RunResult& run : b.runs) run.settings.quality.merge_error = 1;
+    for (bench::RunResult& run : b.runs) run.settings.light.value("merge_error") = 1;
     put("a.json", made_up({64, 256})), put("b.json", b);
     expect_refused("--compare a.json b.json", {"no run"});
-    b.runs[0].settings.quality.merge_error = 0.001;
+    b.runs[0].settings.light.value("merge_error") = double(0.001f);
     put("b.json", b);
     ASSERT_EQ(run("--compare a.json b.json"), 0) << said;
     EXPECT_EQ(printed.find("256 lamps"), std::string::npos) << printed;

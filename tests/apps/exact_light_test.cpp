@@ -161,24 +161,23 @@ protected:
 
 // What moves is traced where it is: light of the panel, without cells none of what moves.
 TEST_F(ExactProgram, TracesEveryFrame) {
-    ASSERT_EQ(run("render a.gltf --size 48x30 --indirect exact --frames 2 --dt 1 -o a%d.exr"), 0) << said;
-    ASSERT_EQ(run("render a.gltf --size 48x30 --indirect exact --frames 2 --dt 1 -o b%d.exr"), 0) << said;
+    ASSERT_EQ(run("render a.gltf --size 48x30 --paths 16 --frames 2 --dt 1 -o a%d.exr"), 0) << said;
+    ASSERT_EQ(run("render a.gltf --size 48x30 --paths 16 --frames 2 --dt 1 -o b%d.exr"), 0) << said;
     EXPECT_GT(on_floor("a0.exr"), 5);
     EXPECT_LT(on_floor("a1.exr"), 0.2 * on_floor("a0.exr")) << "the panel has gone";
     EXPECT_EQ(io::read_exr(folder / "a0.exr").rgb, io::read_exr(folder / "b0.exr").rgb);
-    ASSERT_EQ(run("render a.gltf --size 48x30 --indirect exact --paths 256 -o c.exr"), 0) << said;
+    ASSERT_EQ(run("render a.gltf --size 48x30 --paths 256 -o c.exr"), 0) << said;
     EXPECT_NEAR(on_floor("c.exr"), on_floor("a0.exr"), 0.03 * on_floor("c.exr"));
-    ASSERT_EQ(run("render a.gltf --size 48x30 --indirect exact --reflections 0 -o d.exr"), 0) << said;
+    ASSERT_EQ(run("render a.gltf --size 48x30 --paths 16 --reflections 0 -o d.exr"), 0) << said;
     EXPECT_LE(on_floor("d.exr"), 1.03 * on_floor("a0.exr"));
-    ASSERT_EQ(run("render a.gltf --size 48x30 --indirect cached -o e.exr"), 0) << said;
+    ASSERT_EQ(run("render a.gltf --size 48x30 --indirect on -o e.exr"), 0) << said;
     EXPECT_LT(on_floor("e.exr"), 0.01 * on_floor("c.exr"));
 }
 
 TEST_F(ExactProgram, RefusesWhatHasNoMeaning) {
-    expect_refused("render a.gltf -o a.png --paths 4", {"--paths", "only beside --indirect exact"});
-    expect_refused("render a.gltf -o a.png --indirect off --paths 4", {"--paths", "only beside --indirect exact"});
-    expect_refused("render a.gltf -o a.png --indirect exact --paths 0", {"--paths"});
-    expect_refused("render a.gltf -o a.png --indirect exact --operator ldr", {"--indirect exact", "ldr"});
+    expect_refused("render a.gltf -o a.png --indirect off --paths 4", {"--paths", "--indirect off"});
+    expect_refused("render a.gltf -o a.png --paths 0", {"--paths"});
+    expect_refused("render a.gltf -o a.png --paths 16 --operator ldr", {"--paths", "ldr"});
     EXPECT_FALSE(exists("a.png"));
 }
 

@@ -3,7 +3,7 @@
 # and nothing that the programs write, names a folder of this machine. SPDX-License-Identifier: MIT
 #     installed.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
-export VESPER_SHADOW_CACHE=off  # not that of whoever runs this
+export VESPER_CACHE=off  # not that of whoever runs this
 build=$(realpath "$1") source=$(realpath "$2")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -1,62 +1,86 @@
 // Named sets of what frames may leave out, and options beside them. SPDX-License-Identifier: MIT
-#include "render/quality.h"
+#include "render/settings.h"
 
 #include <algorithm>
 
 #include "base/error.h"
 #include "io/hdr_image.h"
+#include "places.h"
 #include "settings.h"
 #include "support/program.h"
 
 namespace vesper::test::quality_test {
 namespace {
 
-using render::Quality, render::QualityInfo, render::RenderSettings;
-
-RenderSettings settings_of(Quality quality) {
-    RenderSettings settings;
-    render::set_quality(settings, quality);
-    return settings;
-}
+using render::Quality, render::RenderSettings, render::settings_of;
 
 void expect_equal(const RenderSettings& a, const RenderSettings& b) {
-    EXPECT_EQ(a.clusters.threshold, b.clusters.threshold);
-    EXPECT_EQ(a.merge_error, b.merge_error);
-    EXPECT_EQ(a.shadow_error, b.shadow_error);
-    EXPECT_EQ(a.reflections_left_out, b.reflections_left_out);
-    EXPECT_EQ(a.shadow_budget, b.shadow_budget);
+    for (const render::Setting& row : render::settings()) EXPECT_EQ(row.get(a), row.get(b)) << row.name;
 }
 
 TEST(Quality, StandardIsTheDefault) { expect_equal(settings_of(Quality::Standard), {}); }
 
 TEST(Quality, ExactLeavesNothingOut) {
     const RenderSettings exact = settings_of(Quality::Exact);
-    EXPECT_LE(exact.clusters.threshold, 1e-9f);
-    EXPECT_EQ(exact.merge_error, render::kMergesNothing);
+    EXPECT_LE(exact.threshold, 1e-9f);
+    EXPECT_EQ(exact.merge_error, 0);
     EXPECT_EQ(exact.shadow_error, 0);
-    EXPECT_EQ(exact.reflections_left_out, 0);
-    EXPECT_EQ(exact.shadow_budget, render::kNoShadowBudget);
+    EXPECT_EQ(exact.reflection_error, 0);
+    EXPECT_EQ(exact.shadow_budget, render::kUnlimited);
 }
 
 TEST(Quality, SetsAreInTheOrderOfTheirBounds) {
-    const auto sets = render::qualities();
-    for (size_t i = 0; i < sets.size(); ++i) EXPECT_EQ(size_t(sets[i].quality), i);
     for (const auto& [less, more] :
          {std::pair(Quality::Exact, Quality::Standard), {Quality::Standard, Quality::Draft}}) {
-        const QualityInfo &a = sets[size_t(less)], &b = sets[size_t(more)];
+        const RenderSettings a = settings_of(less), b = settings_of(more);
         EXPECT_LT(a.threshold, b.threshold);
         EXPECT_LT(a.merge_error, b.merge_error);
         EXPECT_LT(a.shadow_error, b.shadow_error);
-        EXPECT_LT(a.reflections_left_out, b.reflections_left_out);
+        EXPECT_LT(a.reflection_error, b.reflection_error);
     }
+}
+
+std::string table() {
+    std::string text =
+        "| setting | value | `draft` | `standard` | `exact` | meaning |\n| --- | --- | ---: | ---: | ---: | --- |\n";
+    for (const render::Setting& row : render::settings()) {
+        text += "| `--" + row.option() + "` | " + row.range() + " | ";
+        for (const double value : row.values) text += row.text(value) + " | ";
+        text += std::string(row.help) + " |\n";
+    }
+    return text;
+}
+
+TEST(Quality, TheDocumentListsAllSettings) {
+    const std::string text = read_text(VESPER_SOURCE_DIR "/docs/quality.md");
+    const size_t from = text.find("<!-- settings"), until = text.find("<!-- /settings -->");
+    ASSERT_TRUE(from != text.npos && until != text.npos && from < until);
+    const size_t begin = text.find('\n', from) + 1;
+    EXPECT_EQ(text.substr(begin, until - begin), table());
+}
+
+TEST(Quality, SettingsAreTextsThatReadBack) {
+    for (const render::Setting& row : render::settings())
+        for (const double value : row.values) {
+            EXPECT_EQ(row.parse(row.text(value)), value) << row.name;
+            RenderSettings settings;
+            row.set(settings, value);
+            EXPECT_EQ(row.get(settings), value) << row.name;
+        }
+    EXPECT_THROW(render::setting("no-shadows"), Error);
+    EXPECT_EQ(render::setting("shadow-error").parse("0.01"), double(0.01f));
+    for (const char* wrong : {"", "0.5x", "nan", "inf", "-0.1", "1.1", "on", " 1"})
+        EXPECT_THROW(render::setting("shadow_error").parse(wrong), Error) << wrong;
+    for (const char* wrong : {"1.5", "1e3", "0", "65537", "all", "-1"})
+        EXPECT_THROW(render::setting("samples").parse(wrong), Error) << wrong;
 }
 
 TEST(Quality, OfADriveIsASettingLikeOthers) {
     drive::DriveSettings drive({{"quality", "draft"}, {"threshold", "0.0005"}});
     RenderSettings want = settings_of(Quality::Draft);
-    want.clusters.threshold = 0.0005f;
+    want.threshold = 0.0005f;
     expect_equal(drive.render(), want);
-    EXPECT_EQ(drive.quality().quality, "draft");
+    EXPECT_EQ(drive.quality(), "draft");
     drive.set("quality", "exact"), drive.set("threshold", "");
     expect_equal(drive.render(), settings_of(Quality::Exact));
     EXPECT_THROW(drive.set("quality", "best"), Error);
@@ -77,6 +101,11 @@ std::string lit_plane() {
     file.root["extensionsUsed"] = {"KHR_lights_punctual"};
     file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 100}}};
     return file.text();
+}
+
+std::string standard_of(const char* name) {
+    const render::Setting& row = render::setting(name);
+    return row.text(row.value(Quality::Standard));
 }
 
 class QualityProgram : public ProgramTest {
@@ -112,7 +141,7 @@ TEST_F(QualityProgram, OptionsBesideItWinInAnyOrder) {
     const io::HdrImage draft = picture("--quality draft");
     for (const char* options : {"--quality draft --threshold 0.25", "--threshold 0.25 --quality draft"}) {
         const io::HdrImage picked = picture(options);
-        EXPECT_EQ(value(picked, "vesper:illuminanceThreshold"), "0.25") << options;
+        EXPECT_EQ(value(picked, "vesper:threshold"), "0.25") << options;
         EXPECT_EQ(value(picked, "vesper:quality"), "draft") << options;
         EXPECT_GT(dark_pixels(picked).size(), dark_pixels(draft).size()) << options;
     }
@@ -131,25 +160,50 @@ TEST_F(QualityProgram, BoundsAreRecordedBesideTheName) {
     const std::string options = "--quality standard --merge-error 1 --shadow-error 0.5 --threshold 10 ";
     const io::HdrImage image = picture(options + "-o a.png --stats-json a.json");
     const std::string png = read_text(folder / "a.png"), json = read_text(folder / "a.json");
-    for (const auto& [key, text] : {std::pair("quality", "standard"),
-                                    {"illuminanceThreshold", "10"},
+    for (const auto& [key, text] : {std::pair<const char*, std::string>("quality", "standard"),
+                                    {"threshold", "10"},
                                     {"mergeError", "1"},
                                     {"shadowError", "0.5"},
-                                    {"reflectionsLeftOut", "0.002"}}) {
+                                    {"reflectionError", standard_of("reflection-error")}}) {
         EXPECT_EQ(value(image, std::string("vesper:") + key), text);
         EXPECT_NE(png.find(std::string("vesper:") + key + '\0' + text), png.npos) << key;
     }
-    EXPECT_TRUE(
-        json.starts_with(R"({"quality": "standard", "threshold_lx": 10, "merge_error": 1, "shadow_error": 0.5, )"
-                         R"("reflections_left_out": 0.002, )"))
-        << json;
+    const auto members = nlohmann::json::parse(json);
+    EXPECT_EQ(members["quality"], "standard");
+    EXPECT_EQ(members["threshold"], 10);
+    EXPECT_EQ(members["merge_error"], 1);
+    EXPECT_EQ(members["shadow_error"], 0.5);
+    EXPECT_EQ(members["reflection_error"], render::setting("reflection-error").value(Quality::Standard));
+    EXPECT_EQ(members["shadows"], true);
+    EXPECT_EQ(members["shadow_budget"], "all");
     EXPECT_EQ(value(picture("--quality exact"), "vesper:mergeError"), "0");
-    EXPECT_EQ(value(picture(""), "vesper:illuminanceThreshold"), "0.001");
+    EXPECT_EQ(value(picture(""), "vesper:threshold"), standard_of("threshold"));
+}
+
+// Before the passes, so that a reader sees which settings led to them.
+TEST_F(QualityProgram, ThePlanBeginsWithAllSettings) {
+    ASSERT_EQ(run("render a.gltf --camera eye --size 8x8 --indirect off --quality draft --plan"), 0) << said;
+    EXPECT_TRUE(printed.starts_with("settings of light, quality draft\n")) << printed;
+    for (const render::Setting& row : render::settings())
+        EXPECT_NE(printed.find("\n  " + row.option() + " "), std::string::npos) << row.name;
+    const render::Setting& row = render::setting("threshold");
+    EXPECT_NE(printed.find(" " + row.text(row.value(Quality::Draft)) + " lx\n"), std::string::npos) << printed;
+}
+
+// A switch without a value is on.
+TEST_F(QualityProgram, SwitchesTakeOnOffOrNothing) {
+    const std::vector<float> lit = picture("").rgb;
+    EXPECT_NE(picture("--paper-lambert").rgb, lit);
+    EXPECT_EQ(picture("--paper-lambert").rgb, picture("--paper-lambert on").rgb);
+    EXPECT_EQ(picture("--paper-lambert off").rgb, lit);
+    EXPECT_EQ(picture("--paper-lambert=off").rgb, lit);
+    expect_refused("render a.gltf -o a.png --paper-lambert maybe", {"--paper-lambert", "maybe"});
 }
 
 TEST_F(QualityProgram, RefusesOthers) {
-    expect_refused("render a.gltf -o a.png --quality best", {"--quality", "standard"});
-    expect_refused("render a.gltf -o a.png --merge-error -1", {"--merge-error"});
+    expect_refused("render a.gltf -o a.png --quality best", {"--quality", "draft", "standard", "exact"});
+    expect_refused("render a.gltf -o a.png --threshold 5e3", {"--threshold", "5e3: a number from 1e-09 to 1000 lx"});
+    expect_refused("render a.gltf -o a.png --merge-error -1", {"--merge-error", "-1: a number from 0 to 1 is"});
     expect_refused("render a.gltf -o a.png --shadow-error nan", {"--shadow-error"});
 }
 

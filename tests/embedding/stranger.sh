@@ -3,7 +3,7 @@
 # and nothing of this source tree. SPDX-License-Identifier: MIT
 #     stranger.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail  # so no `| grep -q`: it ends at the first match, and what still writes then fails the line
-export VESPER_SHADOW_CACHE=off  # not that of whoever runs this
+export VESPER_CACHE=off  # not that of whoever runs this
 build=$1 source=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <numbers>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -62,7 +63,7 @@ protected:
     VesperError error;
 };
 
-// A plate between lamp and ground; a caller of before, who knows of no shadows, has them.
+// A plate between lamp and ground.
 TEST_F(CScene, LampsLightWhatTheySee) {
     add(candle());
     uint32_t plate = VESPER_NONE;
@@ -70,49 +71,77 @@ TEST_F(CScene, LampsLightWhatTheySee) {
     VesperView view = down();
     const auto light = [&] { return render(view)[4 * kMiddle] * kPi; };
     EXPECT_EQ(light(), 0);
-    view.no_shadows = 1;
+    expect(vesper_set(renderer, "shadows", 0, &error));
     EXPECT_NEAR(light(), 1, 2e-3);
-    view.size = offsetof(VesperView, no_shadows);
+    expect(vesper_unset(renderer, "shadows", &error));
     EXPECT_EQ(light(), 0);
-    view.size = sizeof view, view.no_shadows = 2;
-    EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, nullptr, &error), VESPER_BAD_ARGUMENT);
 }
 
-// A caller of before, whose view ends before these fields, has edges that are smooth, and one sample.
 TEST_F(CScene, PixelsMayHaveSamples) {
     add(candle());
     VesperView view = down();
     const std::vector<float> smooth = render(view);
-    view.samples = 1;
+    expect(vesper_set(renderer, "samples", 1, &error));
     EXPECT_EQ(render(view), smooth);
-    view.samples = 16;
+    expect(vesper_set(renderer, "samples", 16, &error));
     const std::vector<float> many = render(view);
     EXPECT_NE(many, smooth);
     EXPECT_NEAR(many[4 * kMiddle], smooth[4 * kMiddle], 1e-3f * smooth[4 * kMiddle]);
-    view.samples = 65537;
-    EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, nullptr, &error), VESPER_BAD_ARGUMENT);
-    view.samples = 0, view.no_anti_aliasing = 2;
-    EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, nullptr, &error), VESPER_BAD_ARGUMENT);
-    view.size = offsetof(VesperView, no_anti_aliasing) + 4;  // with the padding behind it
-    EXPECT_EQ(render(view), smooth);
+    for (const double wrong : {65537.0, 0.0, 1.5})
+        EXPECT_EQ(vesper_set(renderer, "samples", wrong, &error), VESPER_BAD_ARGUMENT) << wrong;
+    EXPECT_EQ(render(view), many);
 }
 
-// A caller of before, whose view ends before these fields, has the standard.
-TEST_F(CScene, ViewsHaveAQuality) {
+// A value that is set stays whatever the set, as on the command line.
+TEST_F(CScene, RenderersHaveAQuality) {
     add(candle());
     VesperView view = down();
     const std::vector<float> standard = render(view);
     EXPECT_GT(standard[4 * kMiddle], 0);
-    view.threshold = 10;  // the candle gives the ground 1 lx
+    expect(vesper_set(renderer, "threshold", 10, &error));  // the candle gives the ground 1 lx
     EXPECT_EQ(render(view)[4 * kMiddle], 0);
-    view.threshold = 0, view.quality = VESPER_QUALITY_EXACT;
+    expect(vesper_set_quality(renderer, "exact", &error));
+    EXPECT_EQ(render(view)[4 * kMiddle], 0);
+    expect(vesper_unset(renderer, "threshold", &error));
     EXPECT_NEAR(render(view)[4 * kMiddle], standard[4 * kMiddle], 1e-3f * standard[4 * kMiddle]);
-    view.threshold = -1;
-    EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, nullptr, &error), VESPER_BAD_ARGUMENT);
-    view.threshold = 0, view.quality = 3;
-    EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, nullptr, &error), VESPER_BAD_ARGUMENT);
-    view.size = offsetof(VesperView, quality) + 4;  // with what was padding
+    EXPECT_EQ(vesper_set_quality(renderer, "best", &error), VESPER_BAD_ARGUMENT);
+    EXPECT_NE(std::string(error.message).find("draft, standard, exact"), std::string::npos) << error.message;
+    expect(vesper_set_quality(renderer, "standard", &error));
     EXPECT_EQ(render(view), standard);
+}
+
+TEST_F(CScene, SettingsAreListedSetAndReadByName) {
+    add(candle());
+    render(down());
+    ASSERT_GT(vesper_setting_count(), 10u);
+    std::set<std::string> names;
+    for (uint32_t i = 0; i < vesper_setting_count(); ++i) {
+        VesperSetting setting = VESPER_INIT(VesperSetting);
+        expect(vesper_setting_at(i, &setting, &error));
+        EXPECT_TRUE(names.insert(setting.name).second) << setting.name;
+        EXPECT_GT(std::string(setting.help).size(), 10u) << setting.name;
+        EXPECT_LT(setting.low, setting.high) << setting.name;
+        double value = -1;
+        expect(vesper_get(renderer, setting.name, &value, &error));
+        EXPECT_EQ(value, setting.standard) << setting.name;
+        expect(vesper_set(renderer, setting.name, setting.exact, &error));
+        expect(vesper_get(renderer, setting.name, &value, &error));
+        EXPECT_EQ(value, setting.exact) << setting.name;
+        EXPECT_EQ(vesper_set(renderer, setting.name, setting.low - 1, &error), VESPER_BAD_ARGUMENT) << setting.name;
+        EXPECT_NE(std::string(error.message).find(setting.name), std::string::npos) << error.message;
+    }
+    for (const char* name : {"threshold", "shadow-error", "anti-aliasing", "indirect"})
+        EXPECT_TRUE(names.contains(name));
+    EXPECT_EQ(vesper_set(renderer, "threshold", 5000, &error), VESPER_BAD_ARGUMENT);
+    EXPECT_EQ(std::string(error.message), "threshold 5000: a number from 1e-09 to 1000 lx is expected");
+    double value = 0;
+    for (const char* name : {"no-shadows", "scale", ""}) {
+        EXPECT_EQ(vesper_set(renderer, name, 1, &error), VESPER_BAD_ARGUMENT) << name;
+        EXPECT_EQ(vesper_get(renderer, name, &value, &error), VESPER_BAD_ARGUMENT) << name;
+    }
+    EXPECT_EQ(vesper_set(renderer, nullptr, 1, &error), VESPER_BAD_ARGUMENT);
+    EXPECT_EQ(vesper_set(nullptr, "samples", 1, &error), VESPER_BAD_ARGUMENT);
+    EXPECT_EQ(vesper_setting_at(vesper_setting_count(), nullptr, &error), VESPER_BAD_ARGUMENT);
 }
 
 // Distance maps that a host keeps: a second renderer has the same light.
@@ -126,18 +155,18 @@ TEST_F(CScene, ShadowsMayBeKept) {
     for (const char* run : {"cold", "warm"}) {
         vesper_renderer_destroy(renderer), renderer = nullptr;
         expect(vesper_renderer_create(device, scene, &renderer, &error));
-        expect(vesper_renderer_keep_shadows(renderer, maps.c_str(), &error));
+        expect(vesper_renderer_set_cache(renderer, maps.c_str(), &error));
         EXPECT_EQ(render(down(0.4f)), without) << run;
         EXPECT_EQ(std::distance(std::filesystem::directory_iterator(maps), {}), 1) << run;
     }
     const std::string file = folder.write("file", "").string();
     for (const std::string& bad : {file, file + "/maps"}) {
-        EXPECT_EQ(vesper_renderer_keep_shadows(renderer, bad.c_str(), &error), VESPER_FAILED);
+        EXPECT_EQ(vesper_renderer_set_cache(renderer, bad.c_str(), &error), VESPER_FAILED);
         EXPECT_NE(std::string(error.message).find(bad), std::string::npos) << error.message;
     }
-    EXPECT_EQ(vesper_renderer_keep_shadows(renderer, "", &error), VESPER_BAD_ARGUMENT);
-    EXPECT_EQ(vesper_renderer_keep_shadows(nullptr, nullptr, &error), VESPER_BAD_ARGUMENT);
-    expect(vesper_renderer_keep_shadows(renderer, nullptr, &error));
+    EXPECT_EQ(vesper_renderer_set_cache(renderer, "", &error), VESPER_BAD_ARGUMENT);
+    EXPECT_EQ(vesper_renderer_set_cache(nullptr, nullptr, &error), VESPER_BAD_ARGUMENT);
+    expect(vesper_renderer_set_cache(renderer, nullptr, &error));
     std::filesystem::remove_all(maps);
     expect(vesper_scene_attach(scene, plate, ground, &error));
     EXPECT_EQ(render(down(0.4f)), without);
@@ -168,11 +197,10 @@ TEST_F(CScene, EmittingSurfacesLightOnceThatIsGathered) {
     EXPECT_GT(share, 0);
     EXPECT_NEAR(lux(), kPi, 0.1 * kPi);
     VesperView view = down();
-    view.no_indirect = 1;
+    expect(vesper_set(renderer, "indirect", 0, &error));
     EXPECT_EQ(render(view)[4 * kMiddle], 0);
-    view.no_indirect = 2;
-    EXPECT_EQ(vesper_render(renderer, nullptr, &view, 0, nullptr, &error), VESPER_BAD_ARGUMENT);
-    view.no_indirect = 0, view.forward[1] = 1;
+    expect(vesper_set(renderer, "indirect", 1, &error));
+    view.forward[1] = 1;
     EXPECT_EQ(render(view)[4 * kMiddle], 1);
     expect(vesper_renderer_dim(renderer, plate, 0.5f, &error));
     EXPECT_EQ(render(view)[4 * kMiddle], 0.5f);

@@ -83,7 +83,8 @@ TEST_F(ObstaclesOfFrames, AUniformCardBeforeAUniformWall) {
 TEST_F(ObstaclesOfFrames, SamplesAndBareEdgesGiveTheSame) {
     const Street street;
     for (const bool edges : {false, true}) {
-        render::RenderSettings settings{.anti_aliasing = edges, .samples = edges ? 1u : 5u};
+        render::RenderSettings settings;
+        settings.anti_aliasing = edges, settings.samples = edges ? 1 : 5;
         const render::SeenObstacle seen = look(street.scene, {"card"}, settings).obstacles.at(0);
         EXPECT_NEAR(seen.luminance, double(kCard), 1e-5);
         EXPECT_NEAR(seen.around, double(kWall), 1e-5);

@@ -214,7 +214,7 @@ TEST(Blocks, ShadingWithSumsIsShadingLampByLamp) {
     const gpu_scene::LampList list = street_lamps({60, 60, 1}, 300, 7);
     for (const float far : {0.0f, 60.0f}) {
         const Shot merged = shade(rig, s, list, {.threshold = kAll, .far = far}, {}),
-                   one_by_one = shade(rig, s, list, {.threshold = kAll, .far = far}, {.merge_tolerance = -1});
+                   one_by_one = shade(rig, s, list, {.threshold = kAll, .far = far}, {.merge_error = 0});
         EXPECT_TRUE(same_light("merged", picture(s.extent, merged.pixels), picture(s.extent, one_by_one.pixels),
                                {1.2 * kTolerance, 1e-7}))
             << far;
@@ -233,8 +233,8 @@ TEST(Blocks, LampsNearTheThresholdCountOrNot) {
     const gpu_scene::LampList list = street_lamps({60, 0, 0}, 300, 7);
     const float threshold = 0.5f;
     const Shot got = shade(rig, s, list, {.threshold = threshold}, {}),
-               without = shade(rig, s, list, {.threshold = threshold}, {.merge_tolerance = -1}),
-               with = shade(rig, s, list, {.threshold = kAll}, {.merge_tolerance = -1});
+               without = shade(rig, s, list, {.threshold = threshold}, {.merge_error = 0}),
+               with = shade(rig, s, list, {.threshold = kAll}, {.merge_error = 0});
     size_t between = 0;
     for (size_t i = 0; i < got.pixels.size(); ++i)
         for (int c = 0; c < 3; ++c) {
@@ -263,7 +263,7 @@ TEST(Blocks, LightThatGrazesUnevenGroundIsShadedLampByLamp) {
     for (int i = 0; i < 2; ++i)
         list.lamps[size_t(i)] = {{float(i) - 0.5f, -1.0f, -90}, 1e4f, {0, 0, 1}, 0, {1, 1, 1}, 1, {1, 0, 0}, -1};
     const Shot merged = shade(rig, s, list, {.threshold = kAll}, {}),
-               one_by_one = shade(rig, s, list, {.threshold = kAll}, {.merge_tolerance = -1});
+               one_by_one = shade(rig, s, list, {.threshold = kAll}, {.merge_error = 0});
     EXPECT_TRUE(same_light("uneven", picture(s.extent, merged.pixels), picture(s.extent, one_by_one.pixels),
                            {1.6 * kTolerance, 1e-7}));
     EXPECT_EQ(rig.complaints(), "");

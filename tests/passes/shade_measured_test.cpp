@@ -151,7 +151,7 @@ TEST(ShadeMeasured, NoLampIsLostInTheDarkOfItsAxis) {
     PassRig rig;
     for (const VkExtent2D extent : {VkExtent2D{160, 100}, {64, 40}, {32, 20}})
         for (const uint32_t seed : {1u, 2u})
-            expect_reference(rig, Street(extent, 140, seed, {}, 7), ground(extent), {.merge_tolerance = -1});
+            expect_reference(rig, Street(extent, 140, seed, {}, 7), ground(extent), {.merge_error = 0});
     EXPECT_EQ(rig.complaints(), "");
 }
 
@@ -171,15 +171,13 @@ TEST(ShadeMeasured, ShadingWithSumsIsShadingLampByLamp) {
         const Street street(extent, 60, extent.width);
         const Surfaces s = ground(extent);
         const auto luminance = [&](float tolerance) {
-            return shade(rig, s, street.list, {.threshold = 1e-6f}, {.merge_tolerance = tolerance}, street.tables)
-                .pixels;
+            return shade(rig, s, street.list, {.threshold = 1e-6f}, {.merge_error = tolerance}, street.tables).pixels;
         };
-        const std::vector<glm::vec4> merged = luminance(settings.merge_tolerance), one_by_one = luminance(-1);
+        const std::vector<glm::vec4> merged = luminance(settings.merge_error), one_by_one = luminance(0);
         size_t far_off = 0;
         for (size_t i = 0; i < merged.size(); ++i) {
-            ASSERT_NEAR(merged[i].y, one_by_one[i].y, 3.5f * settings.merge_tolerance * one_by_one[i].y + 1e-7f) << i;
-            far_off +=
-                std::abs(merged[i].y - one_by_one[i].y) > settings.merge_tolerance * one_by_one[i].y + 1e-7f ? 1 : 0;
+            ASSERT_NEAR(merged[i].y, one_by_one[i].y, 3.5f * settings.merge_error * one_by_one[i].y + 1e-7f) << i;
+            far_off += std::abs(merged[i].y - one_by_one[i].y) > settings.merge_error * one_by_one[i].y + 1e-7f ? 1 : 0;
         }
         EXPECT_LT(far_off, merged.size() / 1000);
         EXPECT_NE(merged, one_by_one) << "nothing was added up";

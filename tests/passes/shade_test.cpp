@@ -105,7 +105,7 @@ TEST(Shade, ClusteredIsEveryLightInAWholeFrame) {
     PassRig rig;
     const Surfaces s = canyon(gpu_scene::View::symmetric({1680, 1050}, 0.7f, glm::mat4(1)));
     const LampList list = street_lamps({50, 30, 1}, 300, 16);
-    const Shot clustered = shade(rig, s, list, {.far = 400}, {.merge_tolerance = -1}),
+    const Shot clustered = shade(rig, s, list, {.far = 400}, {.merge_error = 0}),
                all = shade(rig, s, list, {}, {.all_lamps = true});
     EXPECT_EQ(clustered.report.overflowed, 0u);
     EXPECT_TRUE(same_light("clustered", picture(s.extent, clustered.pixels), picture(s.extent, all.pixels), {0, 0}));

@@ -183,7 +183,7 @@ TEST(Visibility, PixelsLookAtTheTexelsOfTheReference) {
             const render::VisibilityMaps same{again.upload("maps", wide, VK_FORMAT_R32G32B32A32_SFLOAT),
                                               again.upload("distances", texels, VK_FORMAT_R16_SFLOAT)};
             const LitBlocks lit_blocks = light(rig.frame(again, view), upload(again, s), list, no_tables(again), {},
-                                               {.merge_tolerance = -1, .maps = same, .faint = faint});
+                                               {.merge_error = 0, .maps = same, .shadow_error = faint});
             const graph::Resource seen_picture = keep<glm::vec4>(again, lit_blocks.scene),
                                   report = keep<shared::VisibilityReport>(again, lit_blocks.blocks.visibility);
             rig.run(again);

@@ -1,4 +1,4 @@
-// `--shadow-cache` of the programs: the same bytes without a cache, with an empty one and with a full one; and what is
+// `--cache` of the programs: the same bytes without a cache, with an empty one and with a full one; and what is
 // said where nothing can be kept. SPDX-License-Identifier: MIT
 #include <filesystem>
 
@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string kScene = VESPER_SOURCE_DIR "/data/glare/headlamps.gltf --size 83x51 ";
-constexpr const char* kNoVariables = "env -u VESPER_SHADOW_CACHE -u XDG_CACHE_HOME -u HOME";
+constexpr const char* kNoVariables = "env -u VESPER_CACHE -u XDG_CACHE_HOME -u HOME";
 
 size_t files_in(const fs::path& folder) {
     size_t files = 0;
@@ -37,20 +37,20 @@ struct MapCacheOfBench : ProgramTest {
 };
 
 TEST_F(MapCacheOfRender, ChangesNoByte) {
-    render("-o off.exr --indirect off --shadow-cache off --stats");
+    render("-o off.exr --indirect off --cache off --stats");
     EXPECT_TRUE(printed_has(" 0 taken from the cache"));
-    render("-o cold.exr --indirect off --shadow-cache maps --stats");
+    render("-o cold.exr --indirect off --cache maps --stats");
     EXPECT_TRUE(printed_has(" 0 taken from the cache"));
     EXPECT_EQ(said, "");
     const size_t kept = files_in(folder / "maps");
     EXPECT_GT(kept, 0u);
-    render("-o warm.exr --indirect off --shadow-cache maps --stats");
+    render("-o warm.exr --indirect off --cache maps --stats");
     EXPECT_TRUE(printed_has(" 0 were drawn anew, " + std::to_string(kept) + " taken from the cache"));
     for (const auto& entry : fs::directory_iterator(folder / "maps")) {
         fs::resize_file(entry.path(), fs::file_size(entry.path()) - 1);
         break;
     }
-    render("-o damaged.exr --indirect off --shadow-cache maps --stats");
+    render("-o damaged.exr --indirect off --cache maps --stats");
     EXPECT_TRUE(printed_has(" 1 were drawn anew, " + std::to_string(kept - 1) + " taken from the cache"));
     EXPECT_EQ(files_in(folder / "maps"), kept);
     EXPECT_EQ(said, "");
@@ -61,13 +61,13 @@ TEST_F(MapCacheOfRender, ChangesNoByte) {
 
 // Light between surfaces is two files, or gathered again where one of them is damaged.
 TEST_F(MapCacheOfRender, KeepsLightBetweenSurfaces) {
-    render("-o off.exr --shadows off --shadow-cache off");
-    render("-o cold.exr --shadows off --shadow-cache light");
+    render("-o off.exr --shadows off --cache off");
+    render("-o cold.exr --shadows off --cache light");
     ASSERT_EQ(files_in(folder / "light"), 2u);
-    render("-o warm.exr --shadows off --shadow-cache light");
+    render("-o warm.exr --shadows off --cache light");
     for (const auto& entry : fs::directory_iterator(folder / "light"))
         fs::resize_file(entry.path(), fs::file_size(entry.path()) - 1);
-    render("-o damaged.exr --shadows off --shadow-cache light");
+    render("-o damaged.exr --shadows off --cache light");
     EXPECT_EQ(files_in(folder / "light"), 2u);
     EXPECT_EQ(said, "");
     const std::string off = read_text(folder / "off.exr");
@@ -83,19 +83,19 @@ TEST_F(MapCacheOfRender, HasADefaultFolder) {
         std::string(kNoVariables) + " MESA_SHADER_CACHE_DIR=" + (folder / "shaders").string() + " ";
     fs::create_directory(folder / "home");
     render("-o a.png", bare + home);
-    EXPECT_GT(files_in(folder / "home/.cache/vesper/shadows"), 0u);
+    EXPECT_GT(files_in(folder / "home/.cache/vesper"), 0u);
     fs::remove_all(folder / "home");
     render("-o a.png", bare + home + xdg);
-    EXPECT_GT(files_in(folder / "xdg/vesper/shadows"), 0u);
+    EXPECT_GT(files_in(folder / "xdg/vesper"), 0u);
     fs::remove_all(folder / "xdg");
-    render("-o a.png", bare + home + xdg + " VESPER_SHADOW_CACHE=named");
+    render("-o a.png", bare + home + xdg + " VESPER_CACHE=named");
     EXPECT_GT(files_in(folder / "named"), 0u);
     fs::remove_all(folder / "named");
-    for (const char* none : {"", " HOME=relative XDG_CACHE_HOME=relative", " VESPER_SHADOW_CACHE=off"}) {
+    for (const char* none : {"", " HOME=relative XDG_CACHE_HOME=relative", " VESPER_CACHE=off"}) {
         render("-o a.png", bare + none);
         EXPECT_EQ(said, "") << none;
     }
-    render("-o a.png --shadow-cache off", bare + xdg);
+    render("-o a.png --cache off", bare + xdg);
     render("-o a.png");  // as all tests run them
     for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
         EXPECT_FALSE(entry.path().string().ends_with(".vesper-map")) << entry.path();
@@ -110,7 +110,7 @@ TEST_F(MapCacheOfRender, SaysOnceThatNothingIsKept) {
                                                      {"ulimit -f 8;", "maps: cannot be written: File too large"}};
     for (const auto& [limit, reason] : ways) {
         const std::string place = limit.empty() ? "file/maps" : "maps";
-        render("-o a.png --indirect off --frames 3 --shadow-cache " + place, limit);
+        render("-o a.png --indirect off --frames 3 --cache " + place, limit);
         EXPECT_TRUE(said.starts_with("note: ")) << said;
         EXPECT_NE(said.find(reason), said.npos) << said;
         EXPECT_EQ(notes(), 1u) << said;
@@ -123,8 +123,9 @@ TEST_F(MapCacheOfRender, SaysOnceThatNothingIsKept) {
 }
 
 TEST_F(MapCacheOfRender, RefusesWhatIsNoFolderAndNoBudget) {
-    expect_refused("render " + kScene + "-o a.png --shadow-cache ''", {"--shadow-cache", "a folder or off"});
-    expect_refused("render " + kScene + "-o a.png --shadow-budget -1", {"--shadow-budget", "0 or more, not -1"});
+    expect_refused("render " + kScene + "-o a.png --cache ''", {"--cache", "a folder or off"});
+    expect_refused("render " + kScene + "-o a.png --shadow-budget -1",
+                   {"--shadow-budget", "-1: a whole number from 0 tiles on, or all is expected"});
     expect_refused("render " + kScene + "-o a.png --shadow-budget many", {"--shadow-budget"});
 }
 
@@ -132,20 +133,21 @@ TEST_F(MapCacheOfDrive, ChangesNoByteAndIsNotRecorded) {
     const std::string scene = VESPER_SOURCE_DIR "/data/glare/headlamps.gltf",
                       drive = scene + " --headless --seconds 0.2 --fps 10 --size 83x51 ";
     ASSERT_EQ(run(drive + "--video off%d.png"), 0) << said;
-    ASSERT_EQ(run(drive + "--video cold%d.png --shadow-cache maps --record drive.json"), 0) << said;
+    ASSERT_EQ(run(drive + "--video cold%d.png --cache maps --record drive.json"), 0) << said;
     EXPECT_GT(files_in(folder / "maps"), 0u);
     EXPECT_EQ(read_text(folder / "drive.json").find("cache"), std::string::npos);
-    ASSERT_EQ(run("--headless --replay drive.json --allow-outside --video warm%d.png --shadow-cache maps"), 0) << said;
+    ASSERT_EQ(run("--headless --replay drive.json --allow-outside --video warm%d.png --cache maps"), 0) << said;
     for (const char* number : {"0.png", "1.png"})
         for (const char* name : {"cold", "warm"})
             EXPECT_EQ(read_text(folder / (name + std::string(number))),
                       read_text(folder / (std::string("off") + number)))
                 << name << number;
     folder.write("file", "");
-    ASSERT_EQ(run(drive + "--video a%d.png --shadow-cache file"), 0) << said;
+    ASSERT_EQ(run(drive + "--video a%d.png --cache file"), 0) << said;
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
-    EXPECT_NE(said.find("note: shadows and light are not kept"), said.npos) << said;
-    expect_refused(drive + "--video a%d.png --shadow-budget -1", {"--shadow-budget", "0 or more, not -1"});
+    EXPECT_NE(said.find("note: shadow maps and light are not kept"), said.npos) << said;
+    expect_refused(drive + "--video a%d.png --shadow-budget -1",
+                   {"--shadow-budget", "-1: a whole number from 0 tiles on, or all is expected"});
 }
 
 TEST_F(MapCacheOfBench, IsOffUnlessNamed) {
@@ -154,9 +156,10 @@ TEST_F(MapCacheOfBench, IsOffUnlessNamed) {
     const std::string xdg = std::string(kNoVariables) + " XDG_CACHE_HOME=" + folder.path().string();
     ASSERT_EQ(run(bench, xdg), 0) << said;
     EXPECT_FALSE(exists("vesper"));
-    ASSERT_EQ(run(bench + "--shadow-cache maps", xdg), 0) << said;
+    ASSERT_EQ(run(bench + "--cache maps", xdg), 0) << said;
     EXPECT_EQ(files_in(folder / "maps"), 8u);
-    expect_refused(bench + "--shadow-budget -1", {"--shadow-budget", "0 or more, not -1"});
+    expect_refused(bench + "--shadow-budget -1",
+                   {"--shadow-budget", "-1: a whole number from 0 tiles on, or all is expected"});
 }
 
 }  // namespace

@@ -64,7 +64,7 @@ protected:
     }
     int study(const std::string& arguments) {
         return run(
-            "study headlamps road.gltf --obstacle person --size 320x200 --indirect off --shadow-cache off "
+            "study headlamps road.gltf --obstacle person --size 320x200 --indirect off --cache off "
             "-o out " +
             arguments);
     }

@@ -4,7 +4,7 @@
 namespace vesper::test {
 namespace {
 
-const int no_cache = setenv("VESPER_SHADOW_CACHE", "off", 1);
+const int no_cache = setenv("VESPER_CACHE", "off", 1);
 
 }  // namespace
 }  // namespace vesper::test

@@ -44,8 +44,8 @@ TEST(Radiosity, ARoomThatGlowsHasTheGeometricSeries) {
     }
     // As many reflections as matter.
     const double all = kPi * kEmission / (1 - kReflectance);
-    const auto most = lux(radiosity.solve({.reflections = 100, .left_out = 0.01}).other),
-               few = lux(radiosity.solve({.reflections = 100, .left_out = 0.2}).other);
+    const auto most = lux(radiosity.solve({.reflections = 100, .reflection_error = 0.01}).other),
+               few = lux(radiosity.solve({.reflections = 100, .reflection_error = 0.2}).other);
     EXPECT_NEAR(mean_over_all(radiosity, most), 0.99 * all, 0.009 * all);
     EXPECT_NEAR(mean_over_all(radiosity, few), 0.88 * all, 0.08 * all);
     EXPECT_EQ(luminance(dvec3(radiosity.solve({}).lamps[0])), 0);

@@ -5,7 +5,7 @@
 # for what the title says, never for a time. SPDX-License-Identifier: MIT
 #   tests/window/drive.sh VESPER_DRIVE WORLD LOSE_DEVICE (the built lose_device.cpp)
 set -euo pipefail
-export VESPER_SHADOW_CACHE=off  # not that of whoever runs this
+export VESPER_CACHE=off  # not that of whoever runs this
 
 program=$1 world=$2 lose=$3
 for tool in Xvfb xdotool import compare convert openbox; do

@@ -263,7 +263,7 @@ def parse():
     parser.add_argument("--paths", type=int, default=8192,
                         help="of --indirect for a pixel, at most; 256 at least (%(default)s)")
     parser.add_argument("--save", type=Path, metavar="FILE.npz", help="what --indirect found for each pixel")
-    parser.add_argument("--shadow-cache", metavar="DIR|off",
+    parser.add_argument("--cache", metavar="DIR|off",
                         help="folder that keeps vesper's shadows and light between surfaces for later runs (off, so "
                              "that seconds are those of a first run; with --indirect a folder of this run)")
     parser.add_argument("--threshold", type=float, default=0.001, help="illuminance below which a lamp counts as dark, lx (%(default)s)")
@@ -291,7 +291,7 @@ def main():
     try:
         with tempfile.TemporaryDirectory(prefix="vesper-oracle-") as folder:
             folder = Path(folder)
-            os.environ["VESPER_SHADOW_CACHE"] = a.shadow_cache or (str(folder / "cache") if a.indirect else "off")
+            os.environ["VESPER_CACHE"] = a.cache or (str(folder / "cache") if a.indirect else "off")
             if a.self_test:
                 import compare_test
                 return compare_test.main(folder)

@@ -365,7 +365,7 @@ VesperResult vesper_renderer_dim(VesperRenderer* renderer, uint32_t node, float 
  * Files there take at most 1 GiB; those that were used longest ago are removed. `folder`: null: nowhere, which is the
  * default. Pictures are the same with and without, also where a disk is full. VESPER_FAILED: nothing can be written
  * there. */
-VesperResult vesper_renderer_keep_shadows(VesperRenderer* renderer, const char* folder, VesperError* error);
+VesperResult vesper_renderer_set_cache(VesperRenderer* renderer, const char* folder, VesperError* error);
 
 /** Told how much is done, 0 to 1; returns 0 to end the work. */
 typedef int32_t (*VesperProgress)(double share, void* user);
@@ -374,19 +374,48 @@ typedef int32_t (*VesperProgress)(double share, void* user);
  * all later frames (radiosity; in place of the scene's ambient illuminance). Nodes that were placed, or are animated,
  * get it and hide it, but send none. Those that are placed later send none from then on, but still reflect and hide it
  * where they were. It takes up to minutes on all processors, and much less where
- * vesper_renderer_keep_shadows names a folder that has it. Lamps and meshes may be dimmed afterwards; after any other
+ * vesper_renderer_set_cache names a folder that has it. Lamps and meshes may be dimmed afterwards; after any other
  * change of the scene frames go without it until it is gathered again. `progress`: null: nobody is told; called from
  * this thread with `user`; it must not call other functions with this renderer or its scene. VESPER_FAILED: it ended
  * the work. */
 VesperResult vesper_renderer_gather_light(VesperRenderer* renderer, VesperProgress progress, void* user,
                                           VesperError* error);
 
-/** What frames may leave out (docs/quality.md). */
-typedef enum VesperQuality {
-    VESPER_QUALITY_STANDARD = 0, /**< the default */
-    VESPER_QUALITY_DRAFT = 1,    /**< more, for speed */
-    VESPER_QUALITY_EXACT = 2     /**< nothing that has a bound */
-} VesperQuality;
+/** Kind of a setting's values. */
+typedef enum VesperSettingKind {
+    VESPER_SETTING_SWITCH = 0, /**< 0: off, 1: on */
+    VESPER_SETTING_COUNT = 1,  /**< a whole number */
+    VESPER_SETTING_NUMBER = 2  /**< a real number */
+} VesperSettingKind;
+
+/** A setting of how renderers make light (docs/quality.md). Texts are valid for ever. */
+typedef struct VesperSetting {
+    uint32_t size;    /**< of this structure */
+    uint32_t kind;    /**< a VesperSettingKind */
+    const char* name; /**< as options of `vesper render`, without the first dashes: "shadow-error" */
+    const char* unit; /**< "lx", or empty */
+    const char* help; /**< one line */
+    double low;       /**< least value */
+    double high;      /**< greatest value; infinity: no limit */
+    double draft;     /**< value in the set "draft" */
+    double standard;  /**< value in the set "standard", and of a new renderer */
+    double exact;     /**< value in the set "exact" */
+} VesperSetting;
+
+/** Number of settings. */
+uint32_t vesper_setting_count(void);
+/** Sets `setting`, whose size must be set, to the one of an index below vesper_setting_count(). */
+VesperResult vesper_setting_at(uint32_t index, VesperSetting* setting, VesperError* error);
+/** Sets a value by the name of its setting for all later frames. It holds in every set of vesper_set_quality.
+ * VESPER_BAD_ARGUMENT: there is no such setting, or the value is out of its range; the message says which. */
+VesperResult vesper_set(VesperRenderer* renderer, const char* name, double value, VesperError* error);
+/** Back to the value that the set has. */
+VesperResult vesper_unset(VesperRenderer* renderer, const char* name, VesperError* error);
+/** Gets the value that the next frame will have. */
+VesperResult vesper_get(const VesperRenderer* renderer, const char* name, double* value, VesperError* error);
+/** Takes the set "draft", "standard" or "exact" for all settings without a value of vesper_set. VESPER_BAD_ARGUMENT:
+ * there is no such set; the message lists them. */
+VesperResult vesper_set_quality(VesperRenderer* renderer, const char* quality, VesperError* error);
 
 /** Position and angles of the eye, and size of the picture. */
 typedef struct VesperView {
@@ -403,14 +432,6 @@ typedef struct VesperView {
     float edges[4];       /**< tangents of the angles from `forward` to the left, right, bottom and top edge, for an
                            * off-axis screen; all 0: vertical_fov, symmetric */
     double scene_seconds; /**< time of the scene's animations, s */
-    int32_t no_shadows;   /**< 1: lamps shine through everything */
-    int32_t no_indirect;  /**< 1: without the light that was gathered */
-    int32_t moving_reflections; /**< 1: and with an estimate of what surfaces reflect once of lamps that move; the first
-                                 * time, and after gathering, the frame takes longer */
-    int32_t no_anti_aliasing; /**< 1: pixels at edges show one surface, in place of the mean of those that fill them */
-    uint32_t samples;         /**< points of each pixel whose luminance is averaged, at most 65536; 0 and 1: one */
-    uint32_t quality;         /**< a VesperQuality */
-    float threshold; /**< illuminance below which a lamp counts as dark, lx, 1e-9 to 1000; 0: as `quality` says */
 } VesperView;
 
 /** Renders into arrays. `seconds`: time since the last frame, for the adaptation of the eye. */

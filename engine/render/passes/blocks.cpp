@@ -58,7 +58,7 @@ Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clus
 }
 
 Blocks add_merging(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, Blocks blocks,
-                   float tolerance) {
+                   float merge_error) {
     graph::FrameGraph& graph = frame.graph;
     const VkExtent2D extent = frame.view.extent;
     const LampKinds kinds = lamp_kinds(clusters);
@@ -81,7 +81,7 @@ Blocks add_merging(const FrameContext& frame, const GBuffer& surfaces, const Clu
                                      .blocks_y = rows,
                                      .capacity = blocks.capacity,
                                      .roads = clusters.tables.roads,
-                                     .tolerance = tolerance},
+                                     .merge_error = merge_error},
                    graph::cover(blocks.columns, rows, merge.group[0], 1));
     return blocks;
 }

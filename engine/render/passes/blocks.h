@@ -24,12 +24,12 @@ struct Blocks {
 Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters);
 
 /// Where a block is one matt plane or one plane of road, merges the lamps whose light is smooth over it and takes them
-/// off its list: a polynomial of second degree along either side meets it with at most the relative error `tolerance`
+/// off its list: a polynomial of second degree along either side meets it with at most the relative error `merge_error`
 /// at four pixels between its nodes. At other pixels the error is 1.2 times that where light is smooth and up to 3.5
 /// times at kinks (edges of a beam's ramp, cells of a table; more, in hardly a pixel, under tables with single bright
-/// nodes). A negative tolerance merges nothing. Lamps that some of a block may not see (shared::kMixedBit) are not
+/// nodes). 0 merges nothing. Lamps that some of a block may not see (shared::kMixedBit) are not
 /// merged. Puts blocks in their classes.
 Blocks add_merging(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, Blocks blocks,
-                   float tolerance);
+                   float merge_error);
 
 }  // namespace vesper::render

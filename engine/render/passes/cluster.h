@@ -3,13 +3,15 @@
 
 #include "gpu_scene/lamps.h"
 #include "render/frame_context.h"
+#include "render/light_settings.h"
 #include "shared/cluster.h"
 
 namespace vesper::render {
 
 struct ClusterSettings {
     float threshold =
-        0.001f;  ///< lx: a lamp counts where it gives at least this, on matt surfaces or on a plane facing it
+        LightSettings{}
+            .threshold;  ///< lx: a lamp counts where it gives at least this, on matt surfaces or on a plane facing it
     uint32_t slices = 32;
     uint32_t capacity = 512;  ///< lamps a froxel lists before it falls back to all lamps
     float far = 0;            ///< m, where geometry ends; 0: unknown, lamps alone decide

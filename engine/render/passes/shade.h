@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include "render/light_settings.h"
 #include "render/passes/visibility.h"
 #include "shared/shade.h"
 
@@ -16,11 +17,11 @@ struct ShadeSettings {
     float emission_limit = std::numeric_limits<float>::infinity();  ///< cd/m^2
     glm::vec3 ambient{0};                                           ///< illuminance, RGB of luminance lx
     glm::vec3 sky{0};                                               ///< cd/m^2 RGB
-    bool all_lamps = false;         ///< evaluate every lamp in every pixel, for comparison
-    float merge_tolerance = 1e-3f;  ///< of add_merging
-    VisibilityMaps maps{};          ///< of the lamps; without: nothing hides a lamp
-    float faint = 0.005f;           ///< of add_visibility
-    graph::Resource retro{};        ///< rgba32f texels of shared/retro.h; without: no surface is retroreflective
+    bool all_lamps = false;                             ///< evaluate every lamp in every pixel, for comparison
+    float merge_error = LightSettings{}.merge_error;    ///< of add_merging
+    VisibilityMaps maps{};                              ///< of the lamps; without: nothing hides a lamp
+    float shadow_error = LightSettings{}.shadow_error;  ///< of add_visibility
+    graph::Resource retro{};  ///< rgba32f texels of shared/retro.h; without: no surface is retroreflective
 };
 
 /// Turns the emission of a G-buffer, in place, into scene luminance, rgba32f, cd/m^2 RGB (alpha 1):

@@ -12,7 +12,7 @@ constexpr gpu::Shader kVisibility{"visibility.comp", visibility_comp, visibility
 }  // namespace
 
 Blocks add_visibility(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, Blocks blocks,
-                      const VisibilityMaps& maps, float faint) {
+                      const VisibilityMaps& maps, float shadow_error) {
     graph::FrameGraph& graph = frame.graph;
     if (!maps.lamps) {
         blocks.visibility = graph.upload("visibility report", std::vector<shared::VisibilityReport>(1));
@@ -39,7 +39,7 @@ Blocks add_visibility(const FrameContext& frame, const GBuffer& surfaces, const 
                                           .blocks_y = rows,
                                           .capacity = blocks.capacity,
                                           .lamps = clusters.push.lamps,
-                                          .faint = faint},
+                                          .shadow_error = shadow_error},
                    graph::Groups{blocks.columns, rows, 1});
     return blocks;
 }

@@ -1,24 +1,13 @@
-// Light by way of surfaces, as commands take it. SPDX-License-Identifier: MIT
+// Light between surfaces, gathered before the first frame. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <memory>
-#include <string>
-
-#include "command_line.h"
 
 #include "base/cache.h"
 #include "render/renderer.h"
 #include "transport/radiosity.h"
 
 namespace vesper::apps {
-
-struct IndirectArguments {
-    std::string indirect = "cached", moving = "off";
-    uint32_t reflections = 100;
-};
-/// --indirect, --reflections and --moving-reflections. `exact`: whether light may be traced for each pixel, too.
-void add_indirect_options(Command, IndirectArguments&, bool exact = false);
-void set_indirect(const IndirectArguments&, render::RenderSettings&);
 
 /// What surfaces at rest of a scene send each other: from the cache (null: none), or gathered, which it then keeps.
 /// Shows its progress, and says if the cache fails.

@@ -1,4 +1,4 @@
-#include "scale_arguments.h"
+#include "scaled_picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,15 +6,6 @@
 #include "print.h"
 
 namespace vesper::apps {
-
-void add_scale_option(Command command, double& scale) {
-    command
-        .add_option("--scale", scale,
-                    "Render each side with so much of its pixels, and enlarge what is shown; luminances keep the "
-                    "rendered size (docs/quality.md)")
-        .check(between(0.25, 1))
-        .shows_default();
-}
 
 uint32_t scaled(uint32_t side, double scale) { return uint32_t(std::max(1.0, std::round(side * scale))); }
 
@@ -34,7 +25,5 @@ void ScaledPicture::print_note() const {
         apps::print_note(format("pictures of %ux%u are rendered as %ux%u and enlarged (--scale %g)", asked_.width,
                                 asked_.height, rendered_.width, rendered_.height, scale_));
 }
-
-io::Header describe_scale(double scale) { return {{"vesper:scale", format("%g", scale)}}; }
 
 }  // namespace vesper::apps

@@ -3,16 +3,10 @@
 
 #include <memory>
 
-#include "command_line.h"
-
 #include "gpu_scene/projection.h"
 #include "gpu_scene/view.h"
-#include "io/image_file.h"
 
 namespace vesper::apps {
-
-/// --scale: each side of a picture is rendered with so much of its pixels, 0.25 to 1.
-void add_scale_option(Command, double& scale);
 
 /// What is rendered of a picture, and how it is enlarged to the size asked for: its displayed light linearly between
 /// pixels, so that codes alone have that size. With a scale of 1 nothing is enlarged.
@@ -35,8 +29,5 @@ private:
 };
 /// Of a side of a picture, px; at least 1.
 uint32_t scaled(uint32_t side, double scale);
-
-/// What a picture's header should say of it.
-io::Header describe_scale(double scale);
 
 }  // namespace vesper::apps

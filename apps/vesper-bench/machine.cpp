@@ -119,6 +119,13 @@ uint64_t peak_host_bytes() {
     return uint64_t(use.ru_maxrss) << 10;
 }
 
+double processor_ms() {
+    rusage use{};
+    getrusage(RUSAGE_SELF, &use);
+    const auto ms = [](const timeval& time) { return 1e3 * double(time.tv_sec) + 1e-3 * double(time.tv_usec); };
+    return ms(use.ru_utime) + ms(use.ru_stime);
+}
+
 void forget_peak_host_bytes() { std::ofstream("/proc/self/clear_refs") << "5"; }
 
 }  // namespace vesper::bench

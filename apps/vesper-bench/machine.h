@@ -26,6 +26,9 @@ double copy_bandwidth(const gpu::Device& device);
 constexpr uint64_t kArithmetic = 1ull << 26;
 double arithmetic_ms(uint64_t operations = kArithmetic);
 
+/// Time that all threads of this process have computed, user and system, ms.
+double processor_ms();
+
 /// Most memory of this process that was resident at once, bytes, since it was last forgotten (where the system can
 /// forget).
 uint64_t peak_host_bytes();

@@ -28,7 +28,7 @@ struct PassSamples {
 
 /// What is known of every frame.
 struct RunSamples {
-    Samples frame;
+    Samples frame, processor;
     std::array<Samples, kHostParts.size()> host;
     std::vector<PassSamples> passes;
     Samples arithmetic;
@@ -36,12 +36,13 @@ struct RunSamples {
     double blocks = 0, listed = 0, kept = 0;  // of pixels, and lamps on their lists
 
     void next_lap() {
-        frame.next_lap(), arithmetic.next_lap();
+        frame.next_lap(), processor.next_lap(), arithmetic.next_lap();
         for (Samples& part : host) part.next_lap();
         for (PassSamples& pass : passes) pass.ms.next_lap(), pass.bytes_read.next_lap(), pass.bytes_written.next_lap();
     }
-    void add(double ms, const std::array<double, kHostParts.size()>& parts, const std::vector<graph::Timing>& timings) {
-        frame.add(ms);
+    void add(double ms, double processor_ms, const std::array<double, kHostParts.size()>& parts,
+             const std::vector<graph::Timing>& timings) {
+        frame.add(ms), processor.add(processor_ms);
         total_ms += ms;
         for (size_t i = 0; i < parts.size(); ++i) host[i].add(parts[i]);
         for (const graph::Timing& timing : timings) {
@@ -70,6 +71,7 @@ public:
     /// Renders every channel at a part [0, 1) of the path, `step` s after the frame before.
     void frame(double part, double step, RunSamples* samples) {
         Stopwatch whole, watch;
+        const double began = processor_ms();
         const gpu_scene::SceneFrame moment{scene::world_transforms(scene_, part * seconds_)};
         const std::vector<gpu_scene::View> views = channel_views(
             gpu_scene::camera_view(scene_, moment, plan_.camera, plan_.extent()), plan_.settings.channels);
@@ -85,7 +87,21 @@ public:
             graph::add_times(timings, last_.timings);  // channels are counted together
             if (samples) count_lamps(view, *samples);
         }
-        if (samples) samples->add(whole.milliseconds(), host, timings);
+        if (samples) samples->add(whole.milliseconds(), processor_ms() - began, host, timings);
+    }
+    /// Frames per second of a lap whose frames are submitted before the frames ahead of them are done.
+    double in_flight_fps(uint32_t frames) {
+        const Stopwatch watch;
+        for (uint32_t i = 0; i < frames; ++i) {
+            const double part = double(i) / frames;
+            const gpu_scene::SceneFrame moment{scene::world_transforms(scene_, part * seconds_)};
+            const std::vector<gpu_scene::View> views = channel_views(
+                gpu_scene::camera_view(scene_, moment, plan_.camera, plan_.extent()), plan_.settings.channels);
+            for (const gpu_scene::View& view : views)
+                renderer_.submit(plan_.render, view, moment, float(seconds_ / frames / double(views.size())), {}, {});
+        }
+        renderer_.finish();
+        return 1000 * frames / watch.milliseconds();
     }
     /// What all channels draw and see at a part of the path.
     void count_triangles(const render::TriangleCounter& counter, double part, double weight, RunResult& result) {
@@ -126,7 +142,7 @@ void summarize(const RunSamples& samples, RunResult& result) {
     result.frame = samples.frame.spread();
     result.p5 = percentile(frames, 5), result.p95 = percentile(frames, 95), result.p99 = percentile(frames, 99);
     result.low_fps = one_percent_low(frames);
-    result.arithmetic = samples.arithmetic.spread();
+    result.arithmetic = samples.arithmetic.spread(), result.processor = samples.processor.spread();
     result.listed = samples.listed / samples.blocks, result.kept = samples.kept / samples.blocks;
     for (size_t i = 0; i < result.host.size(); ++i) result.host[i] = samples.host[i].spread();
     for (const PassSamples& pass : samples.passes)
@@ -184,6 +200,7 @@ RunResult measure(const RunPlan& plan, const scene::Scene& scene, const std::fun
         }
     }
     summarize(samples, result);
+    result.in_flight_fps = drive.in_flight_fps(settings.frames);
     settings.lamps = drive.last().lamps;
     settings.triangles = drive.renderer().scene().triangles();
     result.host_bytes = double(peak_host_bytes()), result.device_bytes = double(device.use().peak_bytes);

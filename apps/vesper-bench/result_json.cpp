@@ -55,6 +55,8 @@ Json of(const BenchResult& result, const RunResult& run) {
             {"frame_ms", of(run.frame)},
             {"frame_ms_percentiles", {{"p5", run.p5}, {"p95", run.p95}, {"p99", run.p99}}},
             {"one_percent_low_fps", run.low_fps},
+            {"processor_ms", of(run.processor)},
+            {"in_flight_fps", run.in_flight_fps},
             {"arithmetic_ms", of(run.arithmetic)},
             {"lamps_of_a_block", {{"listed", run.listed}, {"kept", run.kept}}},
             {"parts", of(run.parts)},
@@ -120,6 +122,8 @@ RunResult read_run(const JsonValue& value) {
     run.p5 = amount(percentiles.at("p5")), run.p95 = amount(percentiles.at("p95")),
     run.p99 = amount(percentiles.at("p99"));
     run.low_fps = amount(value.at("one_percent_low_fps"));
+    if (value.find("processor_ms")) run.processor = read_spread(value.at("processor_ms"));
+    if (value.find("in_flight_fps")) run.in_flight_fps = amount(value.at("in_flight_fps"));
     if (value.find("arithmetic_ms")) run.arithmetic = read_spread(value.at("arithmetic_ms"));
     if (const std::optional<JsonValue> lamps = value.find("lamps_of_a_block"))
         run.listed = amount(lamps->at("listed")), run.kept = amount(lamps->at("kept"));

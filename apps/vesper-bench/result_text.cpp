@@ -72,6 +72,9 @@ std::string text_of(const BenchResult& result, const RunResult& run) {
         text += "yardstick " + with_spread(run.arithmetic, " ms") +
                 format(" for arithmetic on all threads before each lap; a frame is %.2f of it\n",
                        run.frame.median / run.arithmetic.median);
+    if (run.processor.median > 0)
+        text += "processor " + with_spread(run.processor, " ms") +
+                format(" of all threads for a frame; frames in flight: %.1f fps\n", run.in_flight_fps);
     if (run.listed > 0)
         text +=
             format("lamps     of a block of 8x8 px: %.1f on its list, of which it sees %.1f\n", run.listed, run.kept);
@@ -110,6 +113,9 @@ std::string markdown_of(const BenchResult& result) {
         text += "| whole frame, median (medians of the laps) | " + with_spread(run.frame, " ms") + " |\n";
         if (run.arithmetic.median > 0)
             text += "| arithmetic on all threads, before each lap | " + with_spread(run.arithmetic, " ms") + " |\n";
+        if (run.processor.median > 0)
+            text += "| processor time of a frame, all threads | " + with_spread(run.processor, " ms") +
+                    format(" |\n| frames per second in flight | %.1f |\n", run.in_flight_fps);
         if (run.listed > 0)
             text += format("| lamps on the list of a block, seen by it | %.1f, %.1f |\n", run.listed, run.kept);
         if (run.parts.in_view > 0)

@@ -41,6 +41,7 @@ bench::RunResult made_up_run(uint32_t lamps, double scale) {
     run.fps = 100 / scale;
     run.frame = {10 * scale, 9 * scale, 12 * scale};
     run.p5 = 8 * scale, run.p95 = 13 * scale, run.p99 = 14 * scale, run.low_fps = 70 / scale;
+    run.processor = {900, 800, 1000}, run.in_flight_fps = 2.5;
     run.arithmetic = {5, 4, 6}, run.listed = 20, run.kept = 10;
     run.parts = {30, 12}, run.triangles = {2000, 700};
     for (size_t i = 0; i < run.host.size(); ++i)
@@ -256,6 +257,8 @@ TEST_F(BenchProgram, DrivesASmallStreet) {
     EXPECT_EQ(r.settings.channels, 2u);
     EXPECT_GT(result.copy_bandwidth, 0);
     EXPECT_GT(r.arithmetic.low, 0);
+    EXPECT_GT(r.processor.low, 0);
+    EXPECT_GT(r.in_flight_fps, 0);
     EXPECT_GT(r.listed, 0);
     EXPECT_LE(r.kept, r.listed);
     EXPECT_GT(r.triangles.seen, 0);

@@ -1,5 +1,6 @@
 #include "render/tone_chain.h"
 
+#include "graph/times.h"
 #include "render/passes/acuity.h"
 #include "render/passes/bands.h"
 #include "render/passes/composite.h"
@@ -174,7 +175,8 @@ void read_tone_chain(const graph::Executor& executor, const ToneChain& chain, Vk
     }
     if (chain.whole) to.statistics = statistics_of(executor, chain);
     to.foveal_level = chain.foveal_level;
-    to.timings = executor.timings();
+    to.timings.clear();
+    graph::add_times(to.timings, executor.timings());  // passes of one name are counted together
     to.host_times = executor.host_times();
 }
 

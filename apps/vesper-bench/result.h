@@ -54,9 +54,9 @@ struct RunResult {
     Spread frame;                     ///< on the host's clock, ms
     double p5 = 0, p95 = 0, p99 = 0;  ///< of frame times, ms
     double low_fps = 0;               ///< of the slowest hundredth
-    Spread processor;  ///< time that all threads of the process computed for a frame, ms; 0: not measured
+    Spread processor;          ///< time that all threads of the process computed for a frame, ms; 0: not measured
     double in_flight_fps = 0;  ///< of frames that are submitted before those ahead of them are done; 0: not measured
-    Spread arithmetic;  ///< of arithmetic_ms() before each lap, ms: how fast the host was then; 0: not measured
+    Spread arithmetic;         ///< of arithmetic_ms() before each lap, ms: how fast the host was then; 0: not measured
     double listed = 0, kept = 0;  ///< lamps of a block of pixels, on average: looked at, and seen; 0 without shadows
     Counted parts, triangles;     ///< of placed meshes; of these parts
     std::array<Spread, kHostParts.size()> host;  ///< ms

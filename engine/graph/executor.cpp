@@ -20,18 +20,19 @@ constexpr VkBufferUsageFlags kHostUsage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_
 
 uint64_t aligned(uint64_t value, uint64_t alignment) { return (value + alignment - 1) / alignment * alignment; }
 
-// Room of an upload, for what grows from frame to frame.
+// Room of texels, for what grows from frame to frame.
 uint64_t with_room(uint64_t bytes) {
-    constexpr uint64_t kLeast = 1u << 12u, kLarge = 1u << 20u;
-    return aligned(bytes < kLarge ? std::bit_ceil(std::max(2 * bytes, kLeast)) : bytes + bytes / 4, kSliceAlignment);
+    constexpr uint64_t kLeast = 1u << 12u, kLarge = 1u << 17u;
+    return aligned(bytes < kLarge ? std::bit_ceil(std::max(2 * bytes, kLeast)) : bytes + bytes / 2, kSliceAlignment);
 }
-// Places of uploads that the last frame did not have are given up where they take more than this.
+// Places of texels that the last frame did not have are given up where they take more than this, and than four times
+// those that it had.
 constexpr uint64_t kMostIdleBytes = 16u << 20u;
 
 // Makes a buffer that is too small larger, and one that is much too large smaller.
 void fit(const gpu::Device& device, gpu::HostBuffer& buffer, uint64_t bytes, gpu::HostBuffer::Direction direction) {
     constexpr uint64_t kSpare = 4u << 20u;
-    const uint64_t wanted = bytes + std::min(2 * bytes, 3 * kSpare) + kSpare;
+    const uint64_t wanted = bytes + std::min(bytes, 4 * kSpare) + kSpare;
     if (buffer.bytes() >= bytes && buffer.bytes() <= 2 * wanted + kMostIdleBytes) return;
     buffer = {};
     buffer = gpu::HostBuffer(device, wanted, kHostUsage, direction);
@@ -307,33 +308,44 @@ void Executor::find_turning(const FrameGraph& graph) {
             turning_.push_back(histories_.at(graph.resources()[i].name).get());
 }
 
-// An upload keeps its place from frame to frame, with room to grow, so that the views of its texels stay.
+// Texels keep their place from frame to frame, with room to grow, so that their views stay; all else follows them.
 void Executor::realize_uploads(const FrameGraph& graph) {
-    uint64_t idle = upload_end_;
+    uint64_t used = 0;
     for (const auto& [name, place] : upload_places_)
-        if (place.last_frame == frame_) idle -= place.bytes;
-    if (idle > kMostIdleBytes) upload_places_.clear(), upload_end_ = 0;
+        if (place.last_frame == frame_) used += place.bytes;
+    if (upload_end_ - used > std::max(kMostIdleBytes, 4 * used)) upload_places_.clear(), upload_end_ = 0;
     ++frame_;
     for (const auto& info : graph.resources()) {
-        if (info.origin != FrameGraph::Origin::Upload) continue;
+        if (info.origin != FrameGraph::Origin::Upload || info.shape.format == VK_FORMAT_UNDEFINED) continue;
         UploadPlace& place = upload_places_[info.name];
         place.last_frame = frame_;
         if (place.bytes >= info.contents.size()) continue;
         place.offset = upload_end_, place.bytes = with_room(info.contents.size());
         upload_end_ += place.bytes;
     }
-    if (upload_end_ == 0) return;
-    gpu::HostBuffer& uploads = slot_->uploads;
-    fit(device_, uploads, upload_end_, gpu::HostBuffer::Direction::ToDevice);
+    uint64_t end = upload_end_;
     for (uint32_t i = 0; i < graph.resources().size(); ++i) {
         const auto& info = graph.resources()[i];
         if (info.origin != FrameGraph::Origin::Upload) continue;
-        const UploadPlace& place = upload_places_.at(info.name);
-        std::memcpy(uploads.data() + place.offset, info.contents.data(), info.contents.size());
         Realized& r = resources_[i];
-        r.buffer = &uploads.owned(), r.offset = place.offset, r.bytes = info.contents.size();
+        r.bytes = r.viewed_bytes = info.contents.size();
+        if (info.shape.format == VK_FORMAT_UNDEFINED) {
+            r.offset = end;
+            end = aligned(end + r.bytes, kSliceAlignment);
+            continue;
+        }
+        const UploadPlace& place = upload_places_.at(info.name);
         const uint64_t most = device_.limits().maxTexelBufferElements * texel_bytes(info.shape.format);
-        r.viewed_bytes = std::max(std::min(place.bytes, most), r.bytes);
+        r.offset = place.offset, r.viewed_bytes = std::max(std::min(place.bytes, most), r.bytes);
+    }
+    if (end == 0) return;
+    gpu::HostBuffer& uploads = slot_->uploads;
+    fit(device_, uploads, end, gpu::HostBuffer::Direction::ToDevice);
+    for (uint32_t i = 0; i < graph.resources().size(); ++i) {
+        const auto& info = graph.resources()[i];
+        if (info.origin != FrameGraph::Origin::Upload) continue;
+        resources_[i].buffer = &uploads.owned();
+        std::memcpy(uploads.data() + resources_[i].offset, info.contents.data(), info.contents.size());
     }
     uploads.flush();
 }

@@ -26,8 +26,9 @@ void prepare_shadows(Prepared& frame, ResidentScene& scene, const gpu::Device& d
 }
 
 // In place of the light that is the same everywhere.
-void prepare_indirect(Prepared& frame, ResidentScene& scene, const RenderSettings& settings, const gpu_scene::View& view,
-                      const gpu_scene::SceneFrame& poses, const gpu_scene::AmbientLight& ambient) {
+void prepare_indirect(Prepared& frame, ResidentScene& scene, const RenderSettings& settings,
+                      const gpu_scene::View& view, const gpu_scene::SceneFrame& poses,
+                      const gpu_scene::AmbientLight& ambient) {
     if (!scene.illuminance.empty()) {
         if (scene.illuminance.size() != uint64_t(view.extent.width) * view.extent.height)
             throw Error("illuminance of " + std::to_string(scene.illuminance.size()) + " pixels for a frame of " +

@@ -23,10 +23,10 @@ struct Prepared {
     bool outside = false;  ///< light that comes from no lamp: sky and retroreflection
     /// Where the light between surfaces comes from.
     enum class Indirect { None, Cells, Pixels } indirect = Indirect::None;
-    transport::RadiosityLight radiosity;          ///< of Indirect::Cells
-    std::vector<transport::LitPatch> patches;     ///< likewise, of lamps that move
-    MapReport maps;                               ///< with shadows
-    uint32_t directional_levels = 0;              ///< of maps, to be drawn
+    transport::RadiosityLight radiosity;       ///< of Indirect::Cells
+    std::vector<transport::LitPatch> patches;  ///< likewise, of lamps that move
+    MapReport maps;                            ///< with shadows
+    uint32_t directional_levels = 0;           ///< of maps, to be drawn
 };
 
 /// Prepares a frame of `scene` as `view` sees it, with everything at its pose of `poses`: finds which maps and which

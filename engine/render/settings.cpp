@@ -128,9 +128,9 @@ double Setting::parse(std::string_view given) const {
     } else if (std::isinf(high) && given == "all") {
         return high;
     } else {
-        const double value = kind == SettingKind::Count ? double(number<uint64_t>(given).value_or(kUnlimited))
-                                                        : number<double>(given).value_or(kInfinite);
-        if (std::isfinite(value) && accepts(value)) return rounded(value);
+        const std::optional<double> value =
+            kind == SettingKind::Count ? std::optional<double>(number<uint64_t>(given)) : number<double>(given);
+        if (value && std::isfinite(*value) && accepts(*value)) return rounded(*value);
     }
     refuse(*this, given.empty() ? "''" : one_line(std::string(given), 40));
 }

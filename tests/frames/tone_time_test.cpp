@@ -11,7 +11,7 @@ namespace {
 
 using render::Operator, render::ToneMapped;
 
-constexpr VkExtent2D kExtent{96, 60};
+constexpr VkExtent2D kLookExtent{96, 60};
 
 class ToneTime : public testing::Test {
 protected:
@@ -20,7 +20,7 @@ protected:
         {.select = "", .validation = true, .on_message = [this](const std::string& m) { complaints += m + "\n"; }}};
 
     static ToneMapped map(render::ToneMapper& mapper, const std::vector<glm::vec4>& pixels, float seconds,
-                          Operator op = Operator::Irawan, VkExtent2D extent = kExtent) {
+                          Operator op = Operator::Irawan, VkExtent2D extent = kLookExtent) {
         render::ToneChainSettings settings;
         settings.tone_operator = op;
         settings.foveal_level = 3;
@@ -35,8 +35,8 @@ protected:
 /// A road from 0.02 to 5 cd/m^2 below a dark sky, with a lamp of 4 x 3 pixels.
 std::vector<glm::vec4> road(float lamp, float level = 1) {
     std::vector<glm::vec4> pixels;
-    for (uint32_t y = 0; y < kExtent.height; ++y)
-        for (uint32_t x = 0; x < kExtent.width; ++x) {
+    for (uint32_t y = 0; y < kLookExtent.height; ++y)
+        for (uint32_t x = 0; x < kLookExtent.width; ++x) {
             const bool is_lamp = x >= 40 && x < 44 && y >= 10 && y < 13;
             const float l = is_lamp ? lamp
                             : y < 25
@@ -50,7 +50,7 @@ std::vector<glm::vec4> road(float lamp, float level = 1) {
 int largest_step(const std::vector<uint8_t>& a, const std::vector<uint8_t>& b, bool without_lamp) {
     int most = 0;
     for (size_t i = 0; i < a.size(); ++i) {
-        const size_t x = i / 4 % kExtent.width, y = i / 4 / kExtent.width;
+        const size_t x = i / 4 % kLookExtent.width, y = i / 4 / kLookExtent.width;
         if (without_lamp && x >= 40 && x < 44 && y >= 10 && y < 13) continue;
         most = std::max(most, std::abs(int(a[i]) - int(b[i])));
     }

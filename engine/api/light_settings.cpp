@@ -13,14 +13,14 @@ struct NamedRow {
     std::string option, unit, help;  // zero-terminated
 };
 const std::vector<NamedRow>& rows() {
-    static const std::vector<NamedRow> made = [] {
+    static const std::vector<NamedRow> kRows = [] {
         std::vector<NamedRow> list;
         for (const render::Setting& row : render::settings())
             if (is_of_renderers(row))
                 list.push_back({&row, row.option(), std::string(row.unit), std::string(row.help)});
         return list;
     }();
-    return made;
+    return kRows;
 }
 
 uint32_t kind_of(render::SettingKind kind) {

@@ -233,8 +233,9 @@ void Executor::place(const FrameGraph& graph) {
     const bool has_room = std::ranges::equal(allocated_, plan_.heaps, suffices);
     const bool all_placed =
         has_room && std::ranges::all_of(plan_.placements, [&](const auto& p) { return is_placed(graph, p); });
-    if (!all_placed) wait();  // what is under way uses what goes now
-    if (!has_room || transients_.size() > 2 * plan_.placements.size() + kSpareTransients) transients_.clear();
+    const bool crowded = transients_.size() > 2 * plan_.placements.size() + kSpareTransients;
+    if (!all_placed || crowded) wait();  // what is under way uses what goes now
+    if (!has_room || crowded) transients_.clear();
     if (!has_room) {
         heaps_.clear(), allocated_.clear();
         for (const Plan::Heap& heap : plan_.heaps)

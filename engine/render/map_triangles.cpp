@@ -95,7 +95,7 @@ void MapTriangles::draw(const Chunk& chunk, const FrameContext& frame, const Ima
                         const MapScratch& scratch) const {
     graph::FrameGraph& graph = frame.graph;
     const std::string& name = image.name;
-    const auto [kept, draws] = std::pair(scratch.triangles, scratch.draws);
+    const graph::Resource kept = scratch.triangles, draws = scratch.draws;
     std::vector<VkDrawIndirectCommand> none(chunk.quadrants.size());
     for (size_t i = 0; i < none.size(); ++i) none[i] = {0, 1, 3 * chunk.quadrants[i].first, 0};
     graph.copy("no map triangles", graph.upload("no triangles" + name, none), draws,

@@ -56,6 +56,7 @@ struct Renderer::State {
         return render::declare(frames.context(graph, of.view.moved(place)), *scene, prepared, of.poses, of.view);
     }
     void keep_maps(Pending& of, MapReport& report);
+    void keep_pending_maps();
     void add_samples(const Request& of, const Prepared& prepared, std::span<const glm::dvec2> places, Pending& pending);
     void average_display(const Request& of, const ChainInputs& chain, const gpu_scene::Projection* projection,
                          Frame& frame);
@@ -90,6 +91,7 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::set_scene(const scene::Scene& scene) {
     auto resident = std::make_unique<ResidentScene>(state_->device, scene);
+    state_->keep_pending_maps();
     state_->frames.wait();  // frames under way use the old scene
     state_->scene = std::move(resident);
 }
@@ -156,10 +158,19 @@ void Renderer::State::keep_maps(Pending& of, MapReport& report) {
     if (scene->maps) report.note = scene->maps->keep(of.kept_maps, frames.executor());
 }
 
+// The same of a frame that nobody has finished, before its readbacks are lost; waits for it.
+void Renderer::State::keep_pending_maps() {
+    if (!pending || !pending->kept_maps.drawn_on_host) return;
+    frames.wait();
+    keep_maps(*pending, pending->frame.maps);
+    pending->kept_maps = {};
+}
+
 // Samples before the last. Lamps, maps and luminaires are those of the view itself, of which samples see other points.
 void Renderer::State::add_samples(const Request& of, const Prepared& prepared, std::span<const glm::dvec2> places,
                                   Pending& to) {
     if (places.empty()) return;
+    pending.reset();  // a graph that is run leaves nothing of it
     frames.wait();
     samples.resize(device, uint64_t(of.view.extent.width) * of.view.extent.height);
     for (const glm::dvec2& place : places) {
@@ -198,6 +209,7 @@ void Renderer::State::average_display(const Request& of, const ChainInputs& of_m
 void Renderer::State::submit(const Request& of, float seconds, const Outputs& outputs,
                              const graph::SubmitSemaphores& semaphores) {
     const auto& [settings, view, poses] = of;
+    keep_pending_maps();
     frames.prepare(settings);
     FrameQueue::Declared frame{.extent = view.extent};
     const Prepared prepared = prepare(of);

@@ -15,18 +15,17 @@ namespace {
 
 /// A format of scenes.
 struct SceneReader {
-    std::vector<std::string_view> endings;           ///< of names, in small letters
+    std::span<const std::string_view> endings;       ///< of names, in small letters
     bool (*begins)(std::span<const uint8_t> start);  ///< whether a file that begins like this is one
     LoadedScene (*read)(const std::filesystem::path&, const SceneLimits&);
 };
 
+constexpr std::string_view kGltfEndings[]{".gltf", ".glb"};
+
 // The one list of formats: a new reader is a line here.
-const std::vector<SceneReader>& readers() {
-    static const std::vector<SceneReader> list{
-        {{".gltf", ".glb"}, begins_like_gltf, read_gltf},
-    };
-    return list;
-}
+constexpr SceneReader kReaders[]{
+    {kGltfEndings, begins_like_gltf, read_gltf},
+};
 
 constexpr size_t kStart = 64;  // bytes that tell formats apart
 
@@ -38,21 +37,21 @@ bool has_ending(const SceneReader& reader, const std::filesystem::path& file) {
 }  // namespace
 
 LoadedScene read_scene(const std::filesystem::path& file, const SceneLimits& limits) {
-    for (const SceneReader& reader : readers())
+    for (const SceneReader& reader : kReaders)
         if (has_ending(reader, file)) return reader.read(file, limits);
     const std::vector<uint8_t> start = io::read_start(file, kStart);
-    for (const SceneReader& reader : readers())
+    for (const SceneReader& reader : kReaders)
         if (reader.begins(start)) return reader.read(file, limits);
     throw Error(one_line(file.string()) + ": is no scene: " + scene_endings() + " is expected");
 }
 
 bool is_scene_name(const std::filesystem::path& file) {
-    return std::ranges::any_of(readers(), [&](const SceneReader& reader) { return has_ending(reader, file); });
+    return std::ranges::any_of(kReaders, [&](const SceneReader& reader) { return has_ending(reader, file); });
 }
 
 std::string scene_endings(const char* last_separator) {
     std::vector<std::string_view> endings;
-    for (const SceneReader& reader : readers())
+    for (const SceneReader& reader : kReaders)
         endings.insert(endings.end(), reader.endings.begin(), reader.endings.end());
     std::string text;
     for (size_t i = 0; i < endings.size(); ++i)

@@ -191,6 +191,14 @@ void check_targets(const PassInfo& pass, const std::vector<ResourceInfo>& resour
     if (!first) fail(pass, "has no target");
 }
 
+/// A copy, without its commands, among so many resources.
+PassInfo copying(std::string_view name, Resource from, const Use& to, size_t resources) {
+    PassInfo pass{std::string(name), PassKind::Transfer, {{from, Access::CopySource}, to}, nullptr, {}, {}, 0, {}};
+    if (from.index >= resources) fail(pass, "has no valid resource to copy from");
+    if (to.resource.index >= resources) fail(pass, "has no valid resource to copy to");
+    return pass;
+}
+
 VkBufferImageCopy whole_image(const Shape& shape, uint64_t offset) {
     VkBufferImageCopy region{};
     region.bufferOffset = offset;
@@ -358,16 +366,7 @@ void FrameGraph::clear(std::string_view name, Resource buffer) {
 }
 
 void FrameGraph::copy(std::string_view name, Resource from, Resource to) {
-    PassInfo pass{std::string(name),
-                  PassKind::Transfer,
-                  {{from, Access::CopySource}, {to, Access::CopyTarget}},
-                  nullptr,
-                  {},
-                  {},
-                  0,
-                  {}};
-    if (from.index >= resources_.size()) fail(pass, "has no valid resource to copy from");
-    if (to.index >= resources_.size()) fail(pass, "has no valid resource to copy to");
+    PassInfo pass = copying(name, from, {to, Access::CopyTarget}, resources_.size());
     const ResourceInfo &source = resources_[from.index], &target = resources_[to.index];
     const VkExtent2D area = source.shape.extent;
     if (source.shape.is_image() && target.shape.is_image() &&
@@ -407,16 +406,7 @@ void FrameGraph::copy(std::string_view name, Resource from, Resource to) {
 }
 
 void FrameGraph::copy(std::string_view name, Resource from, Resource to, std::vector<Region> regions) {
-    PassInfo pass{std::string(name),
-                  PassKind::Transfer,
-                  {{from, Access::CopySource}, {to, Access::CopyPart}},
-                  nullptr,
-                  {},
-                  {},
-                  0,
-                  {}};
-    if (from.index >= resources_.size()) fail(pass, "has no valid resource to copy from");
-    if (to.index >= resources_.size()) fail(pass, "has no valid resource to copy to");
+    PassInfo pass = copying(name, from, {to, Access::CopyPart}, resources_.size());
     const ResourceInfo &source = resources_[from.index], &target = resources_[to.index];
     if (source.shape.is_image() || target.shape.is_image())
         fail(pass, "copies parts of an image; only buffers have any");

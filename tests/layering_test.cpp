@@ -96,6 +96,33 @@ TEST(Layering, EveryIncludeGoesDown) {
         }
 }
 
+// Of the folders of vesper-drive, which others each may include; what these do not have is of the engine, of
+// apps/common or of libraries.
+const std::map<std::string, std::set<std::string>> kDriveMayInclude{
+    {"external", {}},
+    {"channels", {}},
+    {"session", {"external", "channels"}},
+    {"record", {"external", "channels", "session"}},
+    {"run", {"external", "channels", "session", "record"}},
+    {"window", {"external", "channels", "session", "record", "run"}},
+};
+
+TEST(Layering, EveryIncludeOfTheSimulatorGoesDown) {
+    const fs::path drive = kSource / "apps" / "vesper-drive";
+    const auto files = files_under(drive, {".h", ".cpp"});
+    EXPECT_GT(files.size(), 70u);
+    for (const fs::path& file : files) {
+        const std::string folder = first_folder(fs::relative(file, drive));
+        if (file == drive / "main.cpp") continue;
+        ASSERT_TRUE(kDriveMayInclude.contains(folder)) << file;
+        for (const std::string& what : quoted_includes(file)) {
+            const bool goes_down = !fs::exists(drive / what) || first_folder(what) == folder ||
+                                   kDriveMayInclude.at(folder).contains(first_folder(what));
+            EXPECT_TRUE(goes_down) << file << " includes " << what;
+        }
+    }
+}
+
 TEST(Layering, TheRulesRefuse) {
     EXPECT_NE(objection("base/error.h", "graph/plan.h"), "");
     EXPECT_NE(objection("gpu/kernel.h", "scene/scene.h"), "");

@@ -1,6 +1,6 @@
 // The `vesper-drive` program: a simulator in a night street. SPDX-License-Identifier: MIT
 #include "command_line.h"
-#include "drive.h"
+#include "run/drive.h"
 
 int main(int argc, char** argv) {
     vesper::apps::Program program{"Drive at night, see and record what the eye does (docs/simulator.md).",

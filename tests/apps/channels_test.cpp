@@ -1,5 +1,5 @@
 // Channels: one eye, several screens, no seams. SPDX-License-Identifier: MIT
-#include "channels.h"
+#include "channels/channels.h"
 
 #include <cmath>
 

@@ -1,5 +1,5 @@
 // From which distance obstacles of a drive are seen. SPDX-License-Identifier: MIT
-#include "detection.h"
+#include "record/detection.h"
 
 #include <cmath>
 #include <sstream>

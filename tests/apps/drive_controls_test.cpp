@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "input_devices.h"
-#include "panel_layout.h"
 #include "scene/scene_files.h"
 #include "support/complaints.h"
+#include "window/input_devices.h"
+#include "window/panel_layout.h"
 
 namespace vesper::test {
 namespace {

@@ -1,5 +1,5 @@
 // Lists of events of a drive. SPDX-License-Identifier: MIT
-#include "drive_events.h"
+#include "session/drive_events.h"
 
 #include <malloc.h>
 

@@ -9,11 +9,11 @@
 
 #include "base/error.h"
 #include "base/luminance.h"
-#include "drive_file.h"
 #include "places.h"
-#include "playback.h"
+#include "record/playback.h"
 #include "scene/scene_files.h"
-#include "session.h"
+#include "session/drive_file.h"
+#include "session/session.h"
 
 namespace vesper::test {
 namespace {

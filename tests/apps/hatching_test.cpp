@@ -1,5 +1,5 @@
 // Stripes over what a driver cannot see. SPDX-License-Identifier: MIT
-#include "hatching.h"
+#include "record/hatching.h"
 
 #include <cstring>
 

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "commands.h"
-#include "drive.h"
+#include "run/drive.h"
 #include "support/program.h"
 
 namespace vesper::test {

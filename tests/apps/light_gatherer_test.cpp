@@ -1,5 +1,5 @@
 // Light between surfaces beside a drive: a stand-in, then what pictures have. SPDX-License-Identifier: MIT
-#include "light_gatherer.h"
+#include "session/light_gatherer.h"
 
 #include <future>
 #include <thread>

@@ -1,5 +1,5 @@
 // Light at a pixel, against closed forms. SPDX-License-Identifier: MIT
-#include "light_probe.h"
+#include "window/light_probe.h"
 
 #include <cmath>
 #include <numbers>

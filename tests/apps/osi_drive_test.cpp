@@ -9,11 +9,11 @@
 
 #include <gtest/gtest.h>
 
-#include "model_table.h"
+#include "external/model_table.h"
 #include "osi/trace.h"
 #include "places.h"
-#include "scenery.h"
-#include "session.h"
+#include "session/scenery.h"
+#include "session/session.h"
 #include "support/complaints.h"
 #include "support/driven_along.h"
 #include "support/program.h"

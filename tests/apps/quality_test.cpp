@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "io/hdr_image.h"
 #include "places.h"
-#include "settings.h"
+#include "session/settings.h"
 #include "support/program.h"
 
 namespace vesper::test::quality_test {

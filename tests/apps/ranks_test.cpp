@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "channel_ranks.h"
-#include "channels.h"
+#include "channels/channels.h"
+#include "run/channel_ranks.h"
 #include "support/complaints.h"
 #include "support/program.h"
 

@@ -8,9 +8,9 @@
 
 #include "base/error.h"
 #include "places.h"
-#include "road_world.h"
 #include "roads/opendrive.h"
-#include "scenery.h"
+#include "session/road_world.h"
+#include "session/scenery.h"
 #include "support/complaints.h"
 #include "support/driven_along.h"
 #include "support/program.h"

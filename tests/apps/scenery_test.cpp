@@ -1,5 +1,5 @@
 // What goes with the car, and how it stands on it. SPDX-License-Identifier: MIT
-#include "scenery.h"
+#include "session/scenery.h"
 
 #include <cmath>
 #include <map>
@@ -10,7 +10,7 @@
 
 #include "base/luminance.h"
 #include "scene/scene_files.h"
-#include "session.h"
+#include "session/session.h"
 #include "traffic/world.h"
 
 namespace vesper::test {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "places.h"
-#include "session.h"
+#include "session/session.h"
 #include "transport/radiosity.h"
 
 namespace vesper::test {

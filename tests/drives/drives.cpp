@@ -14,7 +14,7 @@
 #include "places.h"
 #include "render/renderer.h"
 #include "render/tone_mapper.h"
-#include "scenery.h"
+#include "session/scenery.h"
 #include "support/scene_geometry.h"
 
 namespace vesper::test {

@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 
-#include "drive_file.h"
 #include "faults/faults.h"
 #include "places.h"
+#include "session/drive_file.h"
 #include "support/program.h"
 
 namespace vesper::test {

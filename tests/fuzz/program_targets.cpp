@@ -7,13 +7,13 @@
 #include <type_traits>
 #include <vector>
 
-#include "channels.h"
-#include "controllers.h"
-#include "drive_file.h"
+#include "channels/channels.h"
 #include "fuzz/targets.h"
 #include "glare_arguments.h"
 #include "result.h"
+#include "session/drive_file.h"
 #include "tone_log.h"
+#include "window/controllers.h"
 
 namespace vesper::test {
 namespace {

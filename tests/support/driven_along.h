@@ -1,7 +1,7 @@
 // What another program moves in a scene, as a Session steps through it. SPDX-License-Identifier: MIT
 #pragma once
 
-#include "scenery.h"
+#include "session/scenery.h"
 
 namespace vesper::test {
 

@@ -1,0 +1,485 @@
+#include "window/windowed.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <thread>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include "base/angle.h"
+#include "base/error.h"
+#include "base/one_line.h"
+#include "cache_arguments.h"
+#include "obstacle_arguments.h"
+#include "picture_arguments.h"
+#include "print.h"
+#include "record/hatching.h"
+#include "render/passes/operators.h"
+#include "scaled_picture.h"
+#include "tone_arguments.h"
+#include "window/channel_window.h"
+
+namespace vesper::drive {
+namespace {
+
+using apps::format;
+
+constexpr double kMostBehind = 0.25;  // s: where a device is slower than that, time goes slower
+constexpr std::array<double, WindowedDrive::kCoarsest + 1> kCoarser{1, 1.25, 1.5, 2, 3, 4};
+
+const char* name_of(CameraKind camera) {
+    switch (camera) {
+        case CameraKind::Chase:
+            return "chase";
+        case CameraKind::Bird:
+            return "bird";
+        case CameraKind::Free:
+            return "free";
+        default:
+            return "driver";
+    }
+}
+
+WindowSettings window_settings(const DriveArguments& a) {
+    return {.title = "Vesper",
+            .extent = apps::parse_size(a.window, 64),
+            .monitor = a.full_screen < 0 ? std::nullopt : std::optional(unsigned(a.full_screen))};
+}
+
+}  // namespace
+
+WindowedDrive::WindowedDrive(const DriveArguments& a)
+    : arguments_(a),
+      window_(window_settings(a)),
+      device_(std::make_unique<gpu::Device>(device_options())),
+      screen_(std::make_unique<Screen>(window_, *device_)),
+      screen_settings_{.vsync = vsync_of(a.vsync),
+                       .scaling = a.scaling == "whole" ? window::Scaling::Whole : window::Scaling::Fit},
+      hands_(a.controllers.empty() ? std::vector<ControllerMapping>() : read_controllers(a.controllers)) {
+    if (a.size_given) size_ = apps::parse_size(a.size);
+    if (!a.channels.empty()) channels_ = read_channels(a.channels);
+    if (apps::Ranks::several()) ranks_ = std::make_unique<ChannelRanks>(apps::Ranks::all(), *channels_);
+    Drive drive;
+    if (!a.replay.empty()) {
+        drive = read_drive(a.replay);
+        arguments_.scene = drive.start.scene.string();
+        arguments_.messages = drive.start.messages;
+        if (drive.start.size && !a.size_given) size_ = VkExtent2D{drive.start.size->x, drive.start.size->y};
+        if (!drive.complete) say(a.replay + " breaks off; what there is of it is shown");
+    }
+    open_session(drive);
+    if (ranks_) {
+        const std::vector<size_t> own = ranks_->own(channels_->screens.size());
+        check_displays(*channels_, session_->settings().render().display);
+        if (const auto monitor = monitor_of(*channels_, own); monitor && a.full_screen < 0) window_.fill(monitor);
+        apps::Ranks::all().agree_on_start();
+        apps::Ranks::all().in_turns([&] {
+            if (!own.empty()) session_->gather_light(map_cache_.get());
+        });
+        ranks_->lead(*session_);
+    }
+    if (!a.replay.empty()) replay_.emplace(std::move(drive.events), a.settings);
+    if (a.messages.live) open_feed();
+    if (!a.osi_out.empty()) session_->write_trace(a.osi_out);
+    if (!a.record.empty()) session_->record(a.record, recorded_size()), recording_ = a.record;
+    if (a.autopilot) hands_.press(Action::Autopilot);
+    if (!a.log.empty())
+        log_.emplace(a.log, probes_of(a.probes), ranks_ ? kMeetingColumns : apps::obstacle_columns(obstacles_));
+    window_.on_key = [this](int key, int modifiers) {
+        const auto action = action_of(key, modifiers);
+        if (!action || screen_->is_typing()) return;
+        // Letters and the space bar belong to the instruments while they have the keyboard.
+        const bool theirs =
+            key < GLFW_KEY_F1 && *action != Action::Focus && *action != Action::Leave && *action != Action::Quit;
+        if (instruments_.has_keyboard() && theirs) return;
+        press(*action);
+    };
+    window_.on_drop = [this](const std::string& file) { reload(file); };
+}
+
+gpu::DeviceOptions WindowedDrive::device_options() const {
+    return {.select = arguments_.device, .validation = false, .on_message = {}, .presentation = window_.presentation()};
+}
+
+void WindowedDrive::recover(const gpu::DeviceLost& error) {
+    if (ranks_ || !std::exchange(shown_, false)) throw error;
+    screen_.reset();
+    auto device = std::make_unique<gpu::Device>(device_options());
+    session_->use(*device);
+    device_ = std::move(device);
+    screen_ = std::make_unique<Screen>(window_, *device_);
+    stale_ = true;
+    say(std::string(error.what()) + "; it was opened anew", true);
+}
+
+void WindowedDrive::check_display(const DriveSettings& settings) const {
+    if (!screen_->shows(settings.render().display))
+        throw Error(
+            "--display: this window shows no codes of that kind (HDR10 needs a screen and a system that offer it)");
+}
+
+void WindowedDrive::open_session(const Drive& drive) {
+    const DriveStart start = start_of(arguments_, drive.start);
+    Scenery scenery(start.scene, start.messages);
+    check_settings(
+        drive, arguments_.settings, [&](const DriveSettings& settings) { check_display(scenery.check(settings)); },
+        [](const DriveSettings&) {});
+    session_ = std::make_unique<Session>(*device_, start, std::move(scenery));
+    if (arguments_.replay.empty()) session_->set_shadow_budget(kWindowShadowBudget);
+    obstacles_ = apps::obstacles_of(session_->scenery().scene(), arguments_.obstacles, session_->settings().render());
+    session_->watch(obstacles_), session_->find_obstacle_pixels(arguments_.hatches);
+    if (channels_) session_->share_channels(ranks_.get(), arguments_.latency);
+    watch_contacts();
+    keep_maps();
+    apps::print_notes(session_->scenery().notes());
+    if (arguments_.scale < 1)
+        apps::print_note(format("each side of pictures is rendered with %g of its pixels, and enlarged (--scale)",
+                                arguments_.scale));
+}
+
+// A scene that cannot be used leaves everything as it is.
+void WindowedDrive::reload(const std::string& scene) {
+    if (ranks_) return say("several ranks show this drive: another scene needs a new start", true);
+    const bool same = scene == arguments_.scene;  // then what moves on it, too
+    bool watches = true;
+    DriveSettings::Values settings = session_->settings().values();
+    if (!same)
+        std::erase_if(settings, [](const auto& setting) {
+            return setting.first.starts_with("lamp:");
+        });  // of lamps that only the old scene has
+    try {
+        auto made =
+            std::make_unique<Session>(*device_, DriveStart{.scene = scene,
+                                                           .messages = same ? arguments_.messages : MessageSource{},
+                                                           .seed = arguments_.seed,
+                                                           .settings = settings});
+        watches = watch_again(*made);
+        if (!recording_.empty()) session_->stop_recording();
+        light_.reset(), session_ = std::move(made), feed_.reset();
+        if (same && arguments_.messages.live) open_feed();
+        session_->set_shadow_budget(kWindowShadowBudget);
+        if (channels_) session_->share_channels(nullptr, arguments_.latency);
+        watch_contacts();
+        keep_maps();
+    } catch (const Error& error) {
+        return say(error.what(), true);
+    }
+    if (!same) arguments_.messages = {};
+    arguments_.scene = scene;
+    recording_.clear(), replay_.reset(), instruments_.forget();
+    if (!arguments_.size_given) size_.reset();
+    stale_ = true;
+    say("loaded " + scene + (watches ? "" : "; it has other obstacles, which are not watched"), !watches);
+}
+
+void WindowedDrive::say(const std::string& text, bool alarm) {
+    message_ = text, alarm_ = alarm;
+    message_until_ = Clock::now() + std::chrono::seconds(alarm ? 15 : 5);
+    if (alarm) apps::print_error("vesper-drive", text);
+}
+
+std::string WindowedDrive::title() const {
+    std::string text = std::filesystem::path(arguments_.scene).filename().string() +
+                       format(", %.1f s, ", session_->world().seconds()) +
+                       apps::name_of(session_->settings().render().tone_operator) + ", " +
+                       name_of(session_->settings().camera());
+    if (replay_) text += ", replay";
+    if (paused_) text += ", paused";
+    if (!recording_.empty()) text += ", recording";
+    if (arguments_.scale < 1) text += format(", rendered at %ux%u", rendered_.width, rendered_.height);
+    return text + " - Vesper";
+}
+
+VkExtent2D WindowedDrive::picture_extent(double scale) const {
+    const VkExtent2D whole = size_.value_or(window_.extent());
+    scale /= kCoarser[coarser_];
+    return {apps::scaled(whole.width, scale), apps::scaled(whole.height, scale)};
+}
+
+double WindowedDrive::picture_scale() const { return channels_ ? 1 : arguments_.scale / kCoarser[coarser_]; }
+
+std::optional<glm::uvec2> WindowedDrive::recorded_size() const {
+    const VkExtent2D extent = picture_extent(1);
+    return channels_ ? std::nullopt : std::optional(glm::uvec2(extent.width, extent.height));
+}
+
+HeldInput WindowedDrive::held() const {
+    if (instruments_.has_keyboard() || screen_->is_typing()) return {};
+    const bool letters = session_->settings().camera() != CameraKind::Free;
+    const auto down = [&](int arrow, int letter) {
+        return window_.is_pressed(arrow) || (letters && window_.is_pressed(letter));
+    };
+    return {.left = down(GLFW_KEY_LEFT, GLFW_KEY_A),
+            .right = down(GLFW_KEY_RIGHT, GLFW_KEY_D),
+            .accelerate = down(GLFW_KEY_UP, GLFW_KEY_W),
+            .brake = down(GLFW_KEY_DOWN, GLFW_KEY_S)};
+}
+
+void WindowedDrive::move_camera(double seconds) {
+    const glm::dvec2 mouse = window_.mouse(), moved = mouse - std::exchange(mouse_, mouse);
+    if (session_->settings().camera() != CameraKind::Free || instruments_.has_keyboard() || screen_->is_typing())
+        return;
+    constexpr double kSpeed = 8, kTurn = 0.8, kDrag = 0.003;  // m/s, rad/s, rad/px
+    const auto axis = [&](int plus, int minus) {
+        return (window_.is_pressed(plus) ? 1.0 : 0.0) - (window_.is_pressed(minus) ? 1.0 : 0.0);
+    };
+    const double ahead = axis(GLFW_KEY_W, GLFW_KEY_S), left = axis(GLFW_KEY_A, GLFW_KEY_D),
+                 up = axis(GLFW_KEY_PAGE_UP, GLFW_KEY_PAGE_DOWN);
+    const bool turns = window_.is_pressed(GLFW_KEY_LEFT_SHIFT) || window_.is_pressed(GLFW_KEY_RIGHT_SHIFT),
+               drags = window_.is_button_pressed(GLFW_MOUSE_BUTTON_RIGHT);
+    FreeCamera c = session_->settings().free_camera();
+    const FreeCamera before = c;
+    if (drags) c.yaw += kDrag * moved.x, c.pitch += kDrag * moved.y;
+    if (turns) {
+        c.yaw += kTurn * left * seconds, c.pitch += kTurn * ahead * seconds;
+    } else {
+        const glm::dvec3 forward(-std::sin(c.yaw), 0, -std::cos(c.yaw)), sideways(forward.z, 0, -forward.x);
+        c.position += kSpeed * seconds * (ahead * forward + left * sideways);
+    }
+    c.position.y += kSpeed * seconds * up;
+    c.pitch = std::clamp(c.pitch, -1.5, 1.5);
+    if (c.position == before.position && c.yaw == before.yaw && c.pitch == before.pitch) return;
+    change("free", format("%.4f,%.4f,%.4f,%.4f,%.4f", c.position.x, c.position.y, c.position.z,
+                          c.yaw * kDegreesPerRadian, c.pitch * kDegreesPerRadian));
+}
+
+bool WindowedDrive::replay_to_next_frame() {
+    while (const auto kind = replay_->next(*session_)) {
+        if (kind == DriveEvent::Kind::Frame) return true;
+        if (kind == DriveEvent::Kind::Restart) instruments_.forget();
+        if (kind == DriveEvent::Kind::Step) owed_ -= session_->options().time_step;
+        // A drive that was recorded without frames is shown step by step.
+        if (kind == DriveEvent::Kind::Step && owed_ <= 0 && replay_->frames() == 0) return true;
+    }
+    paused_ = true;
+    say(replay_->strayed() ? "the replay is over; the car went another way than when it was recorded"
+                           : "the replay is over; Backspace starts it again");
+    return true;
+}
+
+// What the world does in so much real time, and a picture of that if anything is new.
+void WindowedDrive::advance(double seconds) {
+    const double step = session_->options().time_step;
+    owed_ = paused_ ? 0 : std::min(owed_ + seconds, kMostBehind);
+    if (std::exchange(one_step_, false)) owed_ = step;
+    bool moved = false;
+    if (replay_) {
+        if (owed_ >= step) moved = replay_to_next_frame();
+    } else {
+        listen();
+        const Clock::time_point now = Clock::now();
+        for (; owed_ >= step; owed_ -= step, moved = true)
+            session_->step(hands_.next(held(), session_->world().driver().speed, step),
+                           feed_ ? feed_->shown(now - std::chrono::duration_cast<Clock::duration>(
+                                                          std::chrono::duration<double>(owed_ - step)))
+                                 : std::nullopt);
+    }
+    render(moved);
+}
+
+void WindowedDrive::open_feed() {
+    feed_ = std::make_unique<MessageFeed>(osi::parse_address(arguments_.osi_udp), arguments_.osi_delay);
+}
+
+// Messages that cannot be used are told of, at most each 5 s.
+void WindowedDrive::listen() {
+    if (!feed_ || paused_) return;  // what comes meanwhile waits, within the bounds of a Receiver
+    feed_->listen(*session_);
+    const uint64_t count = feed_->counts().unusable();
+    if (count == troubles_ || Clock::now() - troubles_said_ < std::chrono::seconds(5)) return;
+    troubles_ = count, troubles_said_ = Clock::now();
+    say(feed_->report());
+}
+
+void WindowedDrive::watch_contacts() {
+    session_->on_contact = [this](const traffic::Contact& contact) {
+        say(format("collision with %s at %.0f km/h", contact.node.c_str(), contact.speed * 3.6));
+        if (log_) log_->rows().add(contact);
+    };
+}
+
+void WindowedDrive::keep_maps() {
+    if (!map_cache_) map_cache_ = apps::cache_of(arguments_.cache);
+    session_->keep_maps(map_cache_);
+    session_->on_maps = [](const render::MapReport& report) { apps::print_cache_note(report.note); };
+}
+
+// What is known of the light between surfaces; the first time that it is wanted its work begins.
+void WindowedDrive::take_light() {
+    if (ranks_ || !session_->settings().render().indirect) return;
+    if (!light_) {
+        gpu_scene::SceneFrame rest = session_->moment();
+        light_ = std::make_unique<LightGatherer>(session_->scenery().scene(), std::move(rest.world),
+                                                 std::move(rest.moving), apps::cache_of(arguments_.cache));
+    }
+    try {
+        if (auto radiosity = light_->take()) session_->set_radiosity(std::move(radiosity)), stale_ = true;
+        apps::print_cache_note(light_->problem());
+    } catch (const gpu::DeviceLost&) {
+        throw;
+    } catch (const Error& error) {
+        say(error.what(), true);
+    }
+}
+
+// What the window says while no message is shown.
+std::string WindowedDrive::standing_message() const {
+    if (ranks_ && !meeting_.empty()) return meeting_note_;
+    if (feed_ && feed_->counts().messages == 0) return "listening at " + feed_->place() + ": no message yet";
+    if (session_->outside().without_body > 0)
+        return format("%zu objects are not shown: there are too many at once", session_->outside().without_body);
+    if (!light_ || light_->done() || !session_->settings().render().indirect) return {};
+    return format("light between surfaces: %.0f %%, rough until then", 100 * light_->share());
+}
+
+// Behind the instruments of a rank without a channel.
+void show_nothing(render::ToneMapped& shown) {
+    shown.extent = {960, 540};
+    shown.display.assign(size_t{4} * shown.extent.width * shown.extent.height, 0);
+}
+
+void WindowedDrive::draw(const render::Outputs& outputs, ChannelMosaic& wall) {
+    if (ranks_) {
+        DriveRows* rows = log_ ? &log_->rows() : nullptr;
+        ChannelRanks::LedFrame led = ranks_->render(*session_, *channels_, outputs, {.display = false}, rows);
+        wall = std::move(led.wall), row_ = std::move(led.row), meeting_ = columns_of(led.meeting);
+        meeting_note_ =
+            apps::Ranks::all().name(led.meeting.last) + format(" was the last, by %.1f ms", led.meeting.skew * 1e3);
+        if (wall.shown.display.empty()) show_nothing(wall.shown);
+        frame_ = logged_frame(wall, channels_->gaze);
+    } else if (channels_) {
+        wall = session_->render(*channels_, outputs);
+        frame_ = logged_frame(wall, channels_->gaze);
+    } else {
+        frame_ = session_->render(view_, outputs);
+    }
+}
+
+void WindowedDrive::render(bool moved) {
+    take_light();
+    const VkExtent2D extent = picture_extent(arguments_.scale);
+    const bool ldr = session_->settings().render().tone_operator == render::Operator::Ldr;
+    const bool measures = instruments_.needs_scene() || log_;
+    const render::Outputs outputs{.display = true, .scene = measures && !ldr};
+    const bool lacks = (outputs.scene && !ranks_ && frame_.scene.empty()) || extent.width != rendered_.width ||
+                       extent.height != rendered_.height;
+    if (!moved && !stale_ && !lacks) return;
+    view_ = session_->view(extent);
+    ChannelMosaic wall;
+    try {
+        draw(outputs, wall);
+    } catch (const gpu::DeviceLost&) {
+        throw;
+    } catch (const Error& error) {
+        // Too many lamps for shadows end these, not the drive. A recording that has ended is no matter of shadows.
+        if (ranks_) throw;  // others wait for this frame
+        const bool recorded = recording_.empty() || session_->recording();
+        if (!session_->settings().render().shadows || !recorded) throw;
+        change("shadows", "off");
+        say(error.what(), true);
+        draw(outputs, wall);
+    }
+    rendered_ = extent, stale_ = false, ++frame_number_;
+    instruments_.remember(*session_, frame_);
+    hatch_unseen(frame_, session_->settings().render(), arguments_.visible_from);
+    if (log_) log_frame();
+    if (!channels_) return;
+    const std::vector<graph::Timing> timings = std::move(frame_.timings);
+    static_cast<render::ToneMapped&>(frame_) = std::move(wall.shown);
+    frame_.timings = timings, columns_ = wall.columns;
+}
+
+// The view that a pixel of the frame belongs to, and its place there.
+std::pair<gpu_scene::View, std::optional<glm::uvec2>> WindowedDrive::view_at(std::optional<glm::uvec2> pixel) const {
+    if (!channels_ || !pixel) return {view_, pixel};
+    for (size_t i = 0; i < columns_.size(); ++i) {
+        const ScreenChannel& screen = channels_->screens[i];
+        if (pixel->x >= columns_[i] && pixel->x < columns_[i] + screen.extent.width && pixel->y < screen.extent.height)
+            return {channel_view(screen, view_), *pixel - glm::uvec2(columns_[i], 0)};
+    }
+    return {view_, std::nullopt};
+}
+
+void WindowedDrive::present() {
+    const vision::Display& display = session_->settings().render().display;
+    screen_->begin_instruments(instruments_.has_keyboard());
+    const bool talks = Clock::now() < message_until_;
+    const std::optional<glm::uvec2> pixel = screen_->pixel_under_mouse(frame_.extent, screen_settings_.scaling);
+    const auto [view, view_pixel] = view_at(pixel);
+    const FrameState now{.session = *session_,
+                         .screen = *screen_,
+                         .frame = frame_,
+                         .view = view,
+                         .hands = hands_,
+                         .pixel = pixel,
+                         .view_pixel = view_pixel,
+                         .shown_per_second = pictures_per_second_,
+                         .visible_from = arguments_.visible_from,
+                         .paused = paused_,
+                         .recording = recording_,
+                         .message = talks ? message_ : standing_message(),
+                         .alarm = talks && alarm_};
+    const std::vector<Change> changes = instruments_.draw(now);
+    const bool colours = instruments_.shows_false_colour() && display.bits == 8;
+    const auto coloured = colours ? instruments_.coloured(frame_, frame_number_) : std::span<const uint8_t>();
+    const window::Picture picture{.codes = coloured.empty() ? std::span<const uint8_t>(frame_.display) : coloured,
+                                  .extent = frame_.extent,
+                                  .bits = display.bits};
+    shown_ |= screen_->show(picture, display, screen_settings_);
+    for (const auto& [name, value] : changes) change(name, value);
+}
+
+void WindowedDrive::run() {
+    Clock::time_point last = Clock::now();
+    while (!window_.is_closing()) {
+        window_.poll(window_.is_minimised() ? 0.1 : 0);
+        for (const Action action : hands_.look(plugged_in())) press(action);
+        if (const std::string notice = hands_.take_notice(); !notice.empty()) say(notice);
+        const Clock::time_point now = Clock::now();
+        const double elapsed = std::chrono::duration<double>(now - last).count();
+        last = now;
+        if (window_.is_minimised()) continue;  // nobody sees where the car goes: time stands still
+        pictures_per_second_ += (1 / std::max(elapsed, 1e-4) - pictures_per_second_) * std::min(1.0, elapsed / 0.5);
+        move_camera(elapsed);
+        try {
+            advance(elapsed);
+            present();
+        } catch (const gpu::DeviceLost& error) {
+            recover(error);
+        } catch (const Error& error) {
+            // A full disk ends the recording, not the drive.
+            if (recording_.empty() || session_->recording()) throw;
+            say(error.what(), true);
+        }
+        if (!session_->recording()) recording_.clear();
+        window_.set_title(title());
+        const double least = paused_ ? 1.0 / 60 : arguments_.limit > 0 ? 1 / arguments_.limit : 0;
+        std::this_thread::sleep_until(
+            now + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(least)));
+    }
+    if (ranks_) ranks_->end_drive(), session_->leave_channels();
+    if (!recording_.empty()) session_->stop_recording();
+    session_->finish_trace();
+    if (log_) log_->complete();
+}
+
+void run_windowed(const DriveArguments& arguments) {
+    if (apps::Ranks::several()) {
+        if (arguments.channels.empty()) throw Error("several ranks open windows for --channels, or none (--headless)");
+        if (apps::Ranks::own_number() != 0) return show_channels(arguments);
+    }
+    WindowedDrive drive(arguments);
+    try {
+        drive.run();
+    } catch (const Error& error) {
+        if (drive.recording().empty()) throw;
+        throw Error(std::string(error.what()) + "; the drive up to then is in " +
+                    one_line(io::GrowingFile::part_of(drive.recording())));
+    }
+}
+
+}  // namespace vesper::drive

@@ -1,6 +1,6 @@
 #include "gathered_light.h"
 
-#include "cache_arguments.h"
+#include "arguments/cache_arguments.h"
 #include "progress.h"
 #include "transport/kept_radiosity.h"
 

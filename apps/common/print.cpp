@@ -7,7 +7,7 @@
 #include <map>
 
 #include "base/one_line.h"
-#include "ranks.h"
+#include "ranks/ranks.h"
 
 namespace vesper::apps {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "base/one_line.h"
-#include "ranks.h"
+#include "ranks/ranks.h"
 
 namespace vesper::apps {
 

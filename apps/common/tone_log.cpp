@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstring>
 
+#include "arguments/glare_arguments.h"
+#include "arguments/obstacle_arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
-#include "glare_arguments.h"
 #include "io/read_file.h"
-#include "obstacle_arguments.h"
 #include "photometry/table.h"
 #include "print.h"
 

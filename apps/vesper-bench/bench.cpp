@@ -5,23 +5,23 @@
 #include <filesystem>
 #include <memory>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
+#include "arguments/cache_arguments.h"
+#include "arguments/picture_arguments.h"
+#include "arguments/setting_arguments.h"
+#include "arguments/thread_arguments.h"
+#include "arguments/tone_arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "base/parallel.h"
-#include "cache_arguments.h"
 #include "io/file_gate.h"
 #include "machine.h"
 #include "measure.h"
-#include "picture_arguments.h"
 #include "print.h"
 #include "progress.h"
 #include "scene/scene.h"
 #include "scenes.h"
-#include "setting_arguments.h"
 #include "start.h"
-#include "thread_arguments.h"
-#include "tone_arguments.h"
 
 namespace vesper::bench {
 namespace {

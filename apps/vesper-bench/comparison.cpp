@@ -1,7 +1,7 @@
 // Two results side by side. SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "print.h"

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <map>
 
-#include "line_plot.h"
+#include "plots/line_plot.h"
 #include "result.h"
 
 namespace vesper::bench {

@@ -1,6 +1,6 @@
 // The `vesper-bench` program: how fast is it here? SPDX-License-Identifier: MIT
+#include "arguments/command_line.h"
 #include "bench.h"
-#include "command_line.h"
 
 int main(int argc, char** argv) {
     vesper::apps::Program program{"Measures how fast Vesper is on this machine (docs/benchmark.md).", "vesper-bench"};

@@ -6,9 +6,9 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "arguments/cache_arguments.h"
 #include "base/error.h"
 #include "base/stopwatch.h"
-#include "cache_arguments.h"
 #include "gathered_light.h"
 #include "graph/times.h"
 #include "machine.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "arguments/setting_arguments.h"
 #include "samples.h"
-#include "setting_arguments.h"
 
 namespace vesper::bench {
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
 #include "base/one_line.h"
 #include "io/read_file.h"
 #include "result.h"

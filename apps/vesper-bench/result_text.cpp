@@ -1,5 +1,5 @@
 // Results of benchmarks for people: a terminal, a document. SPDX-License-Identifier: MIT
-#include "arguments.h"
+#include "arguments/arguments.h"
 #include "print.h"
 #include "result.h"
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "gpu_scene/cameras.h"

@@ -1,5 +1,5 @@
 // The `vesper-drive` program: a simulator in a night street. SPDX-License-Identifier: MIT
-#include "command_line.h"
+#include "arguments/command_line.h"
 #include "run/drive.h"
 
 int main(int argc, char** argv) {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "message_passing.h"
+#include "ranks/message_passing.h"
 
 namespace {
 

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "canvas.h"
-#include "false_colour.h"
+#include "plots/canvas.h"
+#include "plots/false_colour.h"
 #include "print.h"
 
 namespace vesper::commands {

@@ -1,7 +1,7 @@
 // The commands of the `vesper` program. SPDX-License-Identifier: MIT
 #pragma once
 
-#include "command_line.h"
+#include "arguments/command_line.h"
 
 namespace vesper::commands {
 

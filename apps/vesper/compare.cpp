@@ -7,7 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
+#include "arguments/thread_arguments.h"
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/one_line.h"
@@ -15,10 +16,9 @@
 #include "compared_picture.h"
 #include "gpu/device.h"
 #include "io/file_gate.h"
+#include "plots/share_map.h"
 #include "print.h"
 #include "render/retina.h"
-#include "share_map.h"
-#include "thread_arguments.h"
 #include "vision/picture_metrics.h"
 #include "vision/visible_differences.h"
 

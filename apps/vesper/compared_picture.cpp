@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "arguments/tone_arguments.h"
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/limits.h"
@@ -12,7 +13,6 @@
 #include "io/hdr_image.h"
 #include "io/read_file.h"
 #include "print.h"
-#include "tone_arguments.h"
 #include "vision/display_light.h"
 #include "vision/visual_channels.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "display_arguments.h"
-#include "picture_arguments.h"
+#include "arguments/display_arguments.h"
+#include "arguments/picture_arguments.h"
 #include "render/tone_mapper.h"
 
 namespace vesper::commands {

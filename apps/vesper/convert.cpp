@@ -4,8 +4,8 @@
 #include <map>
 #include <memory>
 
+#include "arguments/command_line.h"
 #include "base/budget.h"
-#include "command_line.h"
 
 #include "base/error.h"
 #include "base/one_line.h"

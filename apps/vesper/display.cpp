@@ -5,14 +5,14 @@
 #include <map>
 #include <memory>
 
-#include "command_line.h"
+#include "arguments/command_line.h"
 
-#include "arguments.h"
+#include "arguments/arguments.h"
+#include "arguments/picture_arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "commands.h"
 #include "io/file_gate.h"
-#include "picture_arguments.h"
 #include "print.h"
 #include "scene/display_file.h"
 #include "test_patterns.h"

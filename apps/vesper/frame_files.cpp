@@ -1,7 +1,7 @@
 #include "frame_files.h"
 
-#include "arguments.h"
-#include "glare_arguments.h"
+#include "arguments/arguments.h"
+#include "arguments/glare_arguments.h"
 #include "tone_log.h"
 
 namespace vesper::commands {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "io/growing_file.h"
-#include "packet.h"
+#include "ranks/packet.h"
 
 namespace vesper::commands {
 

@@ -7,9 +7,11 @@
 #include <memory>
 #include <optional>
 
-#include "command_line.h"
+#include "arguments/command_line.h"
 
-#include "arguments.h"
+#include "arguments/arguments.h"
+#include "arguments/picture_arguments.h"
+#include "arguments/thread_arguments.h"
 #include "base/budget.h"
 #include "base/error.h"
 #include "base/lower.h"
@@ -19,10 +21,8 @@
 #include "io/read_file.h"
 #include "photometry/grid.h"
 #include "photometry/reflection_table.h"
-#include "picture_arguments.h"
 #include "print.h"
 #include "scene/read_scene.h"
-#include "thread_arguments.h"
 
 namespace vesper::commands {
 namespace {

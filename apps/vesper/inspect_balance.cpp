@@ -1,8 +1,8 @@
 // Luminous flux of a scene: what is emitted, and where it goes. SPDX-License-Identifier: MIT
 #include <array>
 
+#include "arguments/cache_arguments.h"
 #include "base/one_line.h"
-#include "cache_arguments.h"
 #include "gathered_light.h"
 #include "inspect.h"
 #include "print.h"

@@ -1,7 +1,7 @@
 // Measured lamps and r-tables. SPDX-License-Identifier: MIT
 #include <cmath>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
 #include "inspect.h"
 #include "photometry/reflection_table.h"
 #include "plot.h"

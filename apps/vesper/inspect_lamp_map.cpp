@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
-#include "false_colour.h"
 #include "gpu/device.h"
 #include "inspect.h"
+#include "plots/false_colour.h"
 #include "print.h"
 #include "render/lamp_distances.h"
 #include "scene/photometry.h"

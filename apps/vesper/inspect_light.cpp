@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
 #include "base/error.h"
 #include "base/luminance.h"
 #include "base/one_line.h"

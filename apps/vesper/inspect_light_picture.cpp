@@ -3,16 +3,16 @@
 #include <array>
 #include <cmath>
 
+#include "arguments/picture_arguments.h"
 #include "base/error.h"
 #include "base/luminance.h"
 #include "base/one_line.h"
-#include "false_colour.h"
 #include "gpu/device.h"
 #include "gpu_scene/cameras.h"
 #include "inspect.h"
 #include "io/file_gate.h"
 #include "io/hdr_image.h"
-#include "picture_arguments.h"
+#include "plots/false_colour.h"
 #include "print.h"
 #include "progress.h"
 #include "scene/read_scene.h"

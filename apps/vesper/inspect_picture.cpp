@@ -6,9 +6,9 @@
 #include <vesper/road_lighting.hpp>
 #include "base/error.h"
 #include "base/one_line.h"
-#include "false_colour.h"
 #include "inspect.h"
 #include "io/hdr_image.h"
+#include "plots/false_colour.h"
 #include "print.h"
 #include "scene/colour.h"
 #include "statistics.h"

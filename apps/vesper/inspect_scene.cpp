@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
 #include "base/one_line.h"
 #include "inspect.h"
 #include "print.h"

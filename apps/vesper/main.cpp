@@ -1,7 +1,7 @@
 // The `vesper` program: convert a daytime database to photometry, render it at night. SPDX-License-Identifier: MIT
 #include <string>
 
-#include "command_line.h"
+#include "arguments/command_line.h"
 #include "commands.h"
 #include "gpu/device.h"
 #include "print.h"

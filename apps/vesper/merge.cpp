@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <memory>
 
-#include "command_line.h"
+#include "arguments/command_line.h"
 
 #include "base/budget.h"
 #include "base/error.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
 #include "base/angle.h"
-#include "false_colour.h"
+#include "plots/false_colour.h"
 #include "print.h"
 
 namespace vesper::commands {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "canvas.h"
 #include "photometry/beam.h"
+#include "plots/canvas.h"
 
 namespace vesper::commands {
 

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "glare_arguments.h"
+#include "arguments/glare_arguments.h"
+#include "arguments/setting_arguments.h"
+#include "arguments/tone_arguments.h"
 #include "render/renderer.h"
-#include "setting_arguments.h"
-#include "tone_arguments.h"
 #include "traced_light.h"
 
 namespace vesper::commands {

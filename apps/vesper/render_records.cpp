@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
+#include "arguments/picture_arguments.h"
 #include "base/parallel.h"
-#include "picture_arguments.h"
 #include "print.h"
 #include "statistics.h"
 

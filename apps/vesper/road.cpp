@@ -3,9 +3,10 @@
 #include <memory>
 #include <optional>
 
-#include "command_line.h"
+#include "arguments/command_line.h"
 
-#include "arguments.h"
+#include "arguments/arguments.h"
+#include "arguments/thread_arguments.h"
 #include "base/error.h"
 #include "commands.h"
 #include "io/file_gate.h"
@@ -17,7 +18,6 @@
 #include "roads/layout_file.h"
 #include "roads/layout_scene.h"
 #include "scene/gltf_save.h"
-#include "thread_arguments.h"
 
 namespace vesper::commands {
 namespace {

@@ -1,9 +1,9 @@
 // Pictures of a rendered road. SPDX-License-Identifier: MIT
 #include <algorithm>
 
-#include "arguments.h"
-#include "false_colour.h"
+#include "arguments/arguments.h"
 #include "io/image_file.h"
+#include "plots/false_colour.h"
 #include "print.h"
 #include "road_render.h"
 #include "road_view.h"

@@ -5,8 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "arguments.h"
-#include "canvas.h"
+#include "arguments/arguments.h"
+#include "plots/canvas.h"
 #include "print.h"
 
 namespace vesper::commands {

@@ -4,17 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
+#include "arguments/thread_arguments.h"
+#include "arguments/tone_arguments.h"
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "commands.h"
-#include "false_colour.h"
 #include "io/file_gate.h"
+#include "plots/false_colour.h"
 #include "print.h"
 #include "render/tone_mapper.h"
-#include "thread_arguments.h"
-#include "tone_arguments.h"
 #include "vision/display_light.h"
 
 namespace vesper::commands {

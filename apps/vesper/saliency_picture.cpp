@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "base/angle.h"
-#include "false_colour.h"
+#include "plots/false_colour.h"
 #include "print.h"
 #include "saliency.h"
 

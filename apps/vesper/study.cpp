@@ -6,15 +6,15 @@
 #include <functional>
 #include <set>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
+#include "arguments/picture_arguments.h"
+#include "arguments/thread_arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "commands.h"
 #include "io/file_gate.h"
-#include "picture_arguments.h"
 #include "print.h"
-#include "ranks.h"
-#include "thread_arguments.h"
+#include "ranks/ranks.h"
 
 namespace vesper::commands {
 namespace {

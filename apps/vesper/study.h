@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "command_line.h"
-#include "line_plot.h"
+#include "arguments/command_line.h"
+#include "arguments/tone_arguments.h"
+#include "plots/line_plot.h"
 #include "progress.h"
 #include "render/tone_mapper.h"
 #include "study_page.h"
 #include "study_picture.h"
-#include "tone_arguments.h"
 
 namespace vesper::commands {
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <optional>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
 #include "print.h"
 #include "study.h"
 #include "vision/pattanaik.h"

@@ -1,6 +1,6 @@
 // Study: how many bins a histogram needs. SPDX-License-Identifier: MIT
 
-#include "arguments.h"
+#include "arguments/arguments.h"
 #include "print.h"
 #include "study.h"
 

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
-#include "false_colour.h"
+#include "plots/false_colour.h"
 #include "print.h"
 #include "render/passes/saliency.h"
 #include "render/retina.h"

@@ -5,21 +5,21 @@
 #include <set>
 
 #include "approach.h"
-#include "arguments.h"
+#include "arguments/arguments.h"
+#include "arguments/cache_arguments.h"
+#include "arguments/picture_arguments.h"
+#include "arguments/setting_arguments.h"
+#include "arguments/thread_arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "beam_plot.h"
-#include "cache_arguments.h"
 #include "gathered_light.h"
 #include "gpu_scene/cameras.h"
 #include "io/file_gate.h"
-#include "picture_arguments.h"
 #include "print.h"
 #include "scene_notes.h"
-#include "setting_arguments.h"
 #include "sightings.h"
 #include "study.h"
-#include "thread_arguments.h"
 #include "vision/visibility.h"
 
 namespace vesper::commands {

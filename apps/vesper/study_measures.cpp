@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "print.h"
-#include "ranks.h"
+#include "ranks/ranks.h"
 #include "study.h"
 
 namespace vesper::commands {

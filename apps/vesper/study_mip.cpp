@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
 #include "print.h"
 #include "study.h"
 

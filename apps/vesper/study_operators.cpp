@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
 #include "print.h"
 #include "study.h"
 #include "vision/visibility.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "false_colour.h"
+#include "plots/false_colour.h"
 
 namespace vesper::commands {
 namespace {

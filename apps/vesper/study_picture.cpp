@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "arguments/cache_arguments.h"
+#include "arguments/picture_arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
-#include "cache_arguments.h"
 #include "gathered_light.h"
-#include "picture_arguments.h"
 #include "print.h"
 #include "render/renderer.h"
 #include "scene/placement.h"

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "picture_arguments.h"
+#include "arguments/picture_arguments.h"
+#include "arguments/setting_arguments.h"
 #include "render/tone_mapper.h"
-#include "setting_arguments.h"
 
 namespace vesper::commands {
 

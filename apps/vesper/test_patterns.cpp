@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <functional>
 
-#include "arguments.h"
-#include "canvas.h"
+#include "arguments/arguments.h"
 #include "io/image_file.h"
+#include "plots/canvas.h"
 #include "print.h"
 
 namespace vesper::commands {

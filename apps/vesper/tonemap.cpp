@@ -6,19 +6,19 @@
 #include <memory>
 #include <set>
 
+#include "arguments/glare_arguments.h"
+#include "arguments/picture_arguments.h"
+#include "arguments/thread_arguments.h"
+#include "arguments/tone_arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "commands.h"
-#include "glare_arguments.h"
 #include "io/file_gate.h"
 #include "io/hdr_image.h"
 #include "numbered_files.h"
-#include "picture_arguments.h"
 #include "print.h"
 #include "progress.h"
 #include "render/tone_mapper.h"
-#include "thread_arguments.h"
-#include "tone_arguments.h"
 #include "video.h"
 
 namespace vesper::commands {

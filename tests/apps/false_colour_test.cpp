@@ -1,12 +1,12 @@
 // Scales, colours and statistics of pictures. SPDX-License-Identifier: MIT
-#include "false_colour.h"
+#include "plots/false_colour.h"
 
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
 #include "statistics.h"
 
 namespace vesper::test {

@@ -1,6 +1,6 @@
 // What all programs say of themselves: text, whatever is asked; a short first page, and everything on request.
 // SPDX-License-Identifier: MIT
-#include "command_line.h"
+#include "arguments/command_line.h"
 
 #include <functional>
 #include <regex>

@@ -1,10 +1,10 @@
 // How many threads programs use: what wins, and what ranks take. SPDX-License-Identifier: MIT
-#include "thread_arguments.h"
+#include "arguments/thread_arguments.h"
 
 #include <gtest/gtest.h>
 
 #include "base/parallel.h"
-#include "ranks.h"
+#include "ranks/ranks.h"
 #include "support/program.h"
 
 namespace vesper::test {

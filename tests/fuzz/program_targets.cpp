@@ -7,9 +7,9 @@
 #include <type_traits>
 #include <vector>
 
+#include "arguments/glare_arguments.h"
 #include "channels/channels.h"
 #include "fuzz/targets.h"
-#include "glare_arguments.h"
 #include "result.h"
 #include "session/drive_file.h"
 #include "tone_log.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "packet.h"
+#include "ranks/packet.h"
 
 namespace vesper::drive {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
 #include "print.h"
 
 namespace vesper::drive {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "line_plot.h"
+#include "plots/line_plot.h"
 #include "render/seen_obstacles.h"
 
 namespace vesper::drive {

@@ -5,14 +5,14 @@
 #include <cstdlib>
 #include <utility>
 
+#include "arguments/glare_arguments.h"
+#include "arguments/obstacle_arguments.h"
+#include "arguments/tone_arguments.h"
 #include "base/error.h"
 #include "base/luminance.h"
 #include "base/one_line.h"
-#include "glare_arguments.h"
-#include "obstacle_arguments.h"
 #include "print.h"
 #include "statistics.h"
-#include "tone_arguments.h"
 
 namespace vesper::drive {
 namespace {

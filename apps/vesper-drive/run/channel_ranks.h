@@ -9,7 +9,7 @@
 #include "channels/channel_link.h"
 #include "channels/channels.h"
 #include "osi/message.h"
-#include "ranks.h"
+#include "ranks/ranks.h"
 #include "record/drive_log.h"
 #include "session/session.h"
 

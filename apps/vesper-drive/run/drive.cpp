@@ -4,19 +4,19 @@
 #include <cstdlib>
 #include <memory>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
+#include "arguments/cache_arguments.h"
+#include "arguments/obstacle_arguments.h"
+#include "arguments/picture_arguments.h"
+#include "arguments/setting_arguments.h"
+#include "arguments/thread_arguments.h"
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/one_line.h"
-#include "cache_arguments.h"
 #include "io/file_gate.h"
-#include "obstacle_arguments.h"
 #include "osi/receiver.h"
 #include "own_data.h"
-#include "picture_arguments.h"
-#include "ranks.h"
-#include "setting_arguments.h"
-#include "thread_arguments.h"
+#include "ranks/ranks.h"
 
 namespace vesper::drive {
 namespace {

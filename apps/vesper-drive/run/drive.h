@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "command_line.h"
+#include "arguments/command_line.h"
 
 #include "record/detection.h"
 #include "session/drive_file.h"

@@ -4,20 +4,21 @@
 #include <memory>
 #include <optional>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
+#include "arguments/cache_arguments.h"
+#include "arguments/obstacle_arguments.h"
+#include "arguments/picture_arguments.h"
+#include "arguments/tone_arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
-#include "cache_arguments.h"
-#include "frame_relay.h"
 #include "gathered_light.h"
 #include "io/file_gate.h"
 #include "io/image_file.h"
 #include "numbered_files.h"
-#include "obstacle_arguments.h"
 #include "own_data.h"
-#include "picture_arguments.h"
 #include "print.h"
 #include "progress.h"
+#include "ranks/frame_relay.h"
 #include "record/drive_log.h"
 #include "record/hatching.h"
 #include "record/playback.h"
@@ -27,7 +28,6 @@
 #include "session/drive_file.h"
 #include "session/message_feed.h"
 #include "session/session.h"
-#include "tone_arguments.h"
 #include "video.h"
 
 namespace vesper::drive {

@@ -5,12 +5,12 @@
 #include <memory>
 #include <set>
 
-#include "arguments.h"
+#include "arguments/arguments.h"
+#include "arguments/setting_arguments.h"
+#include "arguments/tone_arguments.h"
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/one_line.h"
-#include "setting_arguments.h"
-#include "tone_arguments.h"
 
 namespace vesper::drive {
 namespace {

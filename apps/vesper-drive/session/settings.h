@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "command_line.h"
-#include "setting_arguments.h"
+#include "arguments/command_line.h"
+#include "arguments/setting_arguments.h"
 
 #include "render/renderer.h"
 

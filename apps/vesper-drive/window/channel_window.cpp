@@ -1,10 +1,10 @@
 #include "window/channel_window.h"
 
-#include "arguments.h"
+#include "arguments/arguments.h"
+#include "arguments/cache_arguments.h"
+#include "arguments/picture_arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
-#include "cache_arguments.h"
-#include "picture_arguments.h"
 #include "print.h"
 #include "record/drive_log.h"
 #include "run/channel_ranks.h"

@@ -5,10 +5,10 @@
 
 #include <imgui.h>
 
+#include "arguments/tone_arguments.h"
 #include "base/luminance.h"
 #include "print.h"
 #include "render/passes/operators.h"
-#include "tone_arguments.h"
 #include "window/panel_layout.h"
 #include "window/plot.h"
 

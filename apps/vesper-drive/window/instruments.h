@@ -12,7 +12,7 @@
 #include "window/input_devices.h"
 #include "window/screen.h"
 
-#include "false_colour.h"
+#include "plots/false_colour.h"
 
 namespace vesper::drive {
 

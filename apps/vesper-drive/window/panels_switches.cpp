@@ -5,8 +5,8 @@
 #include <imgui.h>
 #include "print.h"
 
+#include "arguments/tone_arguments.h"
 #include "render/passes/operators.h"
-#include "tone_arguments.h"
 #include "vision/display.h"
 #include "window/instruments.h"
 

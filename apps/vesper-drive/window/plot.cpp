@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "canvas.h"
+#include "plots/canvas.h"
 
 namespace vesper::drive {
 namespace {

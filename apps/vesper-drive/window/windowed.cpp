@@ -10,17 +10,17 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include "arguments/cache_arguments.h"
+#include "arguments/obstacle_arguments.h"
+#include "arguments/picture_arguments.h"
+#include "arguments/tone_arguments.h"
 #include "base/angle.h"
 #include "base/error.h"
 #include "base/one_line.h"
-#include "cache_arguments.h"
-#include "obstacle_arguments.h"
-#include "picture_arguments.h"
 #include "print.h"
 #include "record/hatching.h"
 #include "render/passes/operators.h"
 #include "scaled_picture.h"
-#include "tone_arguments.h"
 #include "window/channel_window.h"
 
 namespace vesper::drive {

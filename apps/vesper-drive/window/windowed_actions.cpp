@@ -3,10 +3,10 @@
 #include <cmath>
 #include <filesystem>
 
+#include "arguments/tone_arguments.h"
 #include "base/error.h"
 #include "print.h"
 #include "render/passes/operators.h"
-#include "tone_arguments.h"
 #include "window/windowed.h"
 
 namespace vesper::drive {

@@ -1,8 +1,8 @@
 // Obstacles that are watched from a window, and its log. SPDX-License-Identifier: MIT
 #include <algorithm>
 
+#include "arguments/obstacle_arguments.h"
 #include "base/error.h"
-#include "obstacle_arguments.h"
 #include "window/windowed.h"
 
 namespace vesper::drive {

@@ -40,8 +40,10 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"graph", {"base", "gpu"}},
     {"gpu_scene", {"base", "photometry", "vision", "scene", "rays", "transport", "gpu", "glsl"}},
     {"render", {"base", "photometry", "vision", "scene", "transport", "gpu", "graph", "gpu_scene", "glsl"}},
+    {"analysis", {"base", "io", "photometry", "vision", "gpu", "graph", "gpu_scene", "render"}},
     {"api",
-     {"base", "io", "photometry", "vision", "scene", "transport", "gpu", "graph", "gpu_scene", "render", "glsl"}},
+     {"base", "io", "photometry", "vision", "scene", "transport", "gpu", "graph", "gpu_scene", "render", "analysis",
+      "glsl"}},
 };
 
 std::string text_of(const fs::path& file) {
@@ -137,6 +139,7 @@ TEST(Layering, TheRulesRefuse) {
     EXPECT_NE(objection("io/image_file.h", "scene/scene.h"), "");
     EXPECT_EQ(objection("render/passes/a.cpp", "graph/plan.h"), "");
     EXPECT_EQ(objection("api/a.cpp", "io/image_file.h"), "");
+    EXPECT_NE(objection("render/passes/a.cpp", "analysis/visual_channels.h"), "") << "no frame needs it";
     EXPECT_NE(objection("renderer.cpp", "io/image_file.h"), "") << "has no layer";
 }
 

@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "analysis/picture_metrics.h"
+#include "analysis/visible_differences.h"
 #include "arguments/arguments.h"
 #include "arguments/thread_arguments.h"
 #include "base/angle.h"
@@ -19,8 +21,6 @@
 #include "plots/share_map.h"
 #include "print.h"
 #include "render/retina.h"
-#include "vision/picture_metrics.h"
-#include "vision/visible_differences.h"
 
 namespace vesper::commands {
 namespace {
@@ -34,13 +34,13 @@ const std::map<std::string, const char*> kOptics{
 struct CompareArguments {
     std::string first, second, picture, json, device, glare = "cie";
     CompareSource source;
-    double age = vision::ContrastEye{}.age, iris = vision::ScatteringEye{}.pigmentation;
+    double age = analysis::ContrastEye{}.age, iris = vision::ScatteringEye{}.pigmentation;
     double fail_above = 1;
     unsigned threads = 0;
 };
 
 struct Comparison {
-    vision::VisibleDifferences seen;
+    analysis::VisibleDifferences seen;
     std::vector<float> first;  // luminances of the first picture, cd/m^2
     vision::ImageAngles angles;
     double pixels_per_degree = 0, log_rmse = 0, psnr = 0;
@@ -54,7 +54,7 @@ Comparison compare(const CompareArguments& a, const ComparedPicture& first, cons
     const vision::ScatteringEye scatters{a.age, a.iris};
     std::optional<gpu_scene::ScatterSettings> eye;
     if (a.glare == "cie") eye = {.eye = scatters};
-    vision::ContrastEye sees{.age = a.age};
+    analysis::ContrastEye sees{.age = a.age};
     if (a.glare != "none") sees.scatters = scatters;
     const render::HostPicture host1{.extent = first.extent, .values = first.rgb, .angles = &angles},
         host2{.extent = second.extent, .values = second.rgb, .angles = &angles};
@@ -64,12 +64,12 @@ Comparison compare(const CompareArguments& a, const ComparedPicture& first, cons
     Comparison made;
     made.angles = angles;
     made.pixels_per_degree = render::pixels_per_degree(host1);
-    made.seen = vision::visible_differences({width, height, made.pixels_per_degree, retina1, retina2}, sees);
+    made.seen = analysis::visible_differences({width, height, made.pixels_per_degree, retina1, retina2}, sees);
     made.first = render::retinal_luminance(mapper, host1, {});
     const std::vector<float> plain = render::retinal_luminance(mapper, host2, {});  // without an eye
-    made.log_rmse = vision::log_rmse(made.first, plain);
-    made.psnr = vision::pu21_psnr(made.first, plain);
-    made.ssim = vision::pu21_ssim(made.first, plain, width, height);
+    made.log_rmse = analysis::log_rmse(made.first, plain);
+    made.psnr = analysis::pu21_psnr(made.first, plain);
+    made.ssim = analysis::pu21_ssim(made.first, plain, width, height);
     return made;
 }
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "analysis/display_light.h"
+#include "analysis/visual_channels.h"
 #include "arguments/tone_arguments.h"
 #include "base/angle.h"
 #include "base/error.h"
@@ -13,14 +15,12 @@
 #include "io/hdr_image.h"
 #include "io/read_file.h"
 #include "print.h"
-#include "vision/display_light.h"
-#include "vision/visual_channels.h"
 
 namespace vesper::commands {
 namespace {
 
 constexpr uint64_t kMostBytes = uint64_t{1} << 30, kSignatureBytes = 16;  // of a PNG
-io::HdrLimits limits() { return {.max_pixels = scaled_limit(vision::kMostChannelPixels)}; }
+io::HdrLimits limits() { return {.max_pixels = scaled_limit(analysis::kMostChannelPixels)}; }
 
 // About the eye's axis; none without an angle, degrees in height.
 std::optional<vision::ImageAngles> symmetric(VkExtent2D extent, double fov) {
@@ -41,7 +41,7 @@ ComparedPicture codes(const CompareSource& source, const std::string& file) {
         apps::print_note(one_line(file) +
                          ": its header says that its codes are not those of such a display (--display)");
     return {{image.width, image.height},
-            vision::DisplayLight(display).of_wide(image.rgba),
+            analysis::DisplayLight(display).of_wide(image.rgba),
             symmetric({image.width, image.height}, source.fov),
             true,
             apps::format("codes of a display from %.4g to %.4g cd/m^2", double(display.low()), double(display.high()))};
@@ -80,7 +80,7 @@ ComparedPicture read_compared(const CompareSource& source, const std::string& fi
     uint64_t damaged = 0, bright = 0;  // pixels
     for (size_t i = 0; i < picture.rgb.size(); i += 3) {
         const double l = luminance({picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]});
-        damaged += !std::isfinite(l) || l < 0, bright += std::isfinite(l) && l > vision::JndScale::kMost;
+        damaged += !std::isfinite(l) || l < 0, bright += std::isfinite(l) && l > analysis::JndScale::kMost;
     }
     if (damaged > 0)
         apps::print_note(one_line(file) + ": " + std::to_string(damaged) +
@@ -88,7 +88,7 @@ ComparedPicture read_compared(const CompareSource& source, const std::string& fi
     if (bright > 0)
         apps::print_note(one_line(file) + ": " + std::to_string(bright) +
                          apps::format(" pixels have more than %g cd/m^2, of which no eye sees differences",
-                                      vision::JndScale::kMost));
+                                      analysis::JndScale::kMost));
     return picture;
 }
 

@@ -7,6 +7,7 @@
 
 #include "arguments/command_line.h"
 
+#include "analysis/display_fit.h"
 #include "arguments/arguments.h"
 #include "arguments/picture_arguments.h"
 #include "base/error.h"
@@ -16,7 +17,6 @@
 #include "print.h"
 #include "scene/display_file.h"
 #include "test_patterns.h"
-#include "vision/display_fit.h"
 
 namespace vesper::commands {
 namespace {
@@ -61,11 +61,11 @@ void run_fit(const FitArguments& a) {
     if (!a.output.ends_with(".json")) throw Error("-o " + one_line(a.output) + ": a .json file is expected");
     io::announce_read(a.measurements);
     io::announce_write("-o", a.output);
-    const auto measured = vision::read_display_measurements(a.measurements, a.bits);
-    vision::DisplayFit fit;
+    const auto measured = analysis::read_display_measurements(a.measurements, a.bits);
+    analysis::DisplayFit fit;
     try {
-        fit = a.kind == "auto" ? vision::fit_display(measured, a.bits)
-                               : vision::fit_display(measured, a.bits, kKinds.at(a.kind));
+        fit = a.kind == "auto" ? analysis::fit_display(measured, a.bits)
+                               : analysis::fit_display(measured, a.bits, kKinds.at(a.kind));
         fit.display.ambient = a.ambient, fit.display.reflection = a.reflection;
         fit.display.primaries = kPrimaries.at(a.primaries);
         vision::check_display(fit.display);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/display_light.h"
 #include "arguments/arguments.h"
 #include "arguments/thread_arguments.h"
 #include "arguments/tone_arguments.h"
@@ -15,7 +16,6 @@
 #include "plots/false_colour.h"
 #include "print.h"
 #include "render/tone_mapper.h"
-#include "vision/display_light.h"
 
 namespace vesper::commands {
 namespace {
@@ -29,10 +29,10 @@ struct SaliencyArguments {
     apps::ToneArguments tone;
 };
 
-std::vector<vision::Fixation> places_of(const render::SaliencyMap& map, const SaliencyFindings& found,
-                                        const SaliencyArguments& a) {
-    return vision::fixations({map.extent.width, map.extent.height, map.texel, map.values}, found.angles,
-                             a.radius * kRadiansPerDegree, a.places);
+std::vector<analysis::Fixation> places_of(const analysis::SaliencyMap& map, const SaliencyFindings& found,
+                                          const SaliencyArguments& a) {
+    return analysis::fixations({map.extent.width, map.extent.height, map.texel, map.values}, found.angles,
+                               a.radius * kRadiansPerDegree, a.places);
 }
 
 /// Luminances of the texel about a place.
@@ -49,23 +49,23 @@ void measure(SalientPlace& place, const StudyPicture& picture, double texel) {
 }
 
 void compare(SaliencyFindings& found, const SaliencyArguments& a) {
-    const std::vector<vision::Fixation> scene = places_of(found.scene, found, a),
-                                        display = places_of(found.display, found, a);
+    const std::vector<analysis::Fixation> scene = places_of(found.scene, found, a),
+                                          display = places_of(found.display, found, a);
     found.display_places = display.size();
-    for (const vision::Fixation& fixation : scene) {
+    for (const analysis::Fixation& fixation : scene) {
         SalientPlace place{.pixels = fixation.pixels,
                            .degrees = glm::atan(found.angles.at(fixation.pixels)) / kRadiansPerDegree,
                            .saliency = fixation.value / scene.front().value,
                            .on_display = {}};
         measure(place, *found.picture, found.scene.texel);
-        const auto same = std::ranges::find_if(display, [&](const vision::Fixation& other) {
-            return vision::angle_between(found.angles, fixation.pixels, other.pixels) <=
+        const auto same = std::ranges::find_if(display, [&](const analysis::Fixation& other) {
+            return analysis::angle_between(found.angles, fixation.pixels, other.pixels) <=
                    found.radius * kRadiansPerDegree;
         });
         if (same != display.end()) place.on_display = size_t(same - display.begin()) + 1;
         found.places.push_back(place);
     }
-    found.rank_correlation = vision::rank_correlation(found.scene.values, found.display.values);
+    found.rank_correlation = analysis::rank_correlation(found.scene.values, found.display.values);
 }
 
 void print_findings(const SaliencyFindings& found) {
@@ -108,7 +108,7 @@ void run(const SaliencyArguments& a) {
         .scene = {},
         .display = {},
         .places = {}};
-    render::SaliencyMapper mapper(device);
+    analysis::SaliencyMapper mapper(device);
     try {
         found.scene = mapper.map(picture.host());
     } catch (const Error& error) {
@@ -119,7 +119,7 @@ void run(const SaliencyArguments& a) {
                                       one_line(a.input).c_str(), found.scene.pairs));
     render::ToneMapper tone(device);
     const render::ToneMapped shown = tone.map(settings, picture.host(), 0);
-    const std::vector<float> light = vision::DisplayLight(settings.display).of_words(shown.display);
+    const std::vector<float> light = analysis::DisplayLight(settings.display).of_words(shown.display);
     found.display = mapper.map(picture.like(light, 3, 1));
     compare(found, a);
     if (values)

@@ -7,9 +7,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "render/saliency_mapper.h"
+#include "analysis/fixations.h"
+#include "analysis/saliency_mapper.h"
 #include "study_picture.h"
-#include "vision/fixations.h"
 
 namespace vesper::commands {
 
@@ -27,7 +27,7 @@ struct SaliencyFindings {
     const StudyPicture* picture = nullptr;
     vision::ImageAngles angles;
     double radius = 0;  ///< of inhibition, degrees
-    render::SaliencyMap scene, display;
+    analysis::SaliencyMap scene, display;
     std::vector<SalientPlace> places;
     size_t display_places = 0;
     std::optional<double> rank_correlation;

@@ -13,7 +13,7 @@ namespace {
 const apps::ColourScale kShares{0.1, 1};  ///< of the saliency of the first place
 
 /// The map at a point of the picture, px: linear between the middles of texels.
-double map_at(const render::SaliencyMap& map, glm::dvec2 pixels) {
+double map_at(const analysis::SaliencyMap& map, glm::dvec2 pixels) {
     const glm::dvec2 last(map.extent.width - 1, map.extent.height - 1);
     const glm::dvec2 at = glm::clamp(pixels / map.texel - 0.5, glm::dvec2(0), last), first = glm::floor(at);
     const glm::dvec2 next = glm::min(first + 1.0, last), part = at - first;
@@ -58,8 +58,8 @@ void save_saliency(const std::string& file, const SaliencyFindings& found) {
     canvas.pixels(16, 64, width, height, heat(found, width, height));
     for (size_t i = 0; i < found.places.size(); ++i) {
         const SalientPlace& place = found.places[i];
-        const double degree = kRadiansPerDegree / vision::angle_between(found.angles, place.pixels - 0.5,
-                                                                        place.pixels + glm::dvec2(0.5, -0.5));
+        const double degree = kRadiansPerDegree / analysis::angle_between(found.angles, place.pixels - 0.5,
+                                                                          place.pixels + glm::dvec2(0.5, -0.5));
         const glm::dvec2 at = corner + place.pixels * zoom;
         const apps::CanvasColour colour = place.on_display ? apps::CanvasColour(1) : apps::CanvasColour(1, 0.35, 0.3);
         canvas.circle(at, found.radius * degree * zoom, colour, 1.5);

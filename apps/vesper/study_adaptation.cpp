@@ -2,10 +2,10 @@
 #include <cmath>
 #include <optional>
 
+#include "analysis/pattanaik.h"
 #include "arguments/arguments.h"
 #include "print.h"
 #include "study.h"
-#include "vision/pattanaik.h"
 
 namespace vesper::commands {
 namespace {
@@ -48,14 +48,14 @@ Sensitivity of_eye(const render::ToneMapped& got, const vision::Observer& observ
 /// needs a difference in inverse proportion to its slope.
 Sensitivity of_lagging(const render::ToneMapped& got, double luminance) {
     const auto slope = [&](double adaptation, double pigment) {
-        using vision::pattanaik::kExponent;
-        const double x = std::pow(luminance / vision::pattanaik::cone_sigma(adaptation), kExponent);
+        using analysis::pattanaik::kExponent;
+        const double x = std::pow(luminance / analysis::pattanaik::cone_sigma(adaptation), kExponent);
         return pigment * kExponent * x / (luminance * (1 + x) * (1 + x));
     };
     const double adaptation = double(got.eye.pattanaik.cones), pigment = double(got.eye.pattanaik.cone_pigment);
-    const vision::pattanaik::State adapted = vision::pattanaik::adapted(luminance, luminance);
+    const analysis::pattanaik::State adapted = analysis::pattanaik::adapted(luminance, luminance);
     return {pigment,
-            vision::pattanaik::cone_sigma(adaptation),
+            analysis::pattanaik::cone_sigma(adaptation),
             {},
             slope(adapted.cones, adapted.cone_pigment) / slope(adaptation, pigment)};
 }

@@ -2,6 +2,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/contrast_fidelity.h"
+#include "analysis/display_light.h"
+#include "analysis/fixations.h"
+#include "analysis/saliency_mapper.h"
 #include "arguments/arguments.h"
 #include "base/error.h"
 #include "base/one_line.h"
@@ -9,12 +13,8 @@
 #include "print.h"
 #include "render/passes/saliency.h"
 #include "render/retina.h"
-#include "render/saliency_mapper.h"
 #include "scene/display_file.h"
 #include "study.h"
-#include "vision/contrast_fidelity.h"
-#include "vision/display_light.h"
-#include "vision/fixations.h"
 
 namespace vesper::commands {
 namespace {
@@ -47,21 +47,21 @@ std::vector<NamedScreen> screens_of(const Study& study) {
 /// A scene as its eye sees it.
 struct SeenScene {
     std::vector<float> retina;  ///< cd/m^2
-    render::SaliencyMap saliency;
+    analysis::SaliencyMap saliency;
     double pixels_per_degree = 0;
 };
 
 class Eye {
 public:
-    Eye(Study& study, render::SaliencyMapper& saliency) : study_(study), saliency_(saliency) {}
+    Eye(Study& study, analysis::SaliencyMapper& saliency) : study_(study), saliency_(saliency) {}
 
     std::vector<float> retina(const render::HostPicture& picture) const {
         return render::retinal_luminance(study_.mapper, picture,
                                          gpu_scene::ScatterSettings{.eye = study_.settings.scatter.eye});
     }
     /// Without a map where a picture is too small for one.
-    render::SaliencyMap saliency(const render::HostPicture& picture) const {
-        return render::saliency_pairs(picture.extent).empty() ? render::SaliencyMap{} : saliency_.map(picture);
+    analysis::SaliencyMap saliency(const render::HostPicture& picture) const {
+        return render::saliency_pairs(picture.extent).empty() ? analysis::SaliencyMap{} : saliency_.map(picture);
     }
     SeenScene scene(const StudyPicture& picture) const {
         try {
@@ -73,7 +73,7 @@ public:
 
 private:
     Study& study_;
-    render::SaliencyMapper& saliency_;
+    analysis::SaliencyMapper& saliency_;
 };
 
 std::string name_of_file(const StudyPicture& picture, const std::string& display, render::Operator op) {
@@ -84,7 +84,7 @@ std::string name_of_file(const StudyPicture& picture, const std::string& display
 
 /// Lost, invented and amplified contrast in their colours over the scene in dim greys.
 void save_map(const std::string& file, const StudyPicture& picture, const SeenScene& scene,
-              const vision::ContrastFidelity& found) {
+              const analysis::ContrastFidelity& found) {
     constexpr uint32_t kWidest = 840;
     const VkExtent2D full = picture.extent;
     const double zoom = std::min(1.0, double(kWidest) / full.width);
@@ -128,17 +128,17 @@ void study_fidelity(Study& study) {
         if (!picture.is_absolute)
             throw Error(one_line(picture.name) +
                         ": its unit and its angle are needed: --scale N, cd/m^2 of its 1.0, and --fov DEGREES");
-    render::SaliencyMapper saliency(study.device);
+    analysis::SaliencyMapper saliency(study.device);
     const Eye eye(study, saliency);
     const vision::ScatteringEye& scatters = study.settings.scatter.eye;
-    const vision::ContrastEye contrast_eye{.age = scatters.age, .scatters = scatters};
+    const analysis::ContrastEye contrast_eye{.age = scatters.age, .scatters = scatters};
     study.page.paragraph(
         format("An observer of %g years, adapted to the scene and to the display in turn. Shares of all places and "
                "octaves of frequency. Seen: contrast of at least %g thresholds in the scene. Lost: seen in the scene, "
                "below one threshold on the display. Invented: the reverse. Amplified: seen in the scene, and at least "
                "%g times as many thresholds on the display. Saliency: rank correlation of what draws the eye in the "
                "scene and on the display.",
-               contrast_eye.age, vision::kSeen, vision::kAmplified));
+               contrast_eye.age, analysis::kSeen, analysis::kAmplified));
     std::vector<SeenScene> scenes;
     for (const StudyPicture& picture : study.pictures) scenes.push_back(eye.scene(picture));
     const size_t of_picture = screens.size() * ops.size();
@@ -150,14 +150,15 @@ void study_fidelity(Study& study) {
         render::ToneChainSettings settings = study.settings;
         settings.tone_operator = op, settings.display = display;
         const render::ToneMapped got = study.map(picture, settings);
-        const std::vector<float> light = vision::DisplayLight(display).of_words(got.display);
+        const std::vector<float> light = analysis::DisplayLight(display).of_words(got.display);
         const render::HostPicture shown = picture.like(light, 3, 1);
         const std::vector<float> retina = eye.retina(shown);
-        const vision::ContrastFidelity found = vision::contrast_fidelity(
+        const analysis::ContrastFidelity found = analysis::contrast_fidelity(
             {picture.extent.width, picture.extent.height, scene.pixels_per_degree, scene.retina, retina}, contrast_eye);
-        const std::optional<double> kept = vision::rank_correlation(scene.saliency.values, eye.saliency(shown).values);
-        const double seen = vision::mean_of(found.seen), lost = vision::mean_of(found.lost),
-                     invented = vision::mean_of(found.invented), amplified = vision::mean_of(found.amplified);
+        const std::optional<double> kept =
+            analysis::rank_correlation(scene.saliency.values, eye.saliency(shown).values);
+        const double seen = analysis::mean_of(found.seen), lost = analysis::mean_of(found.lost),
+                     invented = analysis::mean_of(found.invented), amplified = analysis::mean_of(found.amplified);
         const std::string name = name_of_file(picture, display_name, op), op_name = apps::name_of(op);
         StudyPart part;
         part.rows.push_back({picture.name, display_name, op_name, format("%.4f", seen), format("%.4f", lost),

@@ -1,20 +1,20 @@
 // Figures of pictures for an observer. SPDX-License-Identifier: MIT
 #include <vesper/vision.h>
 
+#include "analysis/contrast_fidelity.h"
+#include "analysis/display_light.h"
+#include "analysis/saliency_mapper.h"
+#include "analysis/visible_differences.h"
 #include "api/handles.h"
 #include "base/angle.h"
 #include "render/passes/saliency.h"
 #include "render/retina.h"
-#include "render/saliency_mapper.h"
-#include "vision/contrast_fidelity.h"
-#include "vision/display_light.h"
 #include "vision/visibility.h"
-#include "vision/visible_differences.h"
 
 struct VesperVision {
     explicit VesperVision(vesper::gpu::Device& device) : eye(device), saliency(device) {}
     vesper::render::ToneMapper eye;  // scatters light
-    vesper::render::SaliencyMapper saliency;
+    vesper::analysis::SaliencyMapper saliency;
 };
 
 namespace vesper::api {
@@ -42,16 +42,16 @@ double density_of(const render::HostPicture& picture) {
 struct SeenPair {
     VkExtent2D extent;
     double pixels_per_degree;
-    vision::ContrastEye eye;
+    analysis::ContrastEye eye;
     std::vector<float> first, second;
 
-    vision::PicturePair pictures() const { return {extent.width, extent.height, pixels_per_degree, first, second}; }
+    analysis::PicturePair pictures() const { return {extent.width, extent.height, pixels_per_degree, first, second}; }
 };
 
 SeenPair see(VesperVision* by, const VesperObserver* observer, const VesperPicture* first,
              const VesperPicture* second) {
     require(by, kNoVision);
-    const vision::ContrastEye usual;
+    const analysis::ContrastEye usual;
     const VesperObserver o = observer ? known(observer, "an observer without its size")
                                       : VesperObserver{.size = sizeof o,
                                                        .age = float(usual.age),
@@ -63,8 +63,8 @@ SeenPair see(VesperVision* by, const VesperObserver* observer, const VesperPictu
     const render::HostPicture a = picture_of(first, first_angles), b = picture_of(second, second_angles);
     require(a.extent.width == b.extent.width && a.extent.height == b.extent.height,
             "pictures that are compared have one size");
-    static_assert(vision::kMostChannelPixels == 16777216);
-    require(uint64_t{a.extent.width} * a.extent.height <= vision::kMostChannelPixels,
+    static_assert(analysis::kMostChannelPixels == 16777216);
+    require(uint64_t{a.extent.width} * a.extent.height <= analysis::kMostChannelPixels,
             "pictures of at most 16777216 pixels are compared");
     const double density = density_of(a);
     require(std::abs(density_of(b) - density) <= 1e-3 * density, "pictures that are compared cover one angle");
@@ -96,7 +96,7 @@ VesperResult vesper_visible_differences(VesperVision* by, const VesperObserver* 
     return guarded(error, [&] {
         if (found) known(found, "differences without their size");
         const SeenPair pair = see(by, observer, first, second);
-        const vision::VisibleDifferences seen = vision::visible_differences(pair.pictures(), pair.eye);
+        const analysis::VisibleDifferences seen = analysis::visible_differences(pair.pictures(), pair.eye);
         give(seen.probability, probability);
         if (!found) return;
         give_known(VesperDifferences{.size = sizeof(VesperDifferences),
@@ -115,7 +115,7 @@ VesperResult vesper_contrast_fidelity(VesperVision* by, const VesperObserver* ob
     return guarded(error, [&] {
         const VesperFidelity to = known(maps, "maps of fidelity without their size");
         const SeenPair pair = see(by, observer, scene, shown);
-        const vision::ContrastFidelity kept = vision::contrast_fidelity(pair.pictures(), pair.eye);
+        const analysis::ContrastFidelity kept = analysis::contrast_fidelity(pair.pictures(), pair.eye);
         give(kept.seen, to.seen), give(kept.lost, to.lost);
         give(kept.invented, to.invented), give(kept.amplified, to.amplified);
     });
@@ -138,7 +138,7 @@ VesperResult vesper_light_of_codes(const VesperToneSettings* settings, uint32_t 
         require(codes && light, "the pointer to the codes, or to their light, is null");
         const VkExtent2D extent = extent_of(width, height);
         scene::DisplayFinder displays;
-        const vision::DisplayLight of_display(settings_of(settings, displays).display);
+        const analysis::DisplayLight of_display(settings_of(settings, displays).display);
         give(of_display.of_words({codes, size_t{extent.width} * extent.height * 4}), light);
     });
 }

@@ -1,4 +1,4 @@
-// Visual adaptation after Pattanaik, Tumblin, Yee and Greenberg 2000 (vision/pattanaik.h): responses of cones and rods
+// Visual adaptation after Pattanaik, Tumblin, Yee and Greenberg 2000 (analysis/pattanaik.h): responses of cones and rods
 // and the exponent of colour, as a table over ln luminance. Settings: the constant of the rods.
 
 #define PATTANAIK_MAPPED

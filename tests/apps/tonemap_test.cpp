@@ -3,11 +3,11 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/relative_picture.h"
 #include "io/read_file.h"
 #include "print.h"
 #include "support/exr_files.h"
 #include "support/program.h"
-#include "vision/relative_picture.h"
 
 namespace vesper::test {
 namespace {
@@ -146,7 +146,7 @@ TEST_F(TonemapProgram, TheUnitIsTheFilesOrTheOneGiven) {
 // The number that is printed is the one that is used and kept, and gives the same picture again.
 TEST_F(TonemapProgram, PicturesWithoutAUnitAreScaled) {
     const HdrImage image = street(60, 40);
-    const double scale = vision::plausible_scale(vision::relative_luminance(image.rgb));
+    const double scale = analysis::plausible_scale(analysis::relative_luminance(image.rgb));
     const std::string number = format("%.6g", scale);
     write_layout(folder / "a.exr", image, {});
     ASSERT_EQ(tonemap("a.exr -o a.png -o on-display.exr"), 0) << said;
@@ -180,7 +180,7 @@ TEST_F(TonemapProgram, PicturesWithoutAUnitAreScaled) {
 TEST_F(TonemapProgram, ExposureMultipliesEveryScale) {
     write_layout(folder / "a.exr", street(60, 40), {});
     write_layout(folder / "b.exr", street(60, 40), {.white_luminance = 40});
-    const double scale = vision::plausible_scale(vision::relative_luminance(street(60, 40).rgb));
+    const double scale = analysis::plausible_scale(analysis::relative_luminance(street(60, 40).rgb));
     const std::pair<std::string, double> all[]{{"a.exr --exposure -1.5", scale * std::exp2(-1.5)},
                                                {"a.exr --scale 100 --exposure 2", 400},
                                                {"b.exr --exposure 1", 80},
@@ -246,7 +246,7 @@ TEST_F(TonemapProgram, TheScaleOfASequenceStays) {
     ASSERT_EQ(tonemap("f%d.exr --fps 30 -o o%d.exr"), 0) << said;
     const std::string first = scale_of("o1.exr");
     EXPECT_EQ(scale_of("o0.exr"), "1") << "black whatever its scale";
-    EXPECT_EQ(first, format("%.6g", vision::plausible_scale(vision::relative_luminance(street(30, 20).rgb))));
+    EXPECT_EQ(first, format("%.6g", analysis::plausible_scale(analysis::relative_luminance(street(30, 20).rgb))));
     EXPECT_EQ(scale_of("o2.exr"), first);
     EXPECT_EQ(scale_of("o3.exr"), "10");
     EXPECT_EQ(scale_of("o4.exr"), first);

@@ -100,7 +100,19 @@ if(features)
 endif()
 add_executable(stranger ../examples/tone-mapper/main.cpp)
 target_link_libraries(stranger PRIVATE vesper::vesper)
+add_executable(sees sees.cpp)
+target_link_libraries(sees PRIVATE vesper::analysis)
 CMAKE
+cat >stranger/sees.cpp <<'CPP'
+#include <cstdio>
+#include <vesper/vision.h>
+int main() {
+    const float luminance = 1.5f, background = 1;
+    float level = 0;
+    if (vesper_visibility_levels(nullptr, 1, &luminance, &background, &level, nullptr) != VESPER_OK) return 1;
+    std::printf("%.3f\n", level);
+}
+CPP
 mkdir asks
 printf 'cmake_minimum_required(VERSION 3.24)\nproject(asks LANGUAGES CXX)\nfind_package(vesper CONFIG REQUIRED COMPONENTS shared opengl)\n' >asks/CMakeLists.txt
 if cmake -S asks -B built-asks -DCMAKE_PREFIX_PATH="$work/installed" >/dev/null 2>message; then echo "a component that is not there is found"; exit 1; fi
@@ -109,6 +121,10 @@ cmake -S stranger -B built-static -DCMAKE_PREFIX_PATH="$work/installed" -DCMAKE_
 cmake --build built-static >/dev/null
 built-static/stranger | diff - tone.txt
 ldd built-static/stranger | grep libvesper && { echo "that is not static"; exit 1; }
+# Adrian 1989 at 1 cd/m2, for 10', 0.2 s, 23 years: a threshold of 0.0807713 cd/m2.
+[[ $(built-static/sees) == 6.190 ]]
+"${CXX:-c++}" -std=c++17 -O2 stranger/sees.cpp -o sees_static $(pkg-config --cflags --libs vesper-static)
+[[ $(./sees_static) == 6.190 ]]
 cmake -S stranger -B built-folder -DVESPER_FOLDER="$source" -DCMAKE_BUILD_TYPE=Release >/dev/null
 interface=vesper/engine/CMakeFiles/vesper-c.dir/api/device.cpp.o  # of a host that hides what it builds
 cmake --build built-folder --target $interface >/dev/null

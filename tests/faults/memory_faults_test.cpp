@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/display_fit.h"
 #include "faults/child.h"
 #include "faults/faults.h"
 #include "io/exif.h"
@@ -24,7 +25,6 @@
 #include "scene/scene_files.h"
 #include "support/shared_data.h"
 #include "traffic/world_file.h"
-#include "vision/display_fit.h"
 
 namespace vesper::test {
 namespace {

@@ -13,12 +13,12 @@
 
 #include <gtest/gtest.h>
 
+#include "analysis/contrast_fidelity.h"
+#include "analysis/display_light.h"
+#include "analysis/saliency_mapper.h"
+#include "analysis/visible_differences.h"
 #include "render/retina.h"
-#include "render/saliency_mapper.h"
-#include "vision/contrast_fidelity.h"
-#include "vision/display_light.h"
 #include "vision/visibility.h"
-#include "vision/visible_differences.h"
 
 namespace vesper::test {
 namespace {
@@ -129,8 +129,8 @@ TEST_F(CVision, DifferencesAreThoseOfTheEngine) {
         std::optional<gpu_scene::ScatterSettings> eye;
         if (observer != &scattered) eye = {.eye = {age, iris}};
         const Retinae on = retinae(a, b, 0.5f, eye);
-        const auto want = vision::visible_differences({kWidth, kHeight, kPerDegree, on.first, on.second},
-                                                      {.age = age, .scatters = vision::ScatteringEye{age, iris}});
+        const auto want = analysis::visible_differences({kWidth, kHeight, kPerDegree, on.first, on.second},
+                                                        {.age = age, .scatters = vision::ScatteringEye{age, iris}});
         EXPECT_EQ(map, want.probability);
         EXPECT_EQ(differences.x, want.x);
         EXPECT_EQ(differences.y, want.y);
@@ -176,13 +176,13 @@ TEST_F(CVision, FidelityIsThatOfTheEngine) {
             << error.message;
         const Retinae on = retinae(forward ? scene : flat, forward ? flat : scene, 1,
                                    gpu_scene::ScatterSettings{.eye = {70, double(1.2f)}});
-        const auto want = vision::contrast_fidelity({kWidth, kHeight, kPerDegree, on.first, on.second},
-                                                    {.age = 70, .scatters = vision::ScatteringEye{70, double(1.2f)}});
+        const auto want = analysis::contrast_fidelity({kWidth, kHeight, kPerDegree, on.first, on.second},
+                                                      {.age = 70, .scatters = vision::ScatteringEye{70, double(1.2f)}});
         EXPECT_EQ(seen, want.seen);
         EXPECT_EQ(lost, want.lost);
         EXPECT_EQ(invented, want.invented);
         EXPECT_EQ(amplified, want.amplified);
-        EXPECT_EQ(forward, vision::mean_of(lost) > vision::mean_of(invented)) << "a flat display loses the square";
+        EXPECT_EQ(forward, analysis::mean_of(lost) > analysis::mean_of(invented)) << "a flat display loses the square";
     }
     maps.lost = nullptr;
     EXPECT_EQ(vesper_contrast_fidelity(vision, &observer, &a, &b, &maps, &error), VESPER_OK) << error.message;
@@ -191,7 +191,7 @@ TEST_F(CVision, FidelityIsThatOfTheEngine) {
 
 TEST_F(CVision, SaliencyIsThatOfTheEngine) {
     gpu::Device own;
-    render::SaliencyMapper engine(own);
+    analysis::SaliencyMapper engine(own);
     for (const auto& [width, height] : {std::pair{61u, 47u}, {131u, 257u}, {32u, 48u}}) {
         const std::vector<float> rgb = square(40, width, height);
         const VesperPicture picture = described(rgb, width, height);
@@ -297,7 +297,7 @@ TEST(CVisionLuminance, LightOfCodesIsThatOfTheDisplay) {
     ASSERT_EQ(vesper_light_of_codes(&settings, 2, 1, words.data(), light.data(), &error), VESPER_OK) << error.message;
     const auto hdr10 = std::find_if(vision::known_displays().begin(), vision::known_displays().end(),
                                     [](const auto& known) { return std::string(known.name) == "hdr10"; });
-    const std::vector<float> same = vision::DisplayLight(hdr10->display).of_words(words);
+    const std::vector<float> same = analysis::DisplayLight(hdr10->display).of_words(words);
     EXPECT_EQ(std::vector<float>(light.begin(), light.begin() + 6), same);
     EXPECT_GT(light[0], 100 * light[3]);
 

@@ -2,6 +2,7 @@
 
 #include <fstream>
 
+#include "analysis/display_fit.h"
 #include "gpu_scene/projection.h"
 #include "io/exif.h"
 #include "io/hdr_image.h"
@@ -22,7 +23,6 @@
 #include "scene/display_file.h"
 #include "scene/read_scene.h"
 #include "traffic/world_file.h"
-#include "vision/display_fit.h"
 #include "vision/warp_mesh.h"
 
 namespace vesper::test {
@@ -101,7 +101,7 @@ std::map<std::string, FuzzTarget> make_targets() {
                  [](const fs::path& file) { io::read_radiance(file, {.max_side = 512, .max_pixels = kSmall}); })},
         {"display", of_file("x.json", [](const fs::path& file) { scene::read_display(file); })},
         {"display_measurements",
-         of_file("x.csv", [](const fs::path& file) { vision::read_display_measurements(file, 8); })},
+         of_file("x.csv", [](const fs::path& file) { analysis::read_display_measurements(file, 8); })},
         {"opendrive",
          [](Bytes bytes) {
              roads::parse_opendrive({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "x.xodr");

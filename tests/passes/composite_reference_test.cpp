@@ -1,7 +1,7 @@
 // Tone mapping, colour and display model in double. SPDX-License-Identifier: MIT
 #include "passes/composite_reference.h"
 
-#include "vision/pattanaik.h"
+#include "analysis/pattanaik.h"
 
 #include <random>
 
@@ -268,7 +268,7 @@ shared::ToneCurve evening(uint32_t form) {
         c.block[2].x = c.block[3].y = c.block[4].z = 1;
         return c;
     }
-    const vision::pattanaik::Appearance appearance(vision::pattanaik::adapted(1, 2.57), 5e5);
+    const analysis::pattanaik::Appearance appearance(analysis::pattanaik::adapted(1, 2.57), 5e5);
     c.bins = shared::kMaxNodes, c.ln_low = float(std::log(1e-4)),
     c.bins_per_ln = float(shared::kMaxNodes / std::log(1e12));
     for (uint32_t i = 0; i <= shared::kMaxNodes; ++i) {
@@ -277,7 +277,7 @@ shared::ToneCurve evening(uint32_t form) {
             glm::vec4(float(appearance.cones(luminance)), float(appearance(luminance, luminance).colour_exponent),
                       float(appearance.rods(2.57 * luminance)), 0);
     }
-    c.block[0].x = float(appearance.offset()), c.block[0].y = float(vision::pattanaik::cone_sigma(25) / 125);
+    c.block[0].x = float(appearance.offset()), c.block[0].y = float(analysis::pattanaik::cone_sigma(25) / 125);
     return c;
 }
 

@@ -7,10 +7,10 @@
 #include <optional>
 #include <sstream>
 
+#include "analysis/relative_picture.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "print.h"
-#include "vision/relative_picture.h"
 
 namespace vesper::apps {
 namespace {
@@ -89,8 +89,9 @@ void find_unit(PictureMeaning& meaning, const io::HdrImage& image, const Picture
             "its header has an EXPOSURE, but no unit: taken as cd/m^2 (--scale 179 if these are Radiance's watts)");
     } else if (request.held > 0) {
         meaning.unit = request.held, meaning.scale_source = "sequence";
-    } else if (const vision::RelativeLuminance found = vision::relative_luminance(image.rgb); found.log_average > 0) {
-        meaning.unit = vision::plausible_scale(found), meaning.scale_source = "auto";
+    } else if (const analysis::RelativeLuminance found = analysis::relative_luminance(image.rgb);
+               found.log_average > 0) {
+        meaning.unit = analysis::plausible_scale(found), meaning.scale_source = "auto";
         meaning.scale_note = format(
             "its header names no unit: 1.0 is taken as %.6g cd/m^2, so that its log average is %.3g cd/m^2 "
             "(--scale tells another)",

@@ -5,12 +5,12 @@
 #include <numeric>
 #include <vector>
 
+#include "analysis/pattanaik.h"
 #include "passes/anchor_reference.h"
 #include "passes/pyramid_reference.h"
 #include "render/passes/operators.h"
 #include "shared/tone.h"
 #include "vision/eye.h"
-#include "vision/pattanaik.h"
 
 namespace vesper::reference {
 
@@ -31,7 +31,7 @@ struct Adapted {
     Adjusted adjusted;
     vision::ReceptorState cones, rods;
     std::vector<double> share;
-    vision::pattanaik::State pattanaik;
+    analysis::pattanaik::State pattanaik;
     shared::ToneCurve tone{};
     shared::EyeState eye{};
 };

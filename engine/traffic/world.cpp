@@ -15,9 +15,9 @@ constexpr double kChangeSeconds = 3;  // of a change of lane
 constexpr double kPatience = 1;       // between thoughts of changing lane, s
 constexpr double kBraking =
     0.7;  // deceleration beyond which the pedal is pressed, m/s^2: engines alone give about this
-constexpr double kWalkerRoom = 0.5;   // that a walker keeps before him, m
-constexpr double kWalkerReach = 1.2;  // beyond the edge of a lane a walker counts as on it, m
-constexpr double kGuestReach = 0.5;   // the same of guests
+constexpr double kWalkerRoom = 0.5;     // that a walker keeps before him, m
+constexpr double kWalkerReach = 1.2;    // beyond the edge of a lane a walker counts as on it, m
+constexpr double kExternalReach = 0.5;  // the same of external actors
 constexpr double kGapSeconds =
     6;  // before walkers go, nobody may be nearer in time (HCM: critical gaps of 5 to 7 s for two lanes)
 constexpr double kHidden = 50, kLook = 50;  // m below the ground, and along a lane from look to look
@@ -64,7 +64,7 @@ World::World(std::shared_ptr<const WorldDescription> description, uint64_t seed)
     driver_.position = {start.position.x, start.position.z};
     driver_.yaw = start.yaw;
     driver_.speed = d.driver_speed;
-    touched_at_.assign(d.cars.size() + d.walkers.size() + d.guest_nodes.size(), -kInfinite);
+    touched_at_.assign(d.cars.size() + d.walkers.size() + d.external_nodes.size(), -kInfinite);
     occupy();
 }
 
@@ -105,13 +105,13 @@ void World::occupy() {
             const double along = driver_.speed * std::cos(driver_.yaw - here.yaw);
             occupants_.push_back({lane, me.s, along, d.vehicle.length / 2, kDriver});
         }
-        for (const Guest& guest : guests_) {
-            const Actor& a = guest.actor;
+        for (const ExternalActor& external : external_actors_) {
+            const Actor& a = external.actor;
             const Course::Beside beside = l.beside({a.position.x, a.position.z});
-            if (beside.distance < l.width() / 2 + kGuestReach &&
+            if (beside.distance < l.width() / 2 + kExternalReach &&
                 std::abs(l.at(beside.s).position.y - a.position.y) < kLevels)
                 occupants_.push_back(
-                    {lane, beside.s, a.speed * std::cos(a.yaw - l.at(beside.s).yaw), guest.length / 2, kGuest});
+                    {lane, beside.s, a.speed * std::cos(a.yaw - l.at(beside.s).yaw), external.length / 2, kExternal});
         }
         for (size_t w = 0; w < walks_.size(); ++w) {
             if (!walks_[w].under_way) continue;
@@ -124,8 +124,8 @@ void World::occupy() {
     }
 }
 
-void World::place(std::vector<Guest> guests, const std::optional<Actor>& driver) {
-    guests_ = std::move(guests), host_ = driver;
+void World::place(std::vector<ExternalActor> actors, const std::optional<Actor>& driver) {
+    external_actors_ = std::move(actors), host_ = driver;
     if (host_) {
         const VehicleParameters& p = description_->vehicle;
         driver_ = {.yaw = host_->yaw, .speed = host_->speed, .pitch = host_->pitch, .roll = host_->roll};
@@ -373,11 +373,11 @@ std::vector<Actor> World::actors() const {
     }
     // What is not there lies under the ground, in the dark.
     const size_t first = actors.size();
-    for (const std::string& node : d.guest_nodes) actors.push_back({.node = node, .position = {0, below_, 0}});
-    for (const Guest& guest : guests_) {
-        Actor& actor = actors[first + guest.index];
+    for (const std::string& node : d.external_nodes) actors.push_back({.node = node, .position = {0, below_, 0}});
+    for (const ExternalActor& external : external_actors_) {
+        Actor& actor = actors[first + external.index];
         const std::string node = std::move(actor.node);
-        actor = guest.actor, actor.node = node;
+        actor = external.actor, actor.node = node;
     }
     return actors;
 }

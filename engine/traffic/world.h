@@ -44,8 +44,8 @@ struct WorldDescription {
     std::vector<Barrier> barriers;
     std::vector<TrafficCar> cars;
     std::vector<Walker> walkers;
-    std::vector<std::string> guest_nodes;  ///< of the scene: what another program moves (World::place)
-    VehicleParameters vehicle;             ///< of the driver
+    std::vector<std::string> external_nodes;  ///< of the scene: what another program moves (World::place)
+    VehicleParameters vehicle;                ///< of the driver
     std::string driver_node;
     size_t driver_lane = 0;
     double driver_s = 0, driver_speed = 0;  ///< m, m/s
@@ -63,8 +63,8 @@ struct Actor {
 };
 
 /// An object that another program moves, as it is now.
-struct Guest {
-    size_t index = 0;                  ///< of WorldDescription::guest_nodes
+struct ExternalActor {
+    size_t index = 0;                  ///< of WorldDescription::external_nodes
     Actor actor;                       ///< `node` is not looked at
     double length = 4.4, width = 1.8;  ///< m; its middle is at the actor's position
     bool person = false;               ///< does not stop a car
@@ -84,7 +84,7 @@ public:
 
     /// Another program's objects from now on. Those that are not named are not there. `driver`: where it has the
     /// driver's car, which then drives no more by itself; the position is that of the car's middle on the ground.
-    void place(std::vector<Guest> guests, const std::optional<Actor>& driver = {});
+    void place(std::vector<ExternalActor> actors, const std::optional<Actor>& driver = {});
 
     /// Advances by one step.
     void step(const DriverInput&, double seconds);
@@ -96,9 +96,9 @@ public:
     size_t driver_lane() const { return driver_lane_; }  ///< lane of the autopilot
     bool touched() const { return touched_; }            ///< true if the car touched a barrier in the last step
     /// Collisions of the driver's car since the start, in order of time. Cars of traffic give way along their lane by
-    /// their mass, guests do not, pedestrians fall and stay.
+    /// their mass, external actors do not, pedestrians fall and stay.
     const std::vector<Contact>& contacts() const { return contacts_; }
-    /// The driver's car first, then traffic, walkers and guests, in the order of the description.
+    /// The driver's car first, then traffic, walkers and external actors, in the order of the description.
     std::vector<Actor> actors() const;
 
 private:
@@ -124,7 +124,7 @@ private:
         double s, speed, half_length;
         int who;  // index of a car, or one of these
     };
-    static constexpr int kDriver = -1, kWalker = -2, kGuest = -3;
+    static constexpr int kDriver = -1, kWalker = -2, kExternal = -3;
 
     void occupy();
     Neighbour ahead(size_t lane, double s, double half_length, int self) const;
@@ -156,12 +156,12 @@ private:
     DriverInput input_;
     bool braking_ = false, touched_ = false;
     size_t driver_lane_ = 0;
-    double below_ = 0;  // m, under all ground: where guests are that are not there
-    std::vector<Guest> guests_;
+    double below_ = 0;  // m, under all ground: place of external actors that are not there
+    std::vector<ExternalActor> external_actors_;
     std::optional<Actor> host_;  // the driver's car, where another program has it
     std::vector<Occupant> occupants_;
     std::vector<Contact> contacts_;
-    std::vector<double> touched_at_;  // s, of each car, walker and guest
+    std::vector<double> touched_at_;  // s, of each car, walker and external actor
     double seconds_ = 0;
     uint64_t steps_ = 0;
 };

@@ -55,13 +55,13 @@ void World::meet_others(const VehicleState& before) {
              {walk.speed * other.forward(), other.forward(), 1 / kPersonMass, 1 / kPersonMass}, true);
         walk.fallen = contacts_.size() > known;
     }
-    for (const Guest& guest : guests_) {
-        const Actor& a = guest.actor;
-        const GroundBox other{plan(a.position), a.yaw, guest.length, guest.width};
+    for (const ExternalActor& external : external_actors_) {
+        const Actor& a = external.actor;
+        const GroundBox other{plan(a.position), a.yaw, external.length, external.width};
         const glm::dvec2 heading = other.forward();
-        const double gives = guest.person ? 1 / kPersonMass : 0;
-        meet(cars_.size() + walks_.size() + guest.index, d.guest_nodes[guest.index], other, a.position.y,
-             {a.speed * heading, heading, gives, gives}, guest.person);
+        const double gives = external.person ? 1 / kPersonMass : 0;
+        meet(cars_.size() + walks_.size() + external.index, d.external_nodes[external.index], other, a.position.y,
+             {a.speed * heading, heading, gives, gives}, external.person);
     }
     // Nobody is pushed over a kerb.
     if (driver_.position != was) touched_ |= collide(driver_, before, d.vehicle, d.barriers, ground().position.y);

@@ -103,45 +103,45 @@ std::vector<drive::ControllerMapping> wheel_mapping() {
 }
 
 TEST(InputDevices, TakeTheWheelThatIsTurnedFurtherAndThePedalThatIsPressedHarder) {
-    drive::InputDevices hands(wheel_mapping());
-    hands.look({wheel(-0.5f, 0, false)});
-    traffic::DriverInput input = hands.next({}, 0, 1.0 / 60);
+    drive::InputDevices devices(wheel_mapping());
+    devices.look({wheel(-0.5f, 0, false)});
+    traffic::DriverInput input = devices.next({}, 0, 1.0 / 60);
     EXPECT_DOUBLE_EQ(input.steering, 0.5);
     EXPECT_DOUBLE_EQ(input.throttle, 0.5);
     EXPECT_DOUBLE_EQ(input.brake, 0);
-    input = hands.next({.accelerate = true, .brake = true}, 0, 1.0 / 60);
+    input = devices.next({.accelerate = true, .brake = true}, 0, 1.0 / 60);
     EXPECT_DOUBLE_EQ(input.throttle, 1);
     EXPECT_DOUBLE_EQ(input.brake, 1);
 }
 
 TEST(InputDevices, NoticePlugsAndPressesOfButtonsOnce) {
-    drive::InputDevices hands(wheel_mapping());
-    EXPECT_TRUE(hands.look({wheel(0, 1, true)}).empty());  // held when it was plugged in: no press
-    EXPECT_TRUE(contains(hands.take_notice(), "G29 is ready"));
-    EXPECT_TRUE(hands.look({wheel(0, 1, false)}).empty());
-    EXPECT_EQ(hands.look({wheel(0, 1, true)}), std::vector{Action::Pause});
-    EXPECT_TRUE(hands.look({wheel(0, 1, true)}).empty());
-    EXPECT_EQ(hands.take_notice(), "");
-    hands.look({});
-    EXPECT_TRUE(contains(hands.take_notice(), "G29 was unplugged"));
-    EXPECT_DOUBLE_EQ(hands.next({}, 0, 1.0 / 60).throttle, 0);  // nothing stays pressed
+    drive::InputDevices devices(wheel_mapping());
+    EXPECT_TRUE(devices.look({wheel(0, 1, true)}).empty());  // held when it was plugged in: no press
+    EXPECT_TRUE(contains(devices.take_notice(), "G29 is ready"));
+    EXPECT_TRUE(devices.look({wheel(0, 1, false)}).empty());
+    EXPECT_EQ(devices.look({wheel(0, 1, true)}), std::vector{Action::Pause});
+    EXPECT_TRUE(devices.look({wheel(0, 1, true)}).empty());
+    EXPECT_EQ(devices.take_notice(), "");
+    devices.look({});
+    EXPECT_TRUE(contains(devices.take_notice(), "G29 was unplugged"));
+    EXPECT_DOUBLE_EQ(devices.next({}, 0, 1.0 / 60).throttle, 0);  // nothing stays pressed
 }
 
 TEST(InputDevices, SwitchesStayAsTheyWereSet) {
-    drive::InputDevices hands;
-    EXPECT_TRUE(hands.press(Action::IndicateLeft));
-    EXPECT_EQ(hands.next({}, 0, 0.1).indicator, traffic::Indicator::Left);
-    hands.press(Action::IndicateRight);
-    EXPECT_EQ(hands.next({}, 0, 0.1).indicator, traffic::Indicator::Right);
-    hands.press(Action::IndicateRight);
-    EXPECT_EQ(hands.next({}, 0, 0.1).indicator, traffic::Indicator::None);
-    hands.press(Action::Beam);
-    EXPECT_EQ(hands.next({}, 0, 0.1).beam, traffic::Beam::High);
-    hands.press(Action::Autopilot), hands.press(Action::Reverse);
-    EXPECT_TRUE(hands.next({}, 0, 0.1).autopilot && hands.next({}, 0, 0.1).reverse);
-    EXPECT_FALSE(hands.press(Action::Pause));
-    hands.release();
-    EXPECT_EQ(hands.next({}, 0, 0.1), traffic::DriverInput());
+    drive::InputDevices devices;
+    EXPECT_TRUE(devices.press(Action::IndicateLeft));
+    EXPECT_EQ(devices.next({}, 0, 0.1).indicator, traffic::Indicator::Left);
+    devices.press(Action::IndicateRight);
+    EXPECT_EQ(devices.next({}, 0, 0.1).indicator, traffic::Indicator::Right);
+    devices.press(Action::IndicateRight);
+    EXPECT_EQ(devices.next({}, 0, 0.1).indicator, traffic::Indicator::None);
+    devices.press(Action::Beam);
+    EXPECT_EQ(devices.next({}, 0, 0.1).beam, traffic::Beam::High);
+    devices.press(Action::Autopilot), devices.press(Action::Reverse);
+    EXPECT_TRUE(devices.next({}, 0, 0.1).autopilot && devices.next({}, 0, 0.1).reverse);
+    EXPECT_FALSE(devices.press(Action::Pause));
+    devices.release();
+    EXPECT_EQ(devices.next({}, 0, 0.1), traffic::DriverInput());
 }
 
 TEST(KeyboardWheel, TurnsWhileHeldReturnsAndTurnsLessAtSpeed) {

@@ -64,8 +64,8 @@ std::string trace_of(const std::vector<osi::Message>& all) {
 }
 
 // Lit lamps of a name in the scene.
-int lit_lamps(const DrivenAlong& along, const std::string& name, const drive::Outside& outside) {
-    const gpu_scene::SceneFrame frame = along.scenery.frame(along.world.actors(), drive::DriveSettings(), outside);
+int lit_lamps(const DrivenAlong& along, const std::string& name, const drive::ExternalState& external) {
+    const gpu_scene::SceneFrame frame = along.scenery.frame(along.world.actors(), drive::DriveSettings(), external);
     int count = 0;
     for (size_t i = 0; i < along.scenery.scene().nodes.size(); ++i) {
         const scene::Node& node = along.scenery.scene().nodes[i];
@@ -79,20 +79,20 @@ int lit_lamps(const DrivenAlong& along, const std::string& name, const drive::Ou
 TEST(OsiDrive, ObjectsAreWhereTheyAreAndLit) {
     const TempFolder folder;
     DrivenAlong along(kScene, {.file = folder.write("a.osi", trace_of(messages()))});
-    drive::Outside now = along.at(0.5);
+    drive::ExternalState now = along.at(0.5);
     ASSERT_TRUE(now.driver);
     EXPECT_LT(glm::distance(now.driver->position, glm::dvec3(1.5, 0, -105)), 1e-9);
     EXPECT_NEAR(std::remainder(now.driver->yaw, 2 * M_PI), 0, 1e-9) << "along -Z";
     EXPECT_TRUE(now.driver->lamps.high && now.driver->lamps.low);
-    ASSERT_EQ(now.guests.size(), 1u);
-    const traffic::Actor& truck = now.guests[0].actor;
+    ASSERT_EQ(now.actors.size(), 1u);
+    const traffic::Actor& truck = now.actors[0].actor;
     EXPECT_LT(glm::distance(truck.position, glm::dvec3(1.5, 0, -125)), 1e-9);
     EXPECT_LT(glm::distance(truck.scale, glm::dvec3(0.8, 2.4 / 2.5, 3.2 / 3)), 1e-12);
     EXPECT_EQ(lit_lamps(along, "low beam", now), 2);
     EXPECT_EQ(lit_lamps(along, "brake lamp", now), 0);
     EXPECT_EQ(now.sun_elevation, std::nullopt);
     now = along.at(1.5);
-    EXPECT_EQ(now.guests.size(), 2u);
+    EXPECT_EQ(now.actors.size(), 2u);
     EXPECT_EQ(lit_lamps(along, "brake lamp", now), 2);
     EXPECT_EQ(lit_lamps(along, "rear fog lamp", now), 2);
     EXPECT_NEAR(now.sun_elevation.value(), 0.3 * 180 / M_PI, 1e-9);
@@ -110,7 +110,7 @@ TEST(OsiDrive, ObjectsAreWhereTheyAreAndLit) {
     // Somebody else is the host, or nobody; and messages may have another origin.
     EXPECT_EQ(DrivenAlong(kScene, {.file = folder / "a.osi", .host = "2"}).at(0.5).driver->position.z, -125);
     EXPECT_FALSE(DrivenAlong(kScene, {.file = folder / "a.osi", .host = "none"}).at(0.5).driver);
-    const drive::Outside moved =
+    const drive::ExternalState moved =
         DrivenAlong(kScene, {.file = folder / "a.osi", .origin = {10, 20, 0, M_PI / 2}}).at(0.5);
     EXPECT_LT(glm::distance(moved.driver->position, glm::dvec3(10 - 105, 0, -20 - 1.5)), 1e-9);
 }
@@ -120,7 +120,7 @@ TEST(OsiDrive, ObjectsPitchAndRoll) {
     const drive::Scenery scenery(kScene, {.live = true});
     traffic::World world(scenery.world(), 1);
     const auto placed = [&](double yaw, double pitch, double roll) {
-        drive::GuestPlaces places = scenery.guest_places();
+        drive::ExternalPlaces places = scenery.external_places();
         osi::Moment moment;
         moment.objects.push_back({{.id = 1,
                                    .kind = Kind::Car,
@@ -130,11 +130,11 @@ TEST(OsiDrive, ObjectsPitchAndRoll) {
                                    .pitch = pitch,
                                    .roll = roll,
                                    .velocity = {}}});
-        const drive::Outside outside = places.place(moment);
-        world.place(outside.guests, outside.driver);
-        const gpu_scene::SceneFrame frame = scenery.frame(world.actors(), drive::DriveSettings(), outside);
+        const drive::ExternalState external = places.place(moment);
+        world.place(external.actors, external.driver);
+        const gpu_scene::SceneFrame frame = scenery.frame(world.actors(), drive::DriveSettings(), external);
         for (size_t i = 0; i < scenery.scene().nodes.size(); ++i)
-            if (scenery.scene().nodes[i].name == "guest_0") return frame.world[i];
+            if (scenery.scene().nodes[i].name == "external_0") return frame.world[i];
         return glm::dmat4(0);
     };
     // Yaw 90 degrees is north, which is -Z.
@@ -155,21 +155,21 @@ TEST(OsiDrive, ObjectsPitchAndRoll) {
 TEST(OsiDrive, BodiesAreGivenAsLongAsThereAreSome) {
     const TempFolder folder;
     drive::Scenery scenery(kScene, {.live = true});
-    drive::GuestPlaces places = scenery.guest_places();
+    drive::ExternalPlaces places = scenery.external_places();
     osi::Moment moment;
     for (uint64_t i = 0; i < 40; ++i) moment.objects.push_back({{.id = i, .kind = Kind::Car, .velocity = {}}});
-    drive::Outside now = places.place(moment);
-    EXPECT_EQ(now.guests.size(), 32u);
+    drive::ExternalState now = places.place(moment);
+    EXPECT_EQ(now.actors.size(), 32u);
     EXPECT_EQ(now.without_body, 8u);
-    const size_t third = now.guests[3].index;
+    const size_t third = now.actors[3].index;
     moment.objects.erase(moment.objects.begin(), moment.objects.begin() + 2);
     now = places.place(moment);
-    EXPECT_EQ(now.guests.size(), 32u) << "two places are free again";
-    EXPECT_EQ(now.guests[1].index, third) << "the others keep theirs";
+    EXPECT_EQ(now.actors.size(), 32u) << "two places are free again";
+    EXPECT_EQ(now.actors[1].index, third) << "the others keep theirs";
     moment.objects[0].object.kind = Kind::Pedestrian;
-    EXPECT_EQ(places.place(moment).guests.size(), 33u);
+    EXPECT_EQ(places.place(moment).actors.size(), 33u);
     moment.objects[1].object.id = moment.objects[2].object.id;
-    EXPECT_LE(places.place(moment).guests.size(), 33u) << "of two with one id the first counts";
+    EXPECT_LE(places.place(moment).actors.size(), 33u) << "of two with one id the first counts";
 }
 
 TEST(OsiDrive, ModelsAreWhatTheTableSays) {
@@ -189,10 +189,10 @@ TEST(OsiDrive, ModelsAreWhatTheTableSays) {
     folder.write("m.json", R"({"version": 1, "models": [{"reference": "cars/gl*", "scene": "glare.gltf", "front": "+z",
                                "lamps": {"low": ["headlamp"]}}]})");
     DrivenAlong along(kScene, {.file = folder / "a.osi", .models = folder / "m.json"});
-    const drive::Outside now = along.at(0.5);
-    ASSERT_EQ(now.guests.size(), 1u);
-    EXPECT_EQ(now.guests[0].actor.scale, glm::dvec3(1)) << "models keep their size";
-    EXPECT_EQ(along.scenery.guest_places().place(along.timeline.at(0.5)).guests.size(), 1u);
+    const drive::ExternalState now = along.at(0.5);
+    ASSERT_EQ(now.actors.size(), 1u);
+    EXPECT_EQ(now.actors[0].actor.scale, glm::dvec3(1)) << "models keep their size";
+    EXPECT_EQ(along.scenery.external_places().place(along.timeline.at(0.5)).actors.size(), 1u);
 
     for (const auto& [text, words] : std::vector<std::pair<std::string, std::string>>{
              {R"({"version": 2, "models": []})", "/version"},

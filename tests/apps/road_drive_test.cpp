@@ -37,21 +37,21 @@ TEST(RoadDrive, ARunIsWhereItWasRecorded) {
     const roads::RoadNetwork network = roads::read_opendrive(kRoads);
     DrivenAlong run(kRoads, run_of(folder.write("run.csv", kRun)));
     EXPECT_TRUE(run.scenery.world()->cars.empty());
-    EXPECT_EQ(run.scenery.world()->guest_nodes.size(), 2u);
-    drive::Outside now = run.at(0.5);
-    ASSERT_EQ(now.guests.size(), 1u);
+    EXPECT_EQ(run.scenery.world()->external_nodes.size(), 2u);
+    drive::ExternalState now = run.at(0.5);
+    ASSERT_EQ(now.actors.size(), 1u);
     // The table has the middle of the rear axle, and the middle of the car is 1.32 m ahead.
-    EXPECT_LT(glm::distance(now.guests[0].actor.position, network.to_world({10, 5 + 1.32, 0})), 0.01);
-    EXPECT_NEAR(std::remainder(now.guests[0].actor.yaw, 2 * std::numbers::pi), 0, 1e-6);  // towards y of the file is -Z
-    EXPECT_TRUE(now.guests[0].actor.lamps.low && now.guests[0].actor.lamps.tail);
-    EXPECT_FALSE(now.guests[0].actor.lamps.brake);
+    EXPECT_LT(glm::distance(now.actors[0].actor.position, network.to_world({10, 5 + 1.32, 0})), 0.01);
+    EXPECT_NEAR(std::remainder(now.actors[0].actor.yaw, 2 * std::numbers::pi), 0, 1e-6);  // towards y of the file is -Z
+    EXPECT_TRUE(now.actors[0].actor.lamps.low && now.actors[0].actor.lamps.tail);
+    EXPECT_FALSE(now.actors[0].actor.lamps.brake);
     EXPECT_LT(run.world.actors()[2].position.y, network.to_world({20, 5, 0}).y - 10) << "not there yet";
     now = run.at(1.5);
-    ASSERT_EQ(now.guests.size(), 2u);
-    EXPECT_NEAR(now.guests[0].actor.yaw, 0.1, 1e-6);
-    EXPECT_LT(glm::distance(now.guests[1].actor.position, network.to_world({20, 5, 0.1})), 0.01);
-    EXPECT_TRUE(now.guests[1].person);
-    EXPECT_EQ(run.at(4).guests.size(), 1u) << "gone with the message that does not have it";
+    ASSERT_EQ(now.actors.size(), 2u);
+    EXPECT_NEAR(now.actors[0].actor.yaw, 0.1, 1e-6);
+    EXPECT_LT(glm::distance(now.actors[1].actor.position, network.to_world({20, 5, 0.1})), 0.01);
+    EXPECT_TRUE(now.actors[1].person);
+    EXPECT_EQ(run.at(4).actors.size(), 1u) << "gone with the message that does not have it";
     EXPECT_FALSE(run.world.actors()[1].lamps.low);
 }
 
@@ -148,7 +148,7 @@ TEST(RoadDrive, MessagesSwitchTrafficLights) {
     if (!std::filesystem::exists(roads)) GTEST_SKIP() << "no shared data";
     const drive::Scenery scenery(roads, {.live = true});
     const traffic::World world(scenery.world(), 1);
-    drive::GuestPlaces places = scenery.guest_places();
+    drive::ExternalPlaces places = scenery.external_places();
     const auto lit = [&](const osi::Moment& moment) {
         std::map<std::string, int> count;
         const gpu_scene::SceneFrame frame = scenery.frame(world.actors(), drive::DriveSettings(), places.place(moment));

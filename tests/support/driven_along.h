@@ -8,17 +8,17 @@ namespace vesper::test {
 struct DrivenAlong {
     drive::Scenery scenery;
     osi::Timeline timeline;
-    drive::GuestPlaces places;
+    drive::ExternalPlaces places;
     traffic::World world;
 
     DrivenAlong(const std::filesystem::path& scene, const drive::MessageSource& source)
-        : scenery(scene, source), places(scenery.guest_places()), world(scenery.world(), 1) {
+        : scenery(scene, source), places(scenery.external_places()), world(scenery.world(), 1) {
         for (osi::Message& message : scenery.take_messages()) timeline.add(std::move(message));
     }
-    drive::Outside at(double seconds) {
-        drive::Outside outside = places.place(timeline.at(seconds));
-        world.place(outside.guests, outside.driver);
-        return outside;
+    drive::ExternalState at(double seconds) {
+        drive::ExternalState external = places.place(timeline.at(seconds));
+        world.place(external.actors, external.driver);
+        return external;
     }
 };
 

@@ -19,8 +19,8 @@ std::shared_ptr<traffic::WorldDescription> street() {
     return d;
 }
 
-// A guest that stands at z, its front to the left of who comes.
-traffic::Guest standing(double z, double yaw) {
+// An external actor that stands at z, its front to the left of who comes.
+traffic::ExternalActor standing(double z, double yaw) {
     return {.index = 0, .actor = {.node = "", .position = {0, 0, z}, .yaw = yaw}, .length = 5, .width = 2};
 }
 
@@ -98,7 +98,7 @@ TEST(Blow, TakesEnergy) {
 TEST(World, AParkedVanStopsTheDriver) {
     auto d = street();
     d->driver_s = 20, d->driver_speed = 14;
-    d->guest_nodes = {"van"};
+    d->external_nodes = {"van"};
     traffic::World world(d, 1);
     world.place({standing(-60, kPi / 2)});
     for (int i = 0; i < 60 * 6; ++i) {

@@ -277,8 +277,8 @@ TEST(World, RoadsAboveOneAnotherDoNotMeet) {
         d->lanes.emplace_back("above", std::vector<glm::dvec3>{{0, high, 0}, {0, high, -300}}, 3, 15);
         d->lanes.emplace_back("below", std::vector<glm::dvec3>{{-60, 0, -60}, {600, 0, -500}}, 3, 10);
         d->barriers.push_back({.line = {{-50, -104}, {50, -104}}, .height = 0.0});
-        d->guest_nodes = {"parked"};
-        const traffic::Guest parked{.actor = {.node = "", .position = {0, 0, -100}, .yaw = -kPi / 2}};
+        d->external_nodes = {"parked"};
+        const traffic::ExternalActor parked{.actor = {.node = "", .position = {0, 0, -100}, .yaw = -kPi / 2}};
         for (const bool by_hand : {false, true}) {
             World world(d, 1);
             world.place({parked});
@@ -300,7 +300,7 @@ TEST(World, RoadsAboveOneAnotherDoNotMeet) {
 TEST(World, AHostDrivesTheCar) {
     auto d = one_lane(straight(400));
     d->driver_lane = 0, d->driver_s = 10;
-    d->guest_nodes = {"other"};
+    d->external_nodes = {"other"};
     World world(d, 1);
     EXPECT_LT(world.actors()[1].position.y, -40) << "not there yet";
     const traffic::Actor host{.node = "", .position = {2, 0.5, -80}, .yaw = 0.1, .pitch = 0.02, .speed = 7};

@@ -29,19 +29,19 @@ osi::MovingObject object_of(const traffic::Actor& actor, uint64_t id, Kind kind,
 
 }  // namespace
 
-osi::Message message_of(const traffic::World& world, const Outside& outside, const MessageFrame& frame) {
+osi::Message message_of(const traffic::World& world, const ExternalState& external, const MessageFrame& frame) {
     const traffic::WorldDescription& d = world.description();
     const std::vector<traffic::Actor> actors = world.actors();
-    osi::Message message{.host = outside.host, .objects = outside.objects};
+    osi::Message message{.host = external.host, .objects = external.objects};
     std::set<uint64_t> taken;
-    for (const osi::MovingObject& object : outside.objects) taken.insert(object.id);
+    for (const osi::MovingObject& object : external.objects) taken.insert(object.id);
     uint64_t id = 0;
     const auto add = [&](size_t i, Kind kind, double length, double width) {
         do ++id;
         while (taken.contains(id));
         message.objects.push_back(object_of(actors[i], id, kind, length, width, frame));
     };
-    if (!outside.host) {
+    if (!external.host) {
         add(0, Kind::Car, d.vehicle.length, d.vehicle.width);
         message.host = id;
     }

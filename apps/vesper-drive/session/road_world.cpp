@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/one_line.h"
-#include "external/guest_places.h"
+#include "external/external_places.h"
 #include "external/plain_car.h"
 #include "io/in_file.h"
 #include "print.h"
@@ -177,7 +177,7 @@ RoadWorld road_world(const std::filesystem::path& roads, const MessageSource& so
     add_drivers_car(made, world.vehicle);
     if (made.world.by_day.empty()) made.world.by_day = {"none"};
     if (source.any())
-        made.bodies = GuestBodies(made.scene, made.world, source, messages);
+        made.bodies = ExternalBodies(made.scene, made.world, source, messages);
     else
         add_traffic(made);
     return made;

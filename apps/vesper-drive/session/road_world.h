@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "external/guest_bodies.h"
+#include "external/external_bodies.h"
 #include "external/signal_lens.h"
 #include "scene/scene.h"
 #include "traffic/world_file.h"
@@ -15,14 +15,14 @@ namespace vesper::drive {
 struct RoadWorld {
     scene::Scene scene;
     traffic::WorldFile world;
-    GuestBodies bodies;  ///< for the objects of messages
+    ExternalBodies bodies;  ///< for the objects of messages
     std::vector<SignalLens> lenses;
     glm::dvec3 origin{0};  ///< of the world, in the frame of the roads
     std::vector<std::string> notes;
 };
 
 /// The lit road (roads/lit_roads.h) with its lanes to drive on and its kerbs. On it bodies for the objects of messages
-/// (GuestBodies); where more than half of their places lie off the roads, they are refused. Without a source some
+/// (ExternalBodies); where more than half of their places lie off the roads, they are refused. Without a source some
 /// traffic. Throws Error naming file, place and reason.
 RoadWorld road_world(const std::filesystem::path& roads, const MessageSource&, std::span<const osi::Message>);
 

@@ -110,7 +110,7 @@ Scenery::Scenery(const fs::path& file, const MessageSource& source) : source_(so
     };
     const auto make_room = [&](traffic::WorldFile& world) {
         lenses_ = lenses_of(scene_);
-        if (source.any()) bodies_ = GuestBodies(scene_, world, source, messages_);
+        if (source.any()) bodies_ = ExternalBodies(scene_, world, source, messages_);
     };
     glm::dvec3 origin(0);
     if (roads::is_opendrive_name(file)) {
@@ -246,7 +246,7 @@ bool Scenery::shines(const SwitchedLamp& lamp, const std::vector<traffic::Actor>
 }
 
 gpu_scene::SceneFrame Scenery::frame(const std::vector<traffic::Actor>& actors, const DriveSettings& settings,
-                                     const Outside& outside) const {
+                                     const ExternalState& external) const {
     gpu_scene::SceneFrame made{
         .world = rest_, .dimming = std::vector<float>(scene_.nodes.size(), 1), .ambient = night_};
     std::vector<glm::dmat4> poses;
@@ -259,7 +259,7 @@ gpu_scene::SceneFrame Scenery::frame(const std::vector<traffic::Actor>& actors, 
     }
 
     double daylight = 0;
-    if (const auto sun = settings.sun() ? settings.sun() : outside.sun_elevation) {
+    if (const auto sun = settings.sun() ? settings.sun() : external.sun_elevation) {
         daylight = traffic::kOvercast * traffic::daylight_illuminance(*sun);
         const glm::vec3 light =
             float(daylight) * glm::vec3(scene::colour_of_temperature(traffic::daylight_temperature(*sun)));
@@ -270,9 +270,9 @@ gpu_scene::SceneFrame Scenery::frame(const std::vector<traffic::Actor>& actors, 
     for (const SwitchedLamp& lamp : lamps_) {
         const auto factor = settings.lamps().find(lamp.name);
         const double wanted = factor == settings.lamps().end() ? 1 : factor->second;
-        const bool on =
-            shines(lamp, actors, daylight > kPhotocell) &&
-            (lamp.lens == kNone || (outside.lenses.empty() ? lenses_[lamp.lens].otherwise : outside.lenses[lamp.lens]));
+        const bool on = shines(lamp, actors, daylight > kPhotocell) &&
+                        (lamp.lens == kNone ||
+                         (external.lenses.empty() ? lenses_[lamp.lens].otherwise : external.lenses[lamp.lens]));
         made.dimming[lamp.node] = on ? float(wanted) : 0;
     }
     return made;

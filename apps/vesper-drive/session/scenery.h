@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "external/guest_places.h"
+#include "external/external_places.h"
 #include "render/renderer.h"
 #include "session/settings.h"
 #include "traffic/world_file.h"
@@ -34,7 +34,7 @@ public:
     /// Gives away those of the source's file.
     std::vector<osi::Message> take_messages() { return std::move(messages_); }
     /// For the objects of messages.
-    GuestPlaces guest_places() const { return {bodies_, lenses_, message_frame_, source_.host}; }
+    ExternalPlaces external_places() const { return {bodies_, lenses_, message_frame_, source_.host}; }
     const MessageFrame& message_frame() const { return message_frame_; }
     const std::vector<SignalLens>& lenses() const { return lenses_; }
     /// The lamps there are by name, as "lamp:NAME" settings have them, sorted.
@@ -43,10 +43,10 @@ public:
     /// Gives settings back if all lamps that they name are here. Throws Error.
     const DriveSettings& check(const DriveSettings&) const;
 
-    /// Where everything stands and how it is lit, with the actors of a World of `world()`. `outside`: lenses and sun,
+    /// Where everything stands and how it is lit, with the actors of a World of `world()`. `external`: lenses and sun,
     /// as another program has them; the sun of the settings goes before.
     gpu_scene::SceneFrame frame(const std::vector<traffic::Actor>&, const DriveSettings&,
-                                const Outside& outside = {}) const;
+                                const ExternalState& external = {}) const;
     /// What the camera of the settings sees of that frame.
     gpu_scene::View view(const gpu_scene::SceneFrame&, const std::vector<traffic::Actor>&, const DriveSettings&,
                          VkExtent2D) const;
@@ -82,7 +82,7 @@ private:
     std::vector<SwitchedLamp> lamps_;
     MessageSource source_;
     std::vector<osi::Message> messages_;
-    GuestBodies bodies_;
+    ExternalBodies bodies_;
     MessageFrame message_frame_;
     std::vector<SignalLens> lenses_;
     std::string camera_;  // of the driver's eye; empty: none

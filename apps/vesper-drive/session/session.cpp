@@ -26,7 +26,7 @@ Session::Session(gpu::Device& device, DriveStart options, Scenery scenery)
       settings_(scenery_.check(DriveSettings(options_.settings))),
       world_(std::make_unique<traffic::World>(scenery_.world(), options_.seed)),
       timeline_(!is_live(options_.messages)),
-      places_(scenery_.guest_places()),
+      places_(scenery_.external_places()),
       device_(&device),
       renderer_(std::make_unique<render::Renderer>(device, scenery_.scene())),
       recorder_(std::make_unique<DriveRecorder>(start())) {
@@ -35,7 +35,7 @@ Session::Session(gpu::Device& device, DriveStart options, Scenery scenery)
         heard_ = std::make_unique<MessageStore>();
         timeline_.on_use = [this](const osi::Message& message) { keep(message); };
     }
-    look_outside(options_.messages.live ? std::nullopt : std::optional(0.0));
+    update_external(options_.messages.live ? std::nullopt : std::optional(0.0));
 }
 
 Session::~Session() = default;
@@ -64,11 +64,11 @@ void Session::keep(const osi::Message& message) {
 }
 
 // The moment of the messages, and everything where it is then.
-void Session::look_outside(std::optional<double> shown) {
+void Session::update_external(std::optional<double> shown) {
     if (shown) shown_ = shown;
     if (options_.messages.any()) {
-        outside_ = shown_ ? places_.place(timeline_.at(*shown_)) : Outside{};
-        world_->place(outside_.guests, outside_.driver);
+        external_ = shown_ ? places_.place(timeline_.at(*shown_)) : ExternalState{};
+        world_->place(external_.actors, external_.driver);
     }
     actors_ = world_->actors();
 }
@@ -77,7 +77,7 @@ void Session::step(const traffic::DriverInput& input, std::optional<double> show
     input_ = input;
     const size_t met = world_->contacts().size();
     world_->step(input, options_.time_step);
-    look_outside(options_.messages.live ? shown : world_->seconds());
+    update_external(options_.messages.live ? shown : world_->seconds());
     for (size_t i = met; on_contact && i < world_->contacts().size(); ++i) on_contact(world_->contacts()[i]);
     const traffic::VehicleState& me = world_->driver();
     note({.kind = DriveEvent::Kind::Step,
@@ -93,8 +93,8 @@ void Session::step(const traffic::DriverInput& input, std::optional<double> show
 void Session::restart() {
     world_ = std::make_unique<traffic::World>(scenery_.world(), options_.seed);
     input_ = {};
-    places_ = scenery_.guest_places(), shown_.reset(), outside_ = {};
-    look_outside(options_.messages.live ? std::nullopt : std::optional(0.0));
+    places_ = scenery_.external_places(), shown_.reset(), external_ = {};
+    update_external(options_.messages.live ? std::nullopt : std::optional(0.0));
     rendered_.reset();
     renderer_->reset_adaptation();
     if (wall_) wall_->reset_adaptation();
@@ -120,7 +120,7 @@ void Session::set(const std::string& name, const std::string& value) {
     note({.kind = DriveEvent::Kind::Set, .shown = {}, .name = name, .value = value});
 }
 
-gpu_scene::SceneFrame Session::moment() const { return scenery_.frame(actors_, settings_, outside_); }
+gpu_scene::SceneFrame Session::moment() const { return scenery_.frame(actors_, settings_, external_); }
 
 gpu_scene::View Session::view(VkExtent2D extent) const { return scenery_.view(moment(), actors_, settings_, extent); }
 
@@ -229,19 +229,19 @@ void Session::stop_recording() {
 bool Session::recording() const { return recorder_->is_open(); }
 
 osi::Message Session::message_now() const {
-    osi::Message message = message_of(*world_, outside_, scenery_.message_frame());
+    osi::Message message = message_of(*world_, external_, scenery_.message_frame());
     // A restart does not turn time back.
     message.nanoseconds = std::llround(double(traced_) * options_.time_step * 1e9);
     const std::vector<SignalLens>& lenses = scenery_.lenses();
     for (size_t i = 0; i < lenses.size(); ++i) {
-        const bool lit = outside_.lenses.empty() ? lenses[i].otherwise : outside_.lenses[i];
+        const bool lit = external_.lenses.empty() ? lenses[i].otherwise : external_.lenses[i];
         message.traffic_lights.push_back({.id = i + 1,
                                           .signal = lenses[i].signal,
                                           .position = scenery_.message_frame().back(lenses[i].position),
                                           .colour = lenses[i].colour,
                                           .state = lit ? osi::LampState::On : osi::LampState::Off});
     }
-    if (const auto sun = settings_.sun() ? settings_.sun() : outside_.sun_elevation)
+    if (const auto sun = settings_.sun() ? settings_.sun() : external_.sun_elevation)
         message.environment = osi::Environment{.sun_elevation = *sun * kRadiansPerDegree, .time_of_day = {}};
     return message;
 }

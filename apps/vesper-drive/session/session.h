@@ -55,7 +55,7 @@ public:
     /// Time of the latest message, s after the first.
     double latest_message() const { return timeline_.latest(); }
     /// What another program says of the present moment.
-    const Outside& outside() const { return outside_; }
+    const ExternalState& external() const { return external_; }
     /// Called in step() for everything that the car meets.
     std::function<void(const traffic::Contact&)> on_contact;
     /// Called after each event, for whoever drives along; after a rewind() with nothing.
@@ -144,7 +144,7 @@ private:
     void make_wall();
     render::RenderSettings frame_settings() const;
     void keep(const osi::Message&);
-    void look_outside(std::optional<double> shown);
+    void update_external(std::optional<double> shown);
     osi::Message message_now() const;
     void begin_frame(const gpu_scene::SceneFrame& moment);
     void end_frame(const shared::EyeState&);
@@ -156,8 +156,8 @@ private:
     std::vector<traffic::Actor> actors_;
     traffic::DriverInput input_;
     osi::Timeline timeline_;
-    GuestPlaces places_;
-    Outside outside_;
+    ExternalPlaces places_;
+    ExternalState external_;
     std::optional<double> shown_;             // the moment of the messages
     std::string problem_;                     // of a recording, to be thrown when nobody waits
     std::unique_ptr<MessageStore> heard_;     // what is needed of a live source to show it again

@@ -126,7 +126,7 @@ bool Instruments::begin(Panel panel, const char* title, glm::vec2 place, glm::ve
 void Instruments::draw_status(const FrameState& now) const {
     const render::RenderSettings& settings = now.session.settings().render();
     const traffic::VehicleState& me = now.session.world().driver();
-    const traffic::DriverInput& input = now.hands.last();
+    const traffic::DriverInput& input = now.input_devices.last();
     const auto& values = now.session.settings().values();
     const auto value_or = [&](const char* name, const char* fallback) {
         const auto found = values.find(name);
@@ -222,9 +222,9 @@ void Instruments::draw_performance(const FrameState& now) {
 
 void Instruments::draw_controllers(const FrameState& now) {
     if (begin(kControllers, "Controllers (J)", {-8, -8}, {420, 300}, ImGuiWindowFlags_HorizontalScrollbar)) {
-        if (now.hands.controllers().empty()) ImGui::TextDisabled("nothing is plugged in");
-        for (const ControllerState& c : now.hands.controllers()) {
-            const ControllerMapping* mapping = now.hands.mapping_of(c);
+        if (now.input_devices.controllers().empty()) ImGui::TextDisabled("nothing is plugged in");
+        for (const ControllerState& c : now.input_devices.controllers()) {
+            const ControllerMapping* mapping = now.input_devices.mapping_of(c);
             ImGui::Text("%s: %s", c.name.c_str(), !mapping ? "no mapping" : mapping->gamepad ? "gamepad" : "mapped");
             for (size_t i = 0; i < c.axes.size(); ++i) ImGui::Text("  axis %zu  %+.3f", i, double(c.axes[i]));
             std::string pressed;
@@ -232,7 +232,7 @@ void Instruments::draw_controllers(const FrameState& now) {
                 if (c.buttons[i]) pressed += " " + std::to_string(i);
             ImGui::Text("  buttons pressed:%s", pressed.empty() ? " none" : pressed.c_str());
         }
-        const traffic::DriverInput& input = now.hands.last();
+        const traffic::DriverInput& input = now.input_devices.last();
         ImGui::Text("steering %+.2f  throttle %.2f  brake %.2f", input.steering, input.throttle, input.brake);
     }
     ImGui::End();

@@ -22,7 +22,7 @@ struct FrameState {
     const Screen& screen;
     const render::Frame& frame;   ///< the last one that was rendered
     const gpu_scene::View& view;  ///< of the channel under the mouse, or of all of it
-    const InputDevices& hands;
+    const InputDevices& input_devices;
     std::optional<glm::uvec2> pixel, view_pixel;  ///< of the frame and of that view, under the mouse
     double shown_per_second = 0;                  ///< pictures
     double visible_from = 0;                      ///< of obstacles, a visibility level

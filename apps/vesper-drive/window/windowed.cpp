@@ -59,7 +59,7 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
       screen_(std::make_unique<Screen>(window_, *device_)),
       screen_settings_{.vsync = vsync_of(a.vsync),
                        .scaling = a.scaling == "whole" ? window::Scaling::Whole : window::Scaling::Fit},
-      hands_(a.controllers.empty() ? std::vector<ControllerMapping>() : read_controllers(a.controllers)) {
+      input_devices_(a.controllers.empty() ? std::vector<ControllerMapping>() : read_controllers(a.controllers)) {
     if (a.size_given) size_ = apps::parse_size(a.size);
     if (!a.channels.empty()) channels_ = read_channels(a.channels);
     if (apps::Ranks::several()) ranks_ = std::make_unique<ChannelRanks>(apps::Ranks::all(), *channels_);
@@ -86,7 +86,7 @@ WindowedDrive::WindowedDrive(const DriveArguments& a)
     if (a.messages.live) open_feed();
     if (!a.osi_out.empty()) session_->write_trace(a.osi_out);
     if (!a.record.empty()) session_->record(a.record, recorded_size()), recording_ = a.record;
-    if (a.autopilot) hands_.press(Action::Autopilot);
+    if (a.autopilot) input_devices_.press(Action::Autopilot);
     if (!a.log.empty())
         log_.emplace(a.log, probes_of(a.probes), ranks_ ? kMeetingColumns : apps::obstacle_columns(obstacles_));
     window_.on_key = [this](int key, int modifiers) {
@@ -112,7 +112,7 @@ void WindowedDrive::recover(const gpu::DeviceLost& error) {
     session_->use(*device);
     device_ = std::move(device);
     screen_ = std::make_unique<Screen>(window_, *device_);
-    stale_ = true;
+    dirty_ = true;
     say(std::string(error.what()) + "; it was opened anew", true);
 }
 
@@ -172,7 +172,7 @@ void WindowedDrive::reload(const std::string& scene) {
     arguments_.scene = scene;
     recording_.clear(), replay_.reset(), instruments_.forget();
     if (!arguments_.size_given) size_.reset();
-    stale_ = true;
+    dirty_ = true;
     say("loaded " + scene + (watches ? "" : "; it has other obstacles, which are not watched"), !watches);
 }
 
@@ -251,9 +251,9 @@ bool WindowedDrive::replay_to_next_frame() {
     while (const auto kind = replay_->next(*session_)) {
         if (kind == DriveEvent::Kind::Frame) return true;
         if (kind == DriveEvent::Kind::Restart) instruments_.forget();
-        if (kind == DriveEvent::Kind::Step) owed_ -= session_->options().time_step;
+        if (kind == DriveEvent::Kind::Step) lag_s_ -= session_->options().time_step;
         // A drive that was recorded without frames is shown step by step.
-        if (kind == DriveEvent::Kind::Step && owed_ <= 0 && replay_->frames() == 0) return true;
+        if (kind == DriveEvent::Kind::Step && lag_s_ <= 0 && replay_->frames() == 0) return true;
     }
     paused_ = true;
     say(replay_->strayed() ? "the replay is over; the car went another way than when it was recorded"
@@ -264,18 +264,18 @@ bool WindowedDrive::replay_to_next_frame() {
 // What the world does in so much real time, and a picture of that if anything is new.
 void WindowedDrive::advance(double seconds) {
     const double step = session_->options().time_step;
-    owed_ = paused_ ? 0 : std::min(owed_ + seconds, kMostBehind);
-    if (std::exchange(one_step_, false)) owed_ = step;
+    lag_s_ = paused_ ? 0 : std::min(lag_s_ + seconds, kMostBehind);
+    if (std::exchange(one_step_, false)) lag_s_ = step;
     bool moved = false;
     if (replay_) {
-        if (owed_ >= step) moved = replay_to_next_frame();
+        if (lag_s_ >= step) moved = replay_to_next_frame();
     } else {
         listen();
         const Clock::time_point now = Clock::now();
-        for (; owed_ >= step; owed_ -= step, moved = true)
-            session_->step(hands_.next(held(), session_->world().driver().speed, step),
+        for (; lag_s_ >= step; lag_s_ -= step, moved = true)
+            session_->step(input_devices_.next(held(), session_->world().driver().speed, step),
                            feed_ ? feed_->shown(now - std::chrono::duration_cast<Clock::duration>(
-                                                          std::chrono::duration<double>(owed_ - step)))
+                                                          std::chrono::duration<double>(lag_s_ - step)))
                                  : std::nullopt);
     }
     render(moved);
@@ -317,7 +317,7 @@ void WindowedDrive::take_light() {
                                                  std::move(rest.moving), apps::cache_of(arguments_.cache));
     }
     try {
-        if (auto radiosity = light_->take()) session_->set_radiosity(std::move(radiosity)), stale_ = true;
+        if (auto radiosity = light_->take()) session_->set_radiosity(std::move(radiosity)), dirty_ = true;
         apps::print_cache_note(light_->problem());
     } catch (const gpu::DeviceLost&) {
         throw;
@@ -330,8 +330,8 @@ void WindowedDrive::take_light() {
 std::string WindowedDrive::standing_message() const {
     if (ranks_ && !meeting_.empty()) return meeting_note_;
     if (feed_ && feed_->counts().messages == 0) return "listening at " + feed_->place() + ": no message yet";
-    if (session_->outside().without_body > 0)
-        return format("%zu objects are not shown: there are too many at once", session_->outside().without_body);
+    if (session_->external().without_body > 0)
+        return format("%zu objects are not shown: there are too many at once", session_->external().without_body);
     if (!light_ || light_->done() || !session_->settings().render().indirect) return {};
     return format("light between surfaces: %.0f %%, rough until then", 100 * light_->share());
 }
@@ -367,7 +367,7 @@ void WindowedDrive::render(bool moved) {
     const render::Outputs outputs{.display = true, .scene = measures && !ldr};
     const bool lacks = (outputs.scene && !ranks_ && frame_.scene.empty()) || extent.width != rendered_.width ||
                        extent.height != rendered_.height;
-    if (!moved && !stale_ && !lacks) return;
+    if (!moved && !dirty_ && !lacks) return;
     view_ = session_->view(extent);
     ChannelMosaic wall;
     try {
@@ -383,7 +383,7 @@ void WindowedDrive::render(bool moved) {
         say(error.what(), true);
         draw(outputs, wall);
     }
-    rendered_ = extent, stale_ = false, ++frame_number_;
+    rendered_ = extent, dirty_ = false, ++frame_number_;
     instruments_.remember(*session_, frame_);
     hatch_unseen(frame_, session_->settings().render(), arguments_.visible_from);
     if (log_) log_frame();
@@ -414,7 +414,7 @@ void WindowedDrive::present() {
                          .screen = *screen_,
                          .frame = frame_,
                          .view = view,
-                         .hands = hands_,
+                         .input_devices = input_devices_,
                          .pixel = pixel,
                          .view_pixel = view_pixel,
                          .shown_per_second = pictures_per_second_,
@@ -437,8 +437,8 @@ void WindowedDrive::run() {
     Clock::time_point last = Clock::now();
     while (!window_.is_closing()) {
         window_.poll(window_.is_minimised() ? 0.1 : 0);
-        for (const Action action : hands_.look(plugged_in())) press(action);
-        if (const std::string notice = hands_.take_notice(); !notice.empty()) say(notice);
+        for (const Action action : input_devices_.look(plugged_in())) press(action);
+        if (const std::string notice = input_devices_.take_notice(); !notice.empty()) say(notice);
         const Clock::time_point now = Clock::now();
         const double elapsed = std::chrono::duration<double>(now - last).count();
         last = now;

@@ -88,12 +88,12 @@ private:
     bool shown_ = false;  // a picture, since the device is there
     ScreenSettings screen_settings_;
     Instruments instruments_;
-    InputDevices hands_;
+    InputDevices input_devices_;
 
     std::optional<Playback> replay_;
 
-    bool paused_ = false, one_step_ = false, stale_ = true;
-    double owed_ = 0;  // s of real time that the world is behind
+    bool paused_ = false, one_step_ = false, dirty_ = true;
+    double lag_s_ = 0;  // s of real time that the world is behind
     double pictures_per_second_ = 0;
     unsigned coarser_ = 0;            // index of the picture's coarseness
     std::optional<VkExtent2D> size_;  // of pictures, as it was given or recorded; none: the window's

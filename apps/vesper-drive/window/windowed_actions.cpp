@@ -33,7 +33,7 @@ void WindowedDrive::change(const std::string& name, const std::string& value) {
         wanted.set(name, value);
         check_display(wanted);
         session_->set(name, value);
-        stale_ = true;
+        dirty_ = true;
     } catch (const Error& error) {
         say(error.what(), true);
     }
@@ -96,14 +96,14 @@ void WindowedDrive::restart() {
         replay_->rewind(*session_), paused_ = false;
     else
         session_->restart();
-    hands_.release();
-    if (arguments_.autopilot) hands_.press(Action::Autopilot);
+    input_devices_.release();
+    if (arguments_.autopilot) input_devices_.press(Action::Autopilot);
     instruments_.forget();
-    stale_ = true;
+    dirty_ = true;
 }
 
 void WindowedDrive::press(Action action) {
-    if (!replay_ && hands_.press(action)) return;
+    if (!replay_ && input_devices_.press(action)) return;
     if (instruments_.press(action)) return;
     switch (action) {
         case Action::Pause:

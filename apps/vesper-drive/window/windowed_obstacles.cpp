@@ -23,7 +23,7 @@ bool WindowedDrive::watch_again(Session& session) const {
 
 void WindowedDrive::hatch(bool on) {
     if (obstacles_.empty()) return say("no obstacles are watched (--obstacle)");
-    arguments_.hatches = on, stale_ = true;
+    arguments_.hatches = on, dirty_ = true;
     session_->find_obstacle_pixels(on);
 }
 

@@ -1,4 +1,4 @@
-#include "external/guest_places.h"
+#include "external/external_places.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ glm::dvec3 turned(const glm::dvec3& p, double yaw) {
 
 traffic::Actor actor_of(const osi::ObjectNow& now, const MessageFrame& frame) {
     const osi::MovingObject& o = now.object;
-    const double height = GuestBodies::size_of(o).z;
+    const double height = ExternalBodies::size_of(o).z;
     return {.position = frame.point(o.centre - height / 2 * osi::axes_of(o.yaw, o.pitch, o.roll)[2]),
             .yaw = o.yaw + frame.yaw - kHalfPi,
             .pitch = -o.pitch,
@@ -52,15 +52,15 @@ MessageFrame frame_of(const MessageSource& source, const glm::dvec3& roads) {
     return {.yaw = source.origin.w, .at = {at.x, at.z, -at.y}};
 }
 
-GuestPlaces::GuestPlaces(const GuestBodies& bodies, const std::vector<SignalLens>& lenses, const MessageFrame& frame,
-                         std::string host)
+ExternalPlaces::ExternalPlaces(const ExternalBodies& bodies, const std::vector<SignalLens>& lenses,
+                               const MessageFrame& frame, std::string host)
     : bodies_(&bodies), lenses_(&lenses), frame_(frame), host_(std::move(host)) {
     for (size_t i = 0; i < bodies.all().size(); ++i) free_[bodies.all()[i].kind].insert(i);
 }
 
-void GuestPlaces::give_back(const Taken& taken) { free_[bodies_->all()[taken.body].kind].insert(taken.body); }
+void ExternalPlaces::give_back(const Taken& taken) { free_[bodies_->all()[taken.body].kind].insert(taken.body); }
 
-std::optional<size_t> GuestPlaces::body_of(const osi::MovingObject& object) {
+std::optional<size_t> ExternalPlaces::body_of(const osi::MovingObject& object) {
     if (const auto taken = taken_.find(object.id); taken != taken_.end()) {
         if (taken->second.kind == object.kind && taken->second.model == object.model) return taken->second.body;
         give_back(taken->second);
@@ -74,8 +74,8 @@ std::optional<size_t> GuestPlaces::body_of(const osi::MovingObject& object) {
     return body;
 }
 
-Outside GuestPlaces::place(const osi::Moment& moment) {
-    Outside made;
+ExternalState ExternalPlaces::place(const osi::Moment& moment) {
+    ExternalState made;
     made.sun_elevation = sun_elevation_of(moment.environment);
     std::set<uint64_t> here;
     for (const osi::ObjectNow& now : moment.objects) here.insert(now.object.id);
@@ -101,10 +101,10 @@ Outside GuestPlaces::place(const osi::Moment& moment) {
             ++made.without_body;
             continue;
         }
-        const glm::dvec3 size = GuestBodies::size_of(object), own = bodies_->all()[*body].size;
+        const glm::dvec3 size = ExternalBodies::size_of(object), own = bodies_->all()[*body].size;
         if (own.x > 0) actor.scale = size / own;
         made.objects.push_back(object);
-        made.guests.push_back({.index = *body,
+        made.actors.push_back({.index = *body,
                                .actor = std::move(actor),
                                .length = size.x,
                                .width = size.y,

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "external/guest_bodies.h"
+#include "external/external_bodies.h"
 #include "external/signal_lens.h"
 #include "traffic/world.h"
 
@@ -25,10 +25,10 @@ struct MessageFrame {
 MessageFrame frame_of(const MessageSource&, const glm::dvec3& roads);
 
 /// What another program says of a moment, in the world.
-struct Outside {
-    std::vector<traffic::Guest> guests;
+struct ExternalState {
+    std::vector<traffic::ExternalActor> actors;
     std::optional<traffic::Actor> driver;    ///< where it has the driver's car
-    std::vector<osi::MovingObject> objects;  ///< of the guests and the host, in the frame of messages
+    std::vector<osi::MovingObject> objects;  ///< of the actors and the host, in the frame of messages
     std::optional<uint64_t> host;            ///< which of them the driver's car is
     std::vector<bool> lenses;                ///< which shine, in the order of the scene's; empty: nobody says
     std::optional<double> sun_elevation;     ///< degrees
@@ -36,12 +36,12 @@ struct Outside {
 };
 
 /// Gives each object a body for as long as it is there.
-class GuestPlaces {
+class ExternalPlaces {
 public:
     /// `host`: of MessageSource. Bodies and lenses stay with the caller.
-    GuestPlaces(const GuestBodies&, const std::vector<SignalLens>&, const MessageFrame&, std::string host);
+    ExternalPlaces(const ExternalBodies&, const std::vector<SignalLens>&, const MessageFrame&, std::string host);
 
-    Outside place(const osi::Moment&);
+    ExternalState place(const osi::Moment&);
 
 private:
     struct Taken {
@@ -52,7 +52,7 @@ private:
     void give_back(const Taken&);
     std::optional<size_t> body_of(const osi::MovingObject&);
 
-    const GuestBodies* bodies_;
+    const ExternalBodies* bodies_;
     const std::vector<SignalLens>* lenses_;
     MessageFrame frame_;
     std::string host_;

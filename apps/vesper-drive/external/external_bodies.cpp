@@ -1,4 +1,4 @@
-#include "external/guest_bodies.h"
+#include "external/external_bodies.h"
 
 #include <algorithm>
 #include <set>
@@ -15,7 +15,7 @@
 namespace vesper::drive {
 namespace {
 
-constexpr size_t kMostGuests = 2000;
+constexpr size_t kMostBodies = 2000;
 
 // Boxes by the kinds of their objects, and how many wait where messages are not known beforehand.
 struct PlainKind {
@@ -58,15 +58,15 @@ void check_lamps(const Model& model, const scene::Scene& scene) {
 
 }  // namespace
 
-GuestBodies::GuestBodies(scene::Scene& scene, traffic::WorldFile& file, const MessageSource& source,
-                         std::span<const osi::Message> messages) {
+ExternalBodies::ExternalBodies(scene::Scene& scene, traffic::WorldFile& file, const MessageSource& source,
+                               std::span<const osi::Message> messages) {
     traffic::WorldDescription& world = file.world;
     for (const traffic::TrafficCar& car : world.cars)
-        if (!car.node.empty()) world.guest_nodes.push_back(car.node);
+        if (!car.node.empty()) world.external_nodes.push_back(car.node);
     for (const traffic::Walker& walker : world.walkers)
-        if (!walker.node.empty()) world.guest_nodes.push_back(walker.node);
+        if (!walker.node.empty()) world.external_nodes.push_back(walker.node);
     world.cars.clear(), world.walkers.clear();
-    for (const std::string& node : world.guest_nodes) nodes_.insert(node), all_.push_back({.kind = "node " + node});
+    for (const std::string& node : world.external_nodes) nodes_.insert(node), all_.push_back({.kind = "node " + node});
     if (!source.models.empty()) models_ = read_models(source.models);
     std::map<std::string, size_t> wanted = most_at_once(*this, messages);
     for (size_t i = 0; i < models_.size(); ++i) {
@@ -75,38 +75,38 @@ GuestBodies::GuestBodies(scene::Scene& scene, traffic::WorldFile& file, const Me
     }
     for (const PlainKind& plain : kPlain)
         add_plain(scene, file, plain.name, source.live ? plain.live : wanted[plain.name]);
-    if (all_.size() > kMostGuests)
-        throw Error("objects need more than " + std::to_string(kMostGuests) +
+    if (all_.size() > kMostBodies)
+        throw Error("objects need more than " + std::to_string(kMostBodies) +
                     " bodies at once (of messages, or as the places of --models say)");
 }
 
-std::string GuestBodies::kind_of(const osi::MovingObject& object) const {
+std::string ExternalBodies::kind_of(const osi::MovingObject& object) const {
     if (nodes_.contains(object.model)) return "node " + object.model;
     for (size_t i = 0; i < models_.size(); ++i)
         if (models_[i].is_meant_by(object.model)) return "model " + std::to_string(i);
     return plain_kind(object.kind);
 }
 
-glm::dvec3 GuestBodies::size_of(const osi::MovingObject& object) {
+glm::dvec3 ExternalBodies::size_of(const osi::MovingObject& object) {
     const bool known = object.size.x > 0 && object.size.y > 0 && object.size.z > 0;
     return known ? object.size : osi::usual_size(object.kind);
 }
 
-void GuestBodies::add_plain(scene::Scene& scene, traffic::WorldFile& file, const std::string& kind, size_t count) {
+void ExternalBodies::add_plain(scene::Scene& scene, traffic::WorldFile& file, const std::string& kind, size_t count) {
     const auto plain = std::find_if(kPlain.begin(), kPlain.end(), [&](const PlainKind& k) { return k.name == kind; });
     const glm::dvec3 size = osi::usual_size(plain->kind);
     const PlainBody body{.size = size, .centre = {0, 0, size.z / 2}, .lamps = plain->lamps};
     if (count > 0 && plain->lamps) add_roles(file.roles, plain_lamps());
-    for (size_t i = 0; i < count && all_.size() <= kMostGuests; ++i) {
-        const std::string node = "guest_" + std::to_string(all_.size());
+    for (size_t i = 0; i < count && all_.size() <= kMostBodies; ++i) {
+        const std::string node = "external_" + std::to_string(all_.size());
         scene.nodes.push_back({.name = node});
         add_plain_body(scene, uint32_t(scene.nodes.size() - 1), "plain " + kind, body);
-        file.world.guest_nodes.push_back(node);
+        file.world.external_nodes.push_back(node);
         all_.push_back({.kind = kind, .size = size});
     }
 }
 
-void GuestBodies::add_model(scene::Scene& scene, traffic::WorldFile& file, size_t index, size_t count) {
+void ExternalBodies::add_model(scene::Scene& scene, traffic::WorldFile& file, size_t index, size_t count) {
     if (count == 0) return;
     const Model& model = models_[index];
     scene::LoadedScene loaded = scene::read_lit_scene(model.scene, model.photometry);
@@ -115,16 +115,16 @@ void GuestBodies::add_model(scene::Scene& scene, traffic::WorldFile& file, size_
     notes_.insert(notes_.end(), said.begin(), said.end());
     const auto insert =
         io::in_file(model.scene.string(), [&] { return scene::SceneInsert(scene, std::move(loaded.scene)); });
-    for (size_t i = 0; i < count && all_.size() <= kMostGuests; ++i) {
-        const std::string node = "guest_" + std::to_string(all_.size());
+    for (size_t i = 0; i < count && all_.size() <= kMostBodies; ++i) {
+        const std::string node = "external_" + std::to_string(all_.size());
         insert.add(scene, node);
-        file.world.guest_nodes.push_back(node), file.turns[node] = model.turn;
+        file.world.external_nodes.push_back(node), file.turns[node] = model.turn;
         all_.push_back({.kind = "model " + std::to_string(index)});
     }
     add_roles(file.roles, model.roles);
 }
 
-std::map<std::string, size_t> most_at_once(const GuestBodies& bodies, std::span<const osi::Message> messages) {
+std::map<std::string, size_t> most_at_once(const ExternalBodies& bodies, std::span<const osi::Message> messages) {
     std::map<std::string, size_t> most;
     for (const osi::Message& message : messages) {
         std::map<std::string, size_t> now;

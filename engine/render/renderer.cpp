@@ -10,6 +10,7 @@
 #include "render/frame_queue.h"
 #include "render/prepare.h"
 #include "render/sample_buffers.h"
+#include "render/stored_picture.h"
 
 namespace vesper::render {
 namespace {
@@ -228,7 +229,13 @@ void Renderer::State::submit(const Request& of, float seconds, const Outputs& ou
         add_sample(context, light.luminance, sums, false);
         light.luminance = add_mean_of_samples(context, sums, settings.samples);
     }
-    frame.chain = add_tone_chain(context, light.luminance, settings, chain, outputs);
+    if (outputs.light) {
+        outputs.light->store(device, frame.graph, light.luminance, view);
+        const uint64_t pixels = uint64_t{view.extent.width} * view.extent.height;
+        frame.chain.scene = add_readback(frame.graph, "scene", light.luminance, pixels * 16, outputs.scene);
+    } else {
+        frame.chain = add_tone_chain(context, light.luminance, settings, chain, outputs);
+    }
     add_obstacles(context, of, light, frame.chain, next);
     next.clusters = add_readback(frame.graph, "cluster report", light.clusters.report, sizeof(shared::ClusterReport));
     next.visibility =

@@ -5,30 +5,12 @@
 #include <optional>
 #include <vector>
 
-#include "gpu_scene/eye_corona.h"
-#include "gpu_scene/projection.h"
 #include "graph/executor.h"
-#include "render/eye_state.h"
-#include "render/passes/adapt.h"
-#include "render/passes/bloom.h"
-#include "render/passes/eye_scatter.h"
-#include "render/view_statistics.h"
+#include "render/stages.h"
 
 namespace vesper::render {
 
-enum class Glare : uint8_t { None, Ldr, Scatter };
-
-/// Everything between the luminance of a frame and its display codes.
-struct ToneChainSettings {
-    Operator tone_operator = Operator::Irawan;
-    HistogramSettings histogram;
-    std::optional<uint32_t> foveal_level;  ///< pyramid level of the histogram; default: 1 degree per texel
-    ToneSettings tone;
-    vision::Display display;
-    Glare glare = Glare::None;
-    BloomSettings bloom;
-    gpu_scene::ScatterSettings scatter;  ///< of Glare::Scatter: light scattered in the eye, in cd/m^2
-};
+class StoredPicture;
 
 /// The results that are copied to the host.
 struct Outputs {
@@ -36,10 +18,11 @@ struct Outputs {
     bool scene = false;          ///< luminance
     bool display_light = false;  ///< luminance of the display, without its limits
     /// Luminance on the retina, eye scatter included. The chain ends there: no adaptation, no display. Only `scene` may
-    /// be requested as well. For several pictures of one eye.
+    /// be requested as well.
     bool retina = false;
-    /// What an eye that sees several pictures adapts to. The chain ends there, too.
-    bool statistics = false;
+    /// If not null: the frame ends with its light, which is kept there on the device; only `scene` may be requested as
+    /// well. For an eye that sees several pictures, or whose state comes later (SharedEye).
+    StoredPicture* light = nullptr;
     /// An external image that gets the codes, too, in the order and with the bits of its format (shown_format).
     std::optional<graph::ExternalImage> shown = {};
     /// If not null: all codes, those of `shown` too, are of the picture of a projector, with its extent. It is read
@@ -47,21 +30,9 @@ struct Outputs {
     const gpu_scene::Projection* projection = nullptr;
 };
 
-/// How codes lie in an image of a format.
-struct ShownFormat {
-    uint32_t bits;    ///< of a channel, 8 or 10
-    bool blue_first;  ///< blue in the lowest bits of a word
-};
-/// Of formats that codes can be copied to as they are: RGBA and BGRA of 8 bits, UNORM or SRGB, and of 10 bits. Nothing
-/// for others.
-std::optional<ShownFormat> shown_format(VkFormat);
-
 /// Readbacks of the chain. Those that were not asked for are none.
 struct ToneChain {
     graph::Resource display, scene, retina, display_light, curve, histogram, eye;
-    graph::Resource whole, fovea, colours;  // of the statistics
-    FovealView foveal_view{};               // likewise
-    glm::vec2 gaze{0};                      // likewise, texels
     uint32_t foveal_level = 0;
     VkExtent2D shown_extent{};  ///< px, of the codes
     /// No readbacks: the luminance of the retina, and the last level of its pyramid; none where the chain ends before.
@@ -97,7 +68,6 @@ struct ToneMapped {
     shared::Histogram histogram{};
     shared::EyeState eye{};
     uint32_t foveal_level = 0;
-    std::optional<ViewStatistics> statistics;  ///< likewise
     std::vector<graph::Timing> timings;
     graph::HostTimes host_times;
     double pupil = 0;                 ///< mm, whose glare is shown; 0: of a model without one

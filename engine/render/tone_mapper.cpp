@@ -7,20 +7,6 @@ ToneMapper::ToneMapper(gpu::Device& device, size_t views) : upload_(device), fra
 
 ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture& picture, float seconds,
                            Outputs outputs) {
-    return run(settings, picture, seconds, {}, outputs);
-}
-
-ViewStatistics ToneMapper::measure(const ToneChainSettings& settings, const HostPicture& picture) {
-    return *run(settings, picture, 0, {}, {.display = false, .statistics = true}).statistics;
-}
-
-ToneMapped ToneMapper::show(const ToneChainSettings& settings, const HostPicture& picture,
-                            const shared::ToneCurve& curve, const Outputs& outputs) {
-    return run(settings, picture, 0, curve, outputs);
-}
-
-ToneMapped ToneMapper::run(const ToneChainSettings& settings, const HostPicture& picture, float seconds,
-                           const std::optional<shared::ToneCurve>& curve, const Outputs& outputs) {
     const Stopwatch watch;
     const gpu_scene::View view = view_of(picture.extent, picture.vertical_fov, picture.angles);
     FrameQueue::Declared frame{.watch = watch};
@@ -28,7 +14,6 @@ ToneMapped ToneMapper::run(const ToneChainSettings& settings, const HostPicture&
 
     finish();
     ChainInputs inputs = frames_.inputs(settings, view, seconds);
-    inputs.curve = curve;
     inputs.scatter.lamps = picture.outside, inputs.scatter.pictures = picture.beyond;
     submit(std::move(frame), scene, settings, view, inputs, outputs, {});
     return *finish();

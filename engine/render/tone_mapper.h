@@ -32,11 +32,6 @@ public:
     /// Waits for all submitted pictures. Returns the results of the last one, once.
     std::optional<ToneMapped> finish() { return frames_.finish(); }
 
-    /// What an eye that sees several pictures takes of this one (SharedEye).
-    ViewStatistics measure(const ToneChainSettings&, const HostPicture&);
-    /// A picture shown with a curve that is known, such as that of a SharedEye.
-    ToneMapped show(const ToneChainSettings&, const HostPicture&, const shared::ToneCurve&, const Outputs& outputs);
-
     /// Forgets what the eye was adapted to, as between pictures that have nothing to do with each other.
     void reset_adaptation() { frames_.set_eye({}); }
     /// The next picture goes on from this state, such as ToneMapped::eye of an earlier run.
@@ -47,8 +42,6 @@ public:
     std::string plan() const { return frames_.plan(); }
 
 private:
-    ToneMapped run(const ToneChainSettings&, const HostPicture&, float seconds, const std::optional<shared::ToneCurve>&,
-                   const Outputs&);
     void submit(FrameQueue::Declared frame, graph::Resource scene, const ToneChainSettings& settings,
                 const gpu_scene::View& view, const ChainInputs& inputs, const Outputs& outputs,
                 const graph::SubmitSemaphores& semaphores);

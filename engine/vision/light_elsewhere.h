@@ -6,7 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "vision/light_sums.h"
+#include "vision/light_nodes.h"
+#include "vision/scatter_fit.h"
 
 namespace vesper::vision {
 

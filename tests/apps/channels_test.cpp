@@ -106,7 +106,7 @@ TEST(Channels, AreThePictureTheyAreCutFrom) {
     render::RenderSettings settings;
     const ChannelMosaic wall =
         rig.wall.render(rig.renderer, three(), settings, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame, 0,
-                        {.display = true, .scene = true});
+                        {.display = true, .scene = true, .retina = true});
     const render::Frame one = rig.renderer.render(settings, whole(), rig.frame, 0, {.display = true, .scene = true});
     ASSERT_EQ(wall.shown.display.size(), one.display.size());
     int far = 0;
@@ -138,12 +138,12 @@ TEST(Channels, GlareGoesOnAcrossTheSeam) {
     render::RenderSettings settings;
     settings.glare = render::Glare::Scatter;
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
-    const ChannelMosaic wall =
-        rig.wall.render(rig.renderer, three(), settings, driver, rig.frame, 0, {.display = true, .scene = true});
+    const ChannelMosaic wall = rig.wall.render(rig.renderer, three(), settings, driver, rig.frame, 0,
+                                               {.display = true, .scene = true, .retina = true});
     render::RenderSettings clear = settings;
     clear.glare = render::Glare::None;
-    const ChannelMosaic without =
-        rig.wall.render(rig.renderer, three(), clear, driver, rig.frame, 0, {.display = true, .scene = true});
+    const ChannelMosaic without = rig.wall.render(rig.renderer, three(), clear, driver, rig.frame, 0,
+                                                  {.display = true, .scene = true, .retina = true});
     const auto veil = [&](uint32_t x) {
         const size_t at = 4 * (size_t(kSide / 2) * kSide + x % kSide);
         return double(wall.channels[x / kSide].retina[at + 1] - without.channels[x / kSide].scene[at + 1]);
@@ -229,7 +229,7 @@ TEST(Channels, GlareOfLitSurfacesHasNoSeam) {
         Rig rig(sign_scene(c.degrees));
         const ChannelMosaic wall =
             rig.wall.render(rig.renderer, c.channels, kScattering, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame,
-                            0, {.display = true, .scene = true});
+                            0, {.display = true, .scene = true, .retina = true});
         for (const size_t seam : {0u, 1u})
             for (const double part : {0.1, 0.3, 0.5, 0.77}) {
                 const auto to_edge = [&](size_t channel, int edge, int next) {
@@ -256,8 +256,9 @@ TEST(Channels, GlareOfOtherScreensIsWhatTheyShow) {
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
     render::RenderSettings clear;
     const ChannelMosaic seen = rig.wall.render(rig.renderer, channels, kScattering, driver, rig.frame, 0,
-                                               {.display = true}),
-                        shown = rig.wall.render(rig.renderer, channels, clear, driver, rig.frame, 0, {.display = true});
+                                               {.display = true, .retina = true}),
+                        shown = rig.wall.render(rig.renderer, channels, clear, driver, rig.frame, 0,
+                                                {.display = true, .scene = true});
     const auto towards = [&](size_t channel, glm::dvec2 pixels) {
         const View view = drive::channel_view(channels.screens[channel], driver);
         return glm::transpose(glm::dmat3(view.world_to_view)) *
@@ -290,7 +291,7 @@ TEST(Channels, LampsOfOtherScreensCountOnce) {
     const Channels channels = turned_screens();
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
     const ChannelMosaic wall =
-        rig.wall.render(rig.renderer, channels, kScattering, driver, rig.frame, 0, {.display = true});
+        rig.wall.render(rig.renderer, channels, kScattering, driver, rig.frame, 0, {.display = true, .retina = true});
     const glm::dvec3 lamp(-19 * std::tan(32 * kRadiansPerDegree), 0, -19);
     const double distance = glm::length(lamp), lux = 20000 / (distance * distance);
     const vision::EyeScatter psf = gpu_scene::eye_scatter({});
@@ -310,8 +311,8 @@ TEST(Channels, OneScreenIsAView) {
     Channels one;
     one.screens.push_back(three().screens[0]);
     const View driver = View::symmetric({1, 1}, 1, glm::mat4(1));
-    const ChannelMosaic wall =
-        rig.wall.render(rig.renderer, one, kScattering, driver, rig.frame, 0, {.display = true, .scene = true});
+    const ChannelMosaic wall = rig.wall.render(rig.renderer, one, kScattering, driver, rig.frame, 0,
+                                               {.display = true, .scene = true, .retina = true});
     const render::Frame alone = rig.renderer.render(kScattering, drive::channel_view(one.screens[0], driver), rig.frame,
                                                     0, {.display = true, .scene = true});
     EXPECT_EQ(wall.shown.scene, alone.scene);
@@ -328,7 +329,7 @@ TEST(Channels, NeedlesMoveWithTheOneEye) {
     const auto left = [&](float seconds) {
         return rig.wall
             .render(rig.renderer, three(), settings, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame, seconds,
-                    {.display = true})
+                    {.display = true, .retina = true})
             .channels.front();
     };
     const render::Frame first = left(0), later = left(0.4f), last = left(0.4f);

@@ -39,6 +39,13 @@ render::ToneChainSettings settings_of(Operator op) {
     return settings;
 }
 
+ViewStatistics measure(render::SharedEye& eye, const render::ToneChainSettings& settings,
+                       const render::HostPicture& picture) {
+    render::StoredPicture light, retina;
+    eye.upload(picture, light);
+    return eye.see(settings, light, {}, 0, light.view(), retina).statistics;
+}
+
 // Of one picture: the very curve and eye of a mapper, over time, whatever the operator.
 TEST(SharedEye, SeesOnePictureAsAMapperDoes) {
     gpu::Device device({.select = ""});
@@ -48,31 +55,61 @@ TEST(SharedEye, SeesOnePictureAsAMapperDoes) {
         if (op.tone_operator == Operator::Ldr) continue;
         render::ToneChainSettings settings = settings_of(op.tone_operator);
         settings.tone.gaze = {0.31f, 0.96f};
-        render::ToneMapper mapper(device), other(device);
+        render::ToneMapper mapper(device);
         render::SharedEye eye(device);
+        render::StoredPicture light, retina;
         for (const float seconds : {0.0f, 0.1f, 3.0f}) {
             const render::ToneMapped want = mapper.map(settings, seen, seconds);
-            const ViewStatistics statistics = other.measure(settings, seen);
+            eye.upload(seen, light);
+            const ViewStatistics statistics = eye.see(settings, light, {}, seconds, light.view(), retina).statistics;
             const render::ToneMapped got = eye.adapt(settings, std::span(&statistics, 1), 0, seconds);
             EXPECT_EQ(std::memcmp(&got.curve, &want.curve, sizeof got.curve), 0) << op.name;
             EXPECT_EQ(std::memcmp(&got.eye, &want.eye, sizeof got.eye), 0) << op.name;
             EXPECT_EQ(std::memcmp(&got.histogram, &want.histogram, sizeof got.histogram), 0) << op.name;
-            EXPECT_EQ(other.show(settings, seen, got.curve, {}).display, want.display) << op.name;
+            EXPECT_EQ(eye.show(settings, retina, got.curve, {}).display, want.display) << op.name;
         }
     }
+}
+
+// Retinas of a picture that is cut out of a larger one: the middle of what a mapper's whole retina has, to the bit; and
+// the light of nodes is that of the picture.
+TEST(SharedEye, KeepsTheMiddleOfAPicture) {
+    gpu::Device device({.select = ""});
+    const std::vector<float> rgb = picture(75, 41);
+    const render::HostPicture whole{.extent = {75, 41}, .values = rgb};
+    render::ToneChainSettings settings = settings_of(Operator::Irawan);
+    settings.glare = render::Glare::Scatter;
+    render::ToneMapper mapper(device);
+    const render::ToneMapped want = mapper.map(settings, whole, 0, {.display = false, .retina = true});
+    render::SharedEye eye(device);
+    render::StoredPicture light, retina;
+    eye.upload(whole, light);
+    gpu_scene::View shown = light.view();
+    shown.extent = {75 - 2 * 12, 41 - 2 * 12};
+    eye.see(settings, light, {}, 0, shown, retina);
+    const std::vector<float> got = eye.read(retina);
+    ASSERT_EQ(got.size(), size_t{4} * 51 * 17);
+    for (size_t y = 0; y < 17; ++y)
+        EXPECT_EQ(std::memcmp(&got[4 * 51 * y], &want.retina[4 * (75 * (y + 12) + 12)], 16 * 51), 0) << y;
+    EXPECT_EQ(eye.read(light).size(), size_t{4} * 75 * 41);
+    const std::vector<uint32_t> nodes{0, 76};
+    const std::vector<glm::vec3> sums = eye.light_of(light, nodes);
+    ASSERT_EQ(sums.size(), 2u);
+    EXPECT_NEAR(sums[0].y / sums[0].x, 0.7, 1e-5);  // as the picture has them
+    EXPECT_NEAR(sums[1].z / sums[1].x, 0.4, 1e-5);
 }
 
 // Of a picture that is cut between texels that vote: its votes to the last one, and its means as far as floats are good
 // (1e-6 of sums of 8192 pixels in pairs).
 TEST(SharedEye, PartsOfAPictureAddUpToIt) {
     gpu::Device device({.select = ""});
-    render::ToneMapper mapper(device);
+    render::SharedEye eye(device), one(device);
     render::ToneChainSettings settings = settings_of(Operator::Devlin);
     settings.histogram.overlap = false;  // whose texels lie across a cut
     settings.histogram.electorate = 2 * kSide * kSide;
     const auto part = [&](uint32_t from, uint32_t to) {
         const std::vector<float> rgb = picture(2 * kSide, kSide, from, to);
-        return mapper.measure(settings, {.extent = {to - from, kSide}, .values = rgb});
+        return measure(eye, settings, {.extent = {to - from, kSide}, .values = rgb});
     };
     const ViewStatistics whole = part(0, 2 * kSide);
     const std::vector<ViewStatistics> parts{part(0, 32), part(32, 2 * kSide)};
@@ -84,7 +121,6 @@ TEST(SharedEye, PartsOfAPictureAddUpToIt) {
     for (int i = 0; i < 4; ++i) EXPECT_NEAR(all[i] / whole.whole[i], 1, 1e-5) << i;
     EXPECT_EQ(parts[0].colours.size() + parts[1].colours.size(), whole.colours.size());
 
-    render::SharedEye eye(device), one(device);
     const render::ToneMapped of_parts = eye.adapt(settings, parts, 1, 0),
                              of_whole = one.adapt(settings, std::span(&whole, 1), 0, 0);
     EXPECT_NEAR(of_parts.curve.log_average / of_whole.curve.log_average, 1, 1e-5);
@@ -95,14 +131,13 @@ TEST(SharedEye, PartsOfAPictureAddUpToIt) {
 // A picture without anything that is finite has no say, and one alone leaves the eye as it was.
 TEST(SharedEye, DarknessIsNotANumber) {
     gpu::Device device({.select = ""});
-    render::ToneMapper mapper(device);
+    render::SharedEye eye(device);
     const render::ToneChainSettings settings = settings_of(Operator::Irawan);
     const std::vector<float> none(size_t(3) * 37 * 23, kNotANumber), some = picture(37, 23);
-    const std::vector<ViewStatistics> both{mapper.measure(settings, {.extent = {37, 23}, .values = none}),
-                                           mapper.measure(settings, {.extent = {37, 23}, .values = some})};
+    const std::vector<ViewStatistics> both{measure(eye, settings, {.extent = {37, 23}, .values = none}),
+                                           measure(eye, settings, {.extent = {37, 23}, .values = some})};
     const glm::vec4 all = whole_of(both);
     EXPECT_EQ(all, whole_of(std::span(both).last(1)));
-    render::SharedEye eye(device);
     const render::ToneMapped seen = eye.adapt(settings, both, 1, 0);
     EXPECT_TRUE(std::isfinite(seen.curve.adaptation) && seen.curve.adaptation > 0);
     const render::ToneMapped kept = eye.adapt(settings, std::span(both).first(1), 0, 1);

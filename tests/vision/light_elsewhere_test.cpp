@@ -2,6 +2,7 @@
 // of them. SPDX-License-Identifier: MIT
 #include "base/angle.h"
 #include "passes/eye_scatter_reference.h"
+#include "passes/light_sums_reference.h"
 
 #include <algorithm>
 #include <array>
@@ -113,8 +114,7 @@ private:
 };
 
 /// What a picture takes of all.
-std::vector<std::vector<glm::vec3>> taken(const vision::LightElsewhere& elsewhere,
-                                          const std::vector<vision::LightSums>& sums) {
+std::vector<std::vector<glm::vec3>> taken(const vision::LightElsewhere& elsewhere, const std::vector<LightSums>& sums) {
     std::vector<std::vector<glm::vec3>> light;
     for (size_t i = 0; i < sums.size(); ++i) light.push_back(sums[i].at(elsewhere.nodes(i)));
     return light;
@@ -123,13 +123,8 @@ std::vector<std::vector<glm::vec3>> taken(const vision::LightElsewhere& elsewher
 /// What falls on the retina of one of them.
 Plane retina(const EyeScatter& psf, const std::vector<EyePicture>& pictures, const std::vector<Plane>& scenes,
              size_t own, const std::vector<vision::UnseenLamp>& lamps = {}) {
-    std::vector<vision::LightSums> sums;
-    std::vector<std::vector<float>> values;
-    for (size_t i = 0; i < pictures.size(); ++i) {
-        values.push_back(rgba(scenes[i]));
-        sums.emplace_back(pictures[i].image);
-        sums.back().take(values.back());
-    }
+    std::vector<LightSums> sums;
+    for (size_t i = 0; i < pictures.size(); ++i) sums.emplace_back(pictures[i].image, rgba(scenes[i]));
     const vision::LightElsewhere elsewhere(psf, pictures, own);
     const vision::OffscreenLight beyond = elsewhere.of(taken(elsewhere, sums), lamps);
     return scatter(scenes[own], vision::fit_scatter(psf, pictures[own].image, kStrip), {}, {}, beyond);
@@ -227,15 +222,12 @@ TEST(LightElsewhere, ALampCrossesASeam) {
         for (double yaw = 19; yaw < 29; yaw += 0.77) {
             const dvec3 lamp(-std::sin(yaw * kRadiansPerDegree), 0.05, -std::cos(yaw * kRadiansPerDegree));
             std::vector<Plane> scenes;
-            std::vector<vision::LightSums> sums;
-            std::vector<std::vector<float>> values;
+            std::vector<LightSums> sums;
             for (const EyePicture& p : pictures) {
                 scenes.emplace_back(ivec2(p.image.width, p.image.height));
                 add_lamp(p, lamp, scenes.back());
-                values.push_back(rgba(scenes.back()));
-                sums.emplace_back(p.image);
+                sums.emplace_back(p.image, rgba(scenes.back()));
             }
-            for (size_t i = 0; i < 3; ++i) sums[i].take(values[i]);
             for (size_t own = 0; own < 3; ++own) {
                 const Plane seen =
                     scatter(scenes[own], fits[own], {}, {}, elsewhere[own].of(taken(elsewhere[own], sums), {}));
@@ -310,42 +302,6 @@ TEST(LightElsewhere, UnseenLampsVeil) {
                 psf(degrees_apart(lamp, pictures[0].turn * direction_of(pictures[0].image, dvec2(at) + 0.5)));
             EXPECT_NEAR(seen.at(at).x / (10 * want), 1, 0.03) << pitch;
             EXPECT_NEAR(seen.at(at).y / (5 * want), 1, 0.03) << pitch;
-        }
-    }
-}
-
-// Every level has all the light, about its middle; what is not finite has none.
-TEST(LightSums, KeepLightAndItsPlace) {
-    std::mt19937 random(3);
-    for (const ivec2 size : {ivec2(1, 1), {7, 5}, {2, 9}, {33, 20}, {64, 1}}) {
-        const vision::ImageAngles image{size.x, size.y, {-0.4, -0.3}, {0.5, 0.2}};
-        std::vector<float> pixels;
-        double light = 0;
-        dvec2 moment(0);
-        for (int i = 0; i < size.x * size.y; ++i) {
-            const bool bad = i % 5 == 3;
-            const float value = std::pow(10.0f, float(random() % 900) / 100.0f - 2);
-            for (const float c : {bad ? std::array{std::nanf(""), INFINITY, -INFINITY}[size_t(i / 5 % 3)] : value,
-                                  0.5f * value, 0.25f * value, 1.0f})
-                pixels.push_back(c);
-            const dvec2 at = dvec2(i % size.x, i / size.x) + 0.5;
-            const double lux = bad ? 0 : double(value) * solid_angle(image, direction_of(image, at));
-            light += lux, moment += lux * at;
-        }
-        vision::LightSums sums(image);
-        sums.take(pixels);
-        const vision::LightNodes& nodes = sums.nodes();
-        for (int l = 0; l < nodes.levels(); ++l) {
-            dvec3 sum(0);
-            dvec2 middle(0);
-            for (int y = 0; y < nodes.sizes[size_t(l)].y; ++y)
-                for (int x = 0; x < nodes.sizes[size_t(l)].x; ++x) {
-                    const dvec3 at(sums.at(nodes.index(l, {x, y})));
-                    sum += at, middle += at.x * vision::LightNodes::place(l, {x, y});
-                }
-            EXPECT_NEAR(sum.x / light, 1, 1e-5) << size.x << " x " << size.y << ", level " << l;
-            EXPECT_NEAR(sum.y / light, 0.5, 1e-5);
-            EXPECT_LT(glm::distance(middle, moment), 1e-5 * glm::length(moment));
         }
     }
 }

@@ -13,54 +13,37 @@ render::Frame FrameRelay::render(render::Renderer& renderer, const render::Rende
         if (finds.fresh) renderer.reset_adaptation();
         return renderer.render(given, view, moment, seconds, outputs);
     }
-    // All up to what the eye sees needs no eye.
     const render::RenderSettings settings = ldr_baseline(given);
-    render::RenderSettings drawn = settings;
-    drawn.glare = render::Glare::None;
-    render::Frame frame = renderer.render(drawn, view, moment, 0, {.display = false, .retina = true});
-    const vision::ImageAngles angles = gpu_scene::angles_of(view);
-    render::HostPicture picture{
-        .extent = view.extent, .values = frame.retina, .channels = 4, .outside = frame.outside, .angles = &angles};
-    const auto found = [&]() -> shared::EyeState {
-        if (eye) return *eye;
+    render::Frame frame =
+        renderer.render(settings, view, moment, 0, {.display = false, .scene = outputs.scene, .light = &light_});
+    const auto find_eye = [&] {
+        if (eye) return eye_.set_eye(*eye);
         shared::EyeState before{};
         if (index > 0) PacketReader(ranks_.receive(rank_of(index - 1), Ranks::Stream::Eyes)).value(before);
-        return finds.fresh ? shared::EyeState{} : before;
+        eye_.set_eye(finds.fresh ? shared::EyeState{} : before);
     };
-    const auto hand_on = [&](const shared::EyeState& left) {
-        if (finds.all_known || index + 1 == frames_) return;
+    // Ranks wait for one another while an eye adapts, and for nothing else, unless it has a say in what is scattered.
+    const bool adapts_first = render::FrameQueue::needs_finished_frame(settings);
+    if (adapts_first) find_eye();
+    const render::SharedEye::Seen seen = eye_.see(settings, light_, {.lamps = frame.outside}, seconds, view, retina_);
+    if (!adapts_first) find_eye();
+    const render::ToneMapped adapted = eye_.adapt(settings, std::span(&seen.statistics, 1), 0, seconds);
+    if (!finds.all_known && index + 1 < frames_) {
         PacketWriter packet;
-        packet.value(left);
+        packet.value(adapted.eye);
         ranks_.send(rank_of(index + 1), Ranks::Stream::Eyes, packet.take());
-    };
-    render::ToneMapped shown;
-    if (render::FrameQueue::needs_finished_frame(settings)) {  // the eye has a say in what is scattered in it
-        mapper_.set_eye(found());
-        shown = mapper_.map(settings, picture, seconds, outputs);
-        hand_on(shown.eye);
-    } else {
-        // Ranks wait for one another while an eye adapts, and for nothing else.
-        render::ToneChainSettings rest = settings;
-        std::vector<float> retina;
-        if (settings.glare == render::Glare::Scatter) {
-            render::ToneMapped scattered = mapper_.map(settings, picture, 0, {.display = false, .retina = true});
-            graph::add_times(frame.timings, scattered.timings);
-            retina = std::move(scattered.retina), picture.values = retina;
-            rest.glare = render::Glare::None;
-        }
-        const render::ViewStatistics seen = mapper_.measure(rest, picture);
-        shared_eye_.set_eye(found());
-        const render::ToneMapped adapted = shared_eye_.adapt(rest, std::span(&seen, 1), 0, seconds);
-        hand_on(adapted.eye);
-        shown = mapper_.show(
-            rest, picture, adapted.curve,
-            {.display = outputs.display, .display_light = outputs.display_light, .projection = outputs.projection});
-        shown.curve = adapted.curve, shown.histogram = adapted.histogram, shown.eye = adapted.eye;
-        graph::add_times(frame.timings, adapted.timings);
-        if (outputs.scene) shown.scene = std::move(frame.retina);
     }
+    render::ToneMapped shown = eye_.show(
+        settings, retina_, adapted.curve,
+        {.display = outputs.display, .display_light = outputs.display_light, .projection = outputs.projection});
+    shown.curve = adapted.curve, shown.histogram = adapted.histogram, shown.eye = adapted.eye;
+    shown.scene = std::move(frame.scene);
+    shown.pupil = seen.pupil, shown.pattern_milliseconds = seen.pattern_milliseconds;
+    graph::add_times(frame.timings, seen.timings);
+    graph::add_times(frame.timings, adapted.timings);
     graph::add_times(frame.timings, shown.timings);
-    shown.timings = std::move(frame.timings), shown.milliseconds += frame.milliseconds;
+    shown.timings = std::move(frame.timings);
+    shown.milliseconds += frame.milliseconds + seen.milliseconds + adapted.milliseconds;
     static_cast<render::ToneMapped&>(frame) = std::move(shown);
     return frame;
 }

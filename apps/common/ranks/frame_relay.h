@@ -6,7 +6,6 @@
 #include "ranks/ranks.h"
 #include "render/renderer.h"
 #include "render/shared_eye.h"
-#include "render/tone_mapper.h"
 
 namespace vesper::apps {
 
@@ -16,8 +15,7 @@ namespace vesper::apps {
 /// display shows. A single rank renders as the renderer does.
 class FrameRelay {
 public:
-    FrameRelay(gpu::Device& device, Ranks& ranks, unsigned frames)
-        : ranks_(ranks), mapper_(device), shared_eye_(device), frames_(frames) {}
+    FrameRelay(gpu::Device& device, Ranks& ranks, unsigned frames) : ranks_(ranks), eye_(device), frames_(frames) {}
 
     bool has(unsigned frame) const { return int(frame % unsigned(ranks_.size())) == ranks_.rank(); }
     /// The eye that frames find.
@@ -42,8 +40,8 @@ private:
     void take_until(unsigned frame, const Take& take);
 
     Ranks& ranks_;
-    render::ToneMapper mapper_;
-    render::SharedEye shared_eye_;
+    render::SharedEye eye_;
+    render::StoredPicture light_, retina_;  // of the frame that is made
     unsigned frames_, taken_ = 0;
 };
 

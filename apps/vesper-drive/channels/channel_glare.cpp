@@ -47,17 +47,6 @@ std::vector<gpu_scene::OffscreenLamp> beside(const render::Frame& frame, const v
     return lamps;
 }
 
-std::vector<float> without_border(const std::vector<float>& rgba, VkExtent2D extent) {
-    const size_t width = extent.width - 2 * kGuard, height = extent.height - 2 * kGuard;
-    std::vector<float> inner;
-    inner.reserve(4 * width * height);
-    for (size_t y = 0; y < height; ++y) {
-        const auto row = rgba.begin() + ptrdiff_t(4 * ((y + kGuard) * extent.width + kGuard));
-        inner.insert(inner.end(), row, row + ptrdiff_t(4 * width));
-    }
-    return inner;
-}
-
 }  // namespace
 
 gpu_scene::View ChannelGlare::guarded(const gpu_scene::View& view) {
@@ -70,16 +59,12 @@ gpu_scene::View ChannelGlare::guarded(const gpu_scene::View& view) {
 
 // Every process then knows of the nodes of its views whose light others take.
 void ChannelGlare::prepare(const gpu_scene::ScatterSettings& settings, std::vector<vision::EyePicture> pictures) {
-    const std::vector<size_t> views = link_.own(pictures.size());
-    if (pictures.size() != pictures_.size())
-        mapper_ = std::make_unique<render::ToneMapper>(device_, std::max<size_t>(views.size(), 1));
     light_turns_.forget();
     own_.clear(), pictures_.clear();  // before the next ones take their memory
     const vision::EyeScatter psf = gpu_scene::eye_scatter(settings);
     apps::PacketWriter wants;
-    for (const size_t view : views) {
+    for (const size_t view : link_.own(pictures.size())) {
         Own& own = own_.emplace_back(Own{.view = view,
-                                         .sums = vision::LightSums(pictures[view].image),
                                          .elsewhere = vision::LightElsewhere(psf, pictures, view),
                                          .wanted = std::vector<std::vector<uint32_t>>(pictures.size())});
         wants.value(uint64_t{view});
@@ -98,15 +83,32 @@ void ChannelGlare::prepare(const gpu_scene::ScatterSettings& settings, std::vect
     pictures_ = std::move(pictures), settings_ = settings;
 }
 
+// Of the views of this process: light of the nodes that each view takes.
+ChannelGlare::Light ChannelGlare::light_of_own(const LightOf& light_of) const {
+    Light light;
+    for (const Own& own : own_) {
+        std::vector<uint32_t> nodes;
+        for (const std::vector<uint32_t>& wanted : own.wanted) nodes.insert(nodes.end(), wanted.begin(), wanted.end());
+        const std::vector<glm::vec3> all = light_of(own.view, nodes);
+        std::vector<std::vector<glm::vec3>>& by_taker = light.emplace_back();
+        auto from = all.begin();
+        for (const std::vector<uint32_t>& wanted : own.wanted) {
+            by_taker.emplace_back(from, from + ptrdiff_t(wanted.size()));
+            from += ptrdiff_t(wanted.size());
+        }
+    }
+    return light;
+}
+
 // What each process takes for its views.
-std::vector<apps::Bytes> ChannelGlare::shed_by_own(const std::vector<render::Frame>& frames) const {
+std::vector<apps::Bytes> ChannelGlare::shed_by_own(const std::vector<render::Frame>& frames, const Light& light) const {
     std::vector<apps::Bytes> packets;
     for (const std::vector<size_t>& takers : link_.shares(pictures_.size())) {
         apps::PacketWriter packet;
-        for (const Own& own : own_) {
-            packet.value(uint64_t{own.view});
-            packet.list(frames[own.view].glare_sources);
-            for (const size_t taker : takers) packet.list(own.sums.at(own.wanted[taker]));
+        for (size_t i = 0; i < own_.size(); ++i) {
+            packet.value(uint64_t{own_[i].view});
+            packet.list(frames[own_[i].view].glare_sources);
+            for (const size_t taker : takers) packet.list(light[i][taker]);
         }
         packets.push_back(packet.take());
     }
@@ -126,37 +128,27 @@ ChannelGlare::Shed ChannelGlare::shed_of(const std::vector<apps::Bytes>& turn) c
     return shed;
 }
 
-void ChannelGlare::scatter(const Moment& moment, std::span<const gpu_scene::View> guarded,
-                           std::span<const glm::dmat3> turns, std::vector<render::Frame>& frames) {
+std::vector<ChannelGlare::Beside> ChannelGlare::exchange(const Moment& moment, std::span<const gpu_scene::View> guarded,
+                                                         std::span<const glm::dmat3> turns,
+                                                         const std::vector<render::Frame>& frames,
+                                                         const LightOf& light_of) {
     const render::RenderSettings& settings = moment.settings;
     std::vector<vision::EyePicture> pictures;
     for (size_t i = 0; i < guarded.size(); ++i)
         pictures.push_back({gpu_scene::angles_of(guarded[i]), turns[i], kGuard});
     if (pictures != pictures_ || settings.scatter != settings_) prepare(settings.scatter, std::move(pictures));
-    for (Own& own : own_) own.sums.take(frames[own.view].retina);
-    Shed shed = shed_of(light_turns_.tell_each(shed_by_own(frames), moment.late));
+    const Light light = light_of_own(light_of);
+    Shed shed = shed_of(light_turns_.tell_each(shed_by_own(frames, light), moment.late));
     for (const Own& own : own_) shed.lamps[own.view] = frames[own.view].glare_sources;
     const std::vector<vision::UnseenLamp> lamps = unseen(shed.lamps, pictures_, settings.offscreen_lamps);
+    std::vector<Beside> beside_of(pictures_.size());
     for (size_t i = 0; i < own_.size(); ++i) {
-        Own& own = own_[i];
-        const vision::EyePicture& picture = pictures_[own.view];
-        render::Frame& frame = frames[own.view];
-        shed.by_taker[i][own.view] = own.sums.at(own.elsewhere.nodes(own.view));  // of this moment in any case
-        const vision::OffscreenLight beyond = own.elsewhere.of(shed.by_taker[i], lamps);
-        mapper_->set_eye(moment.eye.value_or(shared::EyeState{}));
-        const VkExtent2D extent = guarded[own.view].extent;
-        render::ToneMapped seen = mapper_->map(
-            settings,
-            {.extent = extent, .values = frame.retina, .channels = 4, .angles = &picture.image, .beyond = &beyond},
-            moment.seconds, {.display = false, .retina = true});
-        frame.scene = without_border(frame.retina, extent);
-        frame.retina = without_border(seen.retina, extent);
-        frame.extent = {extent.width - 2 * kGuard, extent.height - 2 * kGuard};
-        frame.outside = beside(frame, picture, settings.offscreen_lamps);
-        frame.timings.insert(frame.timings.end(), seen.timings.begin(), seen.timings.end());
-        frame.pupil = seen.pupil, frame.pattern_milliseconds = seen.pattern_milliseconds;
-        frame.milliseconds += seen.milliseconds;
+        const size_t view = own_[i].view;
+        shed.by_taker[i][view] = light[i][view];  // of this moment in any case
+        beside_of[view] = {.light = own_[i].elsewhere.of(shed.by_taker[i], lamps),
+                           .lamps = beside(frames[view], pictures_[view], settings.offscreen_lamps)};
     }
+    return beside_of;
 }
 
 }  // namespace vesper::drive

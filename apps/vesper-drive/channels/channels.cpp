@@ -160,6 +160,26 @@ render::ViewStatistics read_statistics(apps::PacketReader& packet) {
     return seen;
 }
 
+std::vector<float> middle_of(const std::vector<float>& rgba, VkExtent2D whole, VkExtent2D shown) {
+    const size_t left = (whole.width - shown.width) / 2, top = (whole.height - shown.height) / 2;
+    std::vector<float> middle;
+    middle.reserve(size_t(4) * shown.width * shown.height);
+    for (size_t y = 0; y < shown.height; ++y) {
+        const auto row = rgba.begin() + ptrdiff_t(4 * ((y + top) * whole.width + left));
+        middle.insert(middle.end(), row, row + ptrdiff_t(4 * size_t(shown.width)));
+    }
+    return middle;
+}
+
+// What the eye made of a screen, and luminances without the border, which nobody sees.
+void take_seen(render::Frame& frame, const render::SharedEye::Seen& seen, VkExtent2D shown) {
+    if (!frame.scene.empty()) frame.scene = middle_of(frame.scene, frame.extent, shown);
+    frame.extent = shown;
+    frame.timings.insert(frame.timings.end(), seen.timings.begin(), seen.timings.end());
+    frame.pupil = seen.pupil, frame.pattern_milliseconds = seen.pattern_milliseconds;
+    frame.milliseconds += seen.milliseconds;
+}
+
 }  // namespace
 
 Channels read_channels(const std::filesystem::path& file) {
@@ -231,14 +251,11 @@ render::Frame logged_frame(ChannelMosaic& wall, size_t channel) {
 }
 
 ChannelRenderer::ChannelRenderer(gpu::Device& device, ChannelLink* link)
-    : link_(link ? *link : alone_),
-      turns_(link_, ChannelLink::Kind::Statistics),
-      glare_(device, link_),
-      mapper_(device),
-      shared_eye_(device) {}
+    : device_(device), link_(link ? *link : alone_), turns_(link_, ChannelLink::Kind::Statistics), glare_(link_) {}
 
 void ChannelRenderer::reset_adaptation() {
-    eye_.reset(), shared_eye_.reset_adaptation();
+    left_.reset();
+    if (eye_) eye_->reset_adaptation();
     turns_.forget(), glare_.forget();
 }
 
@@ -256,72 +273,73 @@ std::vector<render::ViewStatistics> ChannelRenderer::statistics_of_all(const std
 }
 
 ChannelMosaic ChannelRenderer::render(render::Renderer& renderer, const Channels& channels,
-                                      const render::RenderSettings& settings, const gpu_scene::View& driver,
+                                      const render::RenderSettings& given, const gpu_scene::View& driver,
                                       const gpu_scene::SceneFrame& frame, float seconds, render::Outputs outputs) {
-    ChannelMosaic wall;
-    wall.channels.resize(channels.screens.size());
-    const std::vector<size_t> own = link_.own(channels.screens.size());
-    // Light that the eye scatters from one screen to others is known when there are pictures of all.
-    const bool scatters = settings.glare == render::Glare::Scatter && settings.tone_operator != render::Operator::Ldr,
-               together = scatters && channels.screens.size() > 1;
-    render::RenderSettings drawn = settings;
-    if (together) drawn.glare = render::Glare::None;
-    std::vector<gpu_scene::View> views;
+    const size_t screens = channels.screens.size();
+    const std::vector<size_t> own = link_.own(screens);
+    render::RenderSettings settings = render::ldr_baseline(given);
+    if (pictures_.size() != screens) {
+        eye_ = std::make_unique<render::SharedEye>(device_, std::max<size_t>(own.size(), 1));
+        pictures_ = std::vector<Picture>(screens);
+    }
+    eye_->set_eye(left_.value_or(shared::EyeState{}));
+
+    // Light. Screens have borders where others scatter light into them.
+    const bool together = settings.glare == render::Glare::Scatter && screens > 1;
+    std::vector<gpu_scene::View> shown, views;
     std::vector<glm::dmat3> turns;
     for (const ScreenChannel& c : channels.screens) {
-        const gpu_scene::View view = channel_view(c, driver);
-        views.push_back(together ? ChannelGlare::guarded(view) : view);
+        shown.push_back(channel_view(c, driver));
+        views.push_back(together ? ChannelGlare::guarded(shown.back()) : shown.back());
         turns.emplace_back(turned(c));
     }
-    if (eye_)
-        renderer.set_eye(*eye_);
-    else
-        renderer.reset_adaptation();
-    for (const size_t i : own) {
-        wall.channels[i] = renderer.render(drawn, views[i], frame, scatters && !together ? seconds : 0,
-                                           {.display = false, .scene = scatters && !together, .retina = true});
-        if (!scatters) wall.channels[i].scene = std::exchange(wall.channels[i].retina, {});
-    }
-    if (together)
-        glare_.scatter({settings, eye_, seconds, late_}, views, turns, wall.channels);
-    else
-        glare_.forget();
+    ChannelMosaic wall;
+    wall.channels.resize(screens);
+    for (const size_t i : own)
+        wall.channels[i] = renderer.render(settings, views[i], frame, 0,
+                                           {.display = false, .scene = outputs.scene, .light = &pictures_[i].light});
 
-    render::ToneChainSettings shown = settings;
-    if (shown.glare == render::Glare::Scatter) shown.glare = render::Glare::None;  // it is in them
-    shown.display = common_display(channels, settings.display);
-    shown.histogram.electorate = 0;
+    // Retinas and statistics.
+    std::vector<ChannelGlare::Beside> beside(screens);
+    if (together) {
+        const ChannelGlare::LightOf light_of = [&](size_t i, std::span<const uint32_t> nodes) {
+            return eye_->light_of(pictures_[i].light, nodes);
+        };
+        beside = glare_.exchange({settings, late_}, views, turns, wall.channels, light_of);
+    } else {
+        glare_.forget();
+    }
+    render::ToneChainSettings seen_by_all = settings;
+    seen_by_all.display = common_display(channels, settings.display);
+    seen_by_all.histogram.electorate = 0;
     for (const ScreenChannel& c : channels.screens)
-        shown.histogram.electorate += uint64_t(c.extent.width) * c.extent.height;
-    std::vector<vision::ImageAngles> angles;
-    for (const ScreenChannel& c : channels.screens) angles.push_back(gpu_scene::angles_of(channel_view(c, driver)));
-    const auto picture = [&](size_t i) {
-        const render::Frame& channel = wall.channels[i];
-        return render::HostPicture{.extent = channels.screens[i].extent,
-                                   .values = scatters ? channel.retina : channel.scene,
-                                   .channels = 4,
-                                   .angles = &angles[i]};
-    };
+        seen_by_all.histogram.electorate += uint64_t(c.extent.width) * c.extent.height;
     apps::PacketWriter packet;
     for (const size_t i : own) {
-        render::ViewStatistics seen = mapper_.measure(shown, picture(i));
-        if (i != channels.gaze) seen.fovea = {};
-        write_statistics(packet, i, seen);
+        render::SharedEye::Seen seen = eye_->see(seen_by_all, pictures_[i].light,
+                                                 together ? render::ScatterInputs{.pictures = &beside[i].light}
+                                                          : render::ScatterInputs{.lamps = wall.channels[i].outside},
+                                                 seconds, shown[i], pictures_[i].retina);
+        take_seen(wall.channels[i], seen, shown[i].extent);
+        if (together) wall.channels[i].outside = std::move(beside[i].lamps);
+        if (outputs.retina) wall.channels[i].retina = eye_->read(pictures_[i].retina);
+        if (i != channels.gaze) seen.statistics.fovea = {};
+        write_statistics(packet, i, seen.statistics);
     }
-    wall.shown = shared_eye_.adapt(shown, statistics_of_all(turns_.tell(packet.take(), late_), channels.screens.size()),
-                                   channels.gaze, seconds);
-    eye_ = wall.shown.eye;
+
+    // One eye, one curve.
+    wall.shown =
+        eye_->adapt(seen_by_all, statistics_of_all(turns_.tell(packet.take(), late_), screens), channels.gaze, seconds);
+    left_ = wall.shown.eye;
     for (const size_t i : own) {
-        render::Frame& channel = wall.channels[i];
-        if (outputs.display) {
-            const ScreenChannel& screen = channels.screens[i];
-            render::ToneChainSettings on_screen = shown;
-            on_screen.display = screen.display ? *screen.display : settings.display;
-            render::ToneMapped mapped = mapper_.show(on_screen, picture(i), wall.shown.curve,
-                                                     {.display = true, .projection = screen.projection.get()});
-            channel.display = std::move(mapped.display), channel.foveal_level = mapped.foveal_level;
-            graph::add_times(wall.shown.timings, mapped.timings);
-        }
+        if (!outputs.display) break;
+        const ScreenChannel& screen = channels.screens[i];
+        render::ToneChainSettings on_screen = seen_by_all;
+        on_screen.display = screen.display ? *screen.display : settings.display;
+        render::ToneMapped mapped = eye_->show(on_screen, pictures_[i].retina, wall.shown.curve,
+                                               {.display = true, .projection = screen.projection.get()});
+        wall.channels[i].display = std::move(mapped.display), wall.channels[i].foveal_level = mapped.foveal_level;
+        graph::add_times(wall.shown.timings, mapped.timings);
     }
     put_together(wall, outputs.scene);
     return wall;

@@ -10,7 +10,6 @@
 #include "channels/channel_glare.h"
 #include "render/renderer.h"
 #include "render/shared_eye.h"
-#include "render/tone_mapper.h"
 
 namespace vesper::drive {
 
@@ -45,8 +44,7 @@ struct ChannelMosaic {
     render::ToneMapped shown;       ///< the picture of those of this process, and the eye of all; `scene`: before
                                     ///< anything is scattered in the eye
     std::vector<uint32_t> columns;  ///< where each begins; of channels that are not in it, where the next one does
-    std::vector<render::Frame> channels;  ///< each with its codes, lamps and times, empty where others render it; of
-                                          ///< `retina` and `scene` the first is empty where nothing is scattered
+    std::vector<render::Frame> channels;  ///< each with its codes, lamps and times, empty where others render it
 };
 /// Puts the pictures of those channels together that have any; with `scene` luminances, too.
 void put_together(ChannelMosaic&, bool scene);
@@ -65,21 +63,27 @@ public:
 
     /// How many moments what the eye sees of each channel is late, 0 or 1, so that none waits for the others.
     void set_latency(unsigned moments) { late_ = moments > 0; }
+    /// `outputs` are those of each channel, with `retina` that of its retina, too.
     ChannelMosaic render(render::Renderer&, const Channels&, const render::RenderSettings&,
                          const gpu_scene::View& driver, const gpu_scene::SceneFrame&, float seconds, render::Outputs);
     void reset_adaptation();
-    void set_eye(const shared::EyeState& eye) { eye_ = eye, shared_eye_.set_eye(eye); }
+    void set_eye(const shared::EyeState& eye) { left_ = eye; }
 
 private:
+    /// A screen's picture on its way through the eye.
+    struct Picture {
+        render::StoredPicture light, retina;
+    };
     std::vector<render::ViewStatistics> statistics_of_all(const std::vector<apps::Bytes>&, size_t channels) const;
 
+    gpu::Device& device_;
     ChannelLink alone_;
     ChannelLink& link_;
     ChannelTurns turns_;
     ChannelGlare glare_;
-    render::ToneMapper mapper_;
-    render::SharedEye shared_eye_;
-    std::optional<shared::EyeState> eye_;  // what the last frame left
+    std::vector<Picture> pictures_;           // of each screen; empty where others render it
+    std::unique_ptr<render::SharedEye> eye_;  // that keeps the scatter of so many
+    std::optional<shared::EyeState> left_;    // by the last frame
     bool late_ = false;
 };
 

@@ -268,8 +268,10 @@ ChannelRanks::LedFrame ChannelRanks::render(Session& session, const Channels& ch
 void ChannelRanks::follow(Session& session, const Channels& channels, DriveRows& rows, const Watching& watching) {
     session.on_contact = [&](const traffic::Contact& contact) { rows.add(contact); };
     while (const auto wanted = await_frame(session, watching.meanwhile)) {
+        const bool ldr = session.settings().render().tone_operator == render::Operator::Ldr;
+        const bool measures = wanted->row && has(gaze_) && !ldr;
         ChannelMosaic wall =
-            session.render(channels, {.display = wanted->display || watching.show, .scene = wanted->scene});
+            session.render(channels, {.display = wanted->display || watching.show, .scene = wanted->scene || measures});
         meet(wall.shown.eye);
         if (watching.show) watching.show(wall);
         report(*wanted, wall, wanted->row && has(gaze_) ? row_of(rows, session, channels, wall) : "");

@@ -132,7 +132,7 @@ void Executor::submit(const FrameGraph& graph, const SubmitSemaphores& semaphore
     });
     const bool among_others = goes_on || !semaphores.wait.empty() || !semaphores.signal.empty() ||
                               std::ranges::any_of(slots_, &FrameSlot::under_way);
-    FrameSlot* const last = slot_;
+    FrameSlot *const last = slot_, *const read = read_;
     HostTimes times;
     Plan before = std::move(plan_);
     try {
@@ -151,17 +151,17 @@ void Executor::submit(const FrameGraph& graph, const SubmitSemaphores& semaphore
         times.record = watch.lap();
         slot_->submit(semaphores);
     } catch (...) {
-        slot_ = last;  // what that frame left can be read
+        slot_ = last, read_ = read;  // what that frame left can be read
         plan_ = std::move(before);
         throw;
     }
     // From here on nothing can fail: who is told that a frame failed may hand over its semaphores again.
-    unread_ = true;
+    unread_.push_back(slot_), read_ = slot_;
     turned_.swap(turning_);
     for (Past* past : turned_) past->current ^= 1;
     for (Past* past : cleared_) past->is_new = false;
-    times.submit = watch.lap(), times.wait = host_times_.wait;
-    host_times_ = times;
+    times.submit = watch.lap();
+    slot_->host_times = times;
 }
 
 // What a device allows is not known before. A buffer of texels that is too long for it has no other kernel to read it.
@@ -186,33 +186,60 @@ void Executor::check_sizes(const FrameGraph& graph) const {
     }
 }
 
+// A frame that failed is nobody's past, and has left nothing; nor have those after it.
+void Executor::fail() noexcept {
+    for (const auto& slot : slots_) slot->settle();
+    for (Past* past : turned_) past->current ^= 1;
+    turned_.clear(), unread_.clear();
+}
+
 void Executor::wait() {
     Stopwatch watch;
     const bool last = slot_ && slot_->under_way;
     try {
         for (const auto& slot : slots_) slot->wait();
-        host_times_.wait = last ? watch.lap() : host_times_.wait;
     } catch (...) {
-        for (Past* past : turned_) past->current ^= 1;  // a frame that failed is nobody's past
-        turned_.clear();
-        unread_ = false;
+        fail();
         throw;
     }
+    if (last) slot_->host_times.wait = watch.lap();
     turned_.clear();
+    read_ = slot_;
 }
 
 bool Executor::finish() {
     wait();
-    return std::exchange(unread_, false);
+    if (unread_.empty()) return false;
+    read_ = unread_.back();
+    unread_.clear();
+    return true;
+}
+
+bool Executor::finish_oldest(bool waits) {
+    if (unread_.empty() || (!waits && !unread_.front()->is_done())) return false;
+    Stopwatch watch;
+    FrameSlot* const oldest = unread_.front();
+    try {
+        oldest->wait();
+    } catch (...) {
+        fail();
+        throw;
+    }
+    oldest->host_times.wait = watch.lap();
+    unread_.pop_front();
+    read_ = oldest;
+    if (unread_.empty()) turned_.clear();
+    return true;
 }
 
 // The next one in turn. With nothing left to read the first, so that whoever finishes every frame has one.
 void Executor::enter_slot() {
     const auto last = std::ranges::find(slots_, slot_, &std::unique_ptr<FrameSlot>::get);
-    const size_t next = !unread_ ? 0 : (size_t(last - slots_.begin()) + 1) % kFramesUnderWay;
+    const size_t next = unread_.empty() ? 0 : (size_t(last - slots_.begin()) + 1) % kFramesUnderWay;
     if (next == slots_.size()) slots_.push_back(std::make_unique<FrameSlot>(device_));
     slot_ = slots_[next].get();
     slot_->wait();
+    std::erase(unread_, slot_);
     slot_->views.clear();
 }
 
@@ -394,11 +421,11 @@ void Executor::realize_readbacks(const FrameGraph& graph) {
 }
 
 std::span<const std::byte> Executor::read(Resource readback) const {
-    if (!slot_) throw Error("there is no frame to be read");
-    const auto place = slot_->places.find(readback.index);
-    if (place == slot_->places.end()) throw Error("a resource that is not a readback cannot be read");
-    if (slot_->under_way) throw Error("a frame that is under way cannot be read");
-    return {slot_->readbacks.data() + place->second.offset, place->second.bytes};
+    if (!read_) throw Error("there is no frame to be read");
+    const auto place = read_->places.find(readback.index);
+    if (place == read_->places.end()) throw Error("a resource that is not a readback cannot be read");
+    if (read_->under_way) throw Error("a frame that is under way cannot be read");
+    return {read_->readbacks.data() + place->second.offset, place->second.bytes};
 }
 
 uint64_t Executor::heap_bytes() const {

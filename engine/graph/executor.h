@@ -1,6 +1,7 @@
 // Runs declared frames on a device. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <deque>
 #include <map>
 #include <memory>
 #include <span>
@@ -13,15 +14,6 @@
 #include "graph/frame_slot.h"
 
 namespace vesper::graph {
-
-/// Where the host's time went in the last frame, ms.
-struct HostTimes {
-    double declare = 0;  ///< lists of lamps, the frame's declaration; of whoever runs the executor
-    double plan = 0;     ///< compiling the plan, placing resources, writing uploads
-    double record = 0;
-    double submit = 0;
-    double wait = 0;  ///< for the device
-};
 
 /// Owns the memory behind a frame graph's resources and what survives from frame to frame.
 class Executor {
@@ -42,10 +34,15 @@ public:
     static constexpr size_t kFramesUnderWay = 3;
     /// Waits for all submitted frames. Readbacks of the last one stay valid until the next submit().
     void wait();
-    /// Waits for all submitted frames. Returns true if a frame has finished since the last call; its readbacks stay
-    /// valid until the next submit().
+    /// Waits for all submitted frames and gives up the results of all but the last. Returns true if there is a frame
+    /// whose results were not given up before; its readbacks stay valid until the next submit().
     bool finish();
-    /// Bytes of a readback of the last frame, which must be finished.
+    /// The same for the oldest such frame. A frame's results are lost when kFramesUnderWay later ones were submitted.
+    /// Without `waits` returns false while it is under way.
+    bool finish_oldest(bool waits);
+    /// Frames whose results can still be finished, at most kFramesUnderWay.
+    size_t unfinished() const { return unread_.size(); }
+    /// Bytes of a readback of the frame that was submitted or finished last, which must be finished.
     std::span<const std::byte> read(Resource readback) const;
     template <class T>
     std::span<const T> read_as(Resource readback) const {
@@ -55,10 +52,10 @@ public:
 
     const Plan& plan() const { return plan_; }  ///< of the last frame
     const std::vector<Timing>& timings() const {
-        return slot_->timings;
-    }  ///< of the last frame, which is finished; empty without timestamps
-    const HostTimes& host_times() const { return host_times_; }  ///< of the last frame
-    uint64_t heap_bytes() const;                                 ///< device memory behind transients, bytes
+        return read_->timings;
+    }  ///< of the frame that is read, which is finished; empty without timestamps
+    const HostTimes& host_times() const { return read_->host_times; }  ///< likewise
+    uint64_t heap_bytes() const;                                       ///< device memory behind transients, bytes
 
 private:
     struct Realized;  // what stands for one resource in this frame
@@ -80,6 +77,7 @@ private:
 
     void check_sizes(const FrameGraph& graph) const;
     void enter_slot();
+    void fail() noexcept;
     void place(const FrameGraph& graph);
     void find_turning(const FrameGraph& graph);
     bool is_placed(const FrameGraph& graph, const Plan::Placement& placement) const;
@@ -99,7 +97,6 @@ private:
 
     gpu::Device& device_;
     Plan plan_;
-    HostTimes host_times_;
     std::vector<Realized> resources_;
     std::map<std::string, std::unique_ptr<Past>> histories_;
     std::vector<Past*> turned_, turning_;  // by the last frame; by the one that is being submitted
@@ -112,8 +109,9 @@ private:
     uint64_t frame_ = 0;  // number of the last one
     gpu::OwnedSampler sampler_;
     std::vector<std::unique_ptr<FrameSlot>> slots_;
-    FrameSlot* slot_ = nullptr;  // of the last frame, or of the one that is being submitted
-    bool unread_ = false;        // what the last frame left was not given up
+    FrameSlot* slot_ = nullptr;      // of the last frame, or of the one that is being submitted
+    FrameSlot* read_ = nullptr;      // of the frame whose results are read
+    std::deque<FrameSlot*> unread_;  // of frames whose results were not given up, the oldest first
 };
 
 }  // namespace vesper::graph

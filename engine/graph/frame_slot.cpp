@@ -48,6 +48,8 @@ void FrameSlot::wait() {
     read_timestamps();
 }
 
+bool FrameSlot::is_done() const { return !under_way || vkGetFenceStatus(device.handle(), fence.get()) != VK_NOT_READY; }
+
 void FrameSlot::settle() noexcept {
     if (under_way) device.settle(fence.get());
     under_way = false;

@@ -25,6 +25,15 @@ struct Timing {
     uint64_t bytes_read = 0, bytes_written = 0;
 };
 
+/// Where the host's time went for a frame, ms.
+struct HostTimes {
+    double declare = 0;  ///< lists of lamps, the frame's declaration; of whoever runs the executor
+    double plan = 0;     ///< compiling the plan, placing resources, writing uploads
+    double record = 0;
+    double submit = 0;
+    double wait = 0;  ///< for the device
+};
+
 /// Commands of a frame in flight, and the resources that only they use.
 struct FrameSlot {
     explicit FrameSlot(const gpu::Device& device);
@@ -32,6 +41,7 @@ struct FrameSlot {
     void begin(uint32_t timestamps);  ///< recording; `timestamps`: how many it writes
     void submit(const SubmitSemaphores& semaphores);
     void wait();             ///< until its frame, if it has one, is done; then there are its timings
+    bool is_done() const;    ///< wait() would return at once
     void settle() noexcept;  ///< waits without reading timings, before resources are destroyed
 
     const gpu::Device& device;
@@ -41,6 +51,7 @@ struct FrameSlot {
     };
     std::map<uint32_t, Slice> places;  // in `readbacks`, by resource
     std::vector<Timing> timings;
+    HostTimes host_times;
     std::vector<gpu::OwnedImageView> views;
     gpu::CommandBuffer commands;
     gpu::Descriptors descriptors;

@@ -36,29 +36,51 @@ void FrameQueue::submit(Declared frame, const ChainInputs& inputs, const graph::
         pending.result.pattern_milliseconds = inputs.corona->milliseconds;
     }
     pending.result.host_times.declare = frame.watch.milliseconds();
-    executor_.submit(frame.graph, semaphores);
+    try {
+        executor_.submit(frame.graph, semaphores);
+    } catch (...) {
+        forget_lost();
+        throw;
+    }
     // Nothing fails from here on.
     if (pending.chain.eye) eye_ = eye_.submitted();
     graph_ = std::move(frame.graph);
-    pending_ = std::move(pending);
+    pending_.push_back(std::move(pending));
+    forget_lost();
 }
 
 std::optional<ToneMapped> FrameQueue::finish() {
+    return take([this] { return executor_.finish(); });
+}
+
+std::optional<ToneMapped> FrameQueue::finish_oldest(bool waits) {
+    return take([&] { return executor_.finish_oldest(waits); });
+}
+
+template <class Finish>
+std::optional<ToneMapped> FrameQueue::take(const Finish& finish) {
+    const size_t before = executor_.unfinished();
     try {
-        if (!executor_.finish()) pending_.reset();
+        if (!finish()) {
+            forget_lost();
+            return std::nullopt;
+        }
     } catch (...) {
         // A frame that failed has left nothing: the next one takes the state that this one took.
-        if (pending_ && eye_.on_device) eye_ = pending_->eye;
+        if (!pending_.empty() && eye_.on_device) eye_ = pending_.front().eye;
+        pending_.clear();
         throw;
     }
-    if (!pending_) return std::nullopt;
-    ToneMapped result = std::move(pending_->result);
-    result.milliseconds = pending_->watch.milliseconds();
+    // All but the last are given up, or the oldest is taken.
+    const size_t given_up = executor_.unfinished() == 0 ? pending_.size() : before - executor_.unfinished();
+    Pending pending = std::move(pending_[given_up - 1]);
+    pending_.erase(pending_.begin(), pending_.begin() + ptrdiff_t(given_up));
+    ToneMapped result = std::move(pending.result);
+    result.milliseconds = pending.watch.milliseconds();
     const double declared_after = result.host_times.declare;
-    read_tone_chain(executor_, pending_->chain, result.extent, result);
+    read_tone_chain(executor_, pending.chain, result.extent, result);
     result.host_times.declare = declared_after;
-    if (pending_->chain.eye) eye_ = eye_.finished(result.eye);
-    pending_.reset();
+    if (pending.chain.eye) eye_ = eye_.finished(result.eye);
     return result;
 }
 

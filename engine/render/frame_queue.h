@@ -1,6 +1,7 @@
 // Submits frames, and carries the state of the eye from each to the next. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <string>
 
@@ -47,9 +48,14 @@ public:
     /// Submits a frame, which was declared with these inputs, between semaphores and without waiting. If it throws
     /// Error nothing has changed.
     void submit(Declared frame, const ChainInputs& inputs, const graph::SubmitSemaphores& semaphores);
-    /// Waits for all submitted frames. Returns the results of the last one, once; its readbacks can be read until the
-    /// next frame is submitted.
+    /// Waits for all submitted frames. Returns the results of the last one, once, and gives up those before it; its
+    /// readbacks can be read until the next frame is submitted.
     std::optional<ToneMapped> finish();
+    /// The same of the oldest frame whose results are left: of the last graph::Executor::kFramesUnderWay. Without
+    /// `waits` there is nothing while it is under way.
+    std::optional<ToneMapped> finish_oldest(bool waits);
+    /// Frames whose results are left.
+    size_t unfinished() const { return pending_.size(); }
     /// Waits for all submitted frames; the results of the last one remain to be finished.
     void wait() { executor_.wait(); }
 
@@ -68,14 +74,20 @@ private:
         ToneMapped result;  // what the host knows before the frame is finished
     };
 
+    template <class Finish>
+    std::optional<ToneMapped> take(const Finish& finish);
+    void forget_lost() {
+        while (pending_.size() > executor_.unfinished()) pending_.pop_front();
+    }
+
     gpu::KernelCache kernels_;
     gpu::GraphicsPipelineCache pipelines_;
     gpu_scene::ScatterCache scatter_;
     gpu_scene::CoronaCache corona_;
     EyeState eye_;
-    graph::FrameGraph graph_;   // of the last frame
-    graph::Executor executor_;  // waits for its frames, which use the members above
-    std::optional<Pending> pending_;
+    graph::FrameGraph graph_;      // of the last frame
+    graph::Executor executor_;     // waits for its frames, which use the members above
+    std::deque<Pending> pending_;  // the oldest first
 };
 
 }  // namespace vesper::render

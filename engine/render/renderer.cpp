@@ -1,5 +1,6 @@
 #include "render/renderer.h"
 
+#include <deque>
 #include <string>
 #include <utility>
 
@@ -64,7 +65,10 @@ struct Renderer::State {
     void add_obstacles(const FrameContext& frame, const Request& of, const SceneLight& light, const ToneChain& chain,
                        Pending& pending) const;
     void submit(const Request& of, float seconds, const Outputs& outputs, const graph::SubmitSemaphores& semaphores);
-    std::optional<Frame> finish();
+    std::optional<Frame> take(std::optional<ToneMapped> shown);
+    void forget_lost() {
+        while (pending.size() > frames.unfinished()) pending.pop_front();
+    }
     // Runs what declares and submits frames: where it fails, the device has not got what the host believes.
     template <class Do>
     auto or_forget(const Do& act) {
@@ -81,8 +85,8 @@ struct Renderer::State {
     std::shared_ptr<Cache> map_cache;
     SampleBuffers samples;
     std::function<void(uint32_t)> watch_samples;
-    FrameQueue frames;  // waits for its frames, which use the rest
-    std::optional<Pending> pending;
+    FrameQueue frames;            // waits for its frames, which use the rest
+    std::deque<Pending> pending;  // the oldest first
 };
 
 Renderer::Renderer(gpu::Device& device, const scene::Scene& scene) : state_(std::make_unique<State>(device, scene)) {}
@@ -161,17 +165,17 @@ void Renderer::State::keep_maps(Pending& of, MapReport& report) {
 
 // The same of a frame that nobody has finished, before its readbacks are lost; waits for it.
 void Renderer::State::keep_pending_maps() {
-    if (!pending || !pending->kept_maps.drawn_on_host) return;
+    if (pending.empty() || !pending.back().kept_maps.drawn_on_host) return;
     frames.wait();
-    keep_maps(*pending, pending->frame.maps);
-    pending->kept_maps = {};
+    keep_maps(pending.back(), pending.back().frame.maps);
+    pending.back().kept_maps = {};
 }
 
 // Samples before the last. Lamps, maps and luminaires are those of the view itself, of which samples see other points.
 void Renderer::State::add_samples(const Request& of, const Prepared& prepared, std::span<const glm::dvec2> places,
                                   Pending& to) {
     if (places.empty()) return;
-    pending.reset();  // a graph that is run leaves nothing of it
+    pending.clear();  // a graph that is run leaves nothing of them
     frames.wait();
     samples.resize(device, uint64_t(of.view.extent.width) * of.view.extent.height);
     for (const glm::dvec2& place : places) {
@@ -249,26 +253,32 @@ void Renderer::State::submit(const Request& of, float seconds, const Outputs& ou
     next.frame.glare_sources = prepared.luminaires.glare_sources;
     next.frame.outside = chain.scatter.lamps;
     next.chain = std::move(chain);
-    pending = std::move(next);
+    pending.push_back(std::move(next));
+    forget_lost();
 }
 
-std::optional<Frame> Renderer::State::finish() {
-    std::optional<ToneMapped> shown = frames.finish();
-    if (!shown) return std::nullopt;
-    Frame frame = std::move(pending->frame);
-    static_cast<ToneMapped&>(frame) = std::move(*shown);
-    frame.clusters = read_one<shared::ClusterReport>(frames.executor(), pending->clusters);
-    frame.visibility = read_one<shared::VisibilityReport>(frames.executor(), pending->visibility);
-    if (pending->targets) {
-        const auto sums = frames.executor().read_as<shared::TargetSums>(pending->targets);
-        measure(pending->obstacles, sums, pending->view);
-        frame.obstacles = std::move(pending->obstacles.seen);
+// What the host makes of a frame whose results can be read: of the oldest that is left, or the last.
+std::optional<Frame> Renderer::State::take(std::optional<ToneMapped> shown) {
+    if (!shown) {
+        forget_lost();
+        return std::nullopt;
     }
-    if (pending->triangles)
-        frame.obstacle_pixels =
-            obstacles_of_pixels(frames.executor().read_as<glm::uvec2>(pending->triangles), pending->of_instances);
-    if (pending->kept_maps.drawn_on_host) keep_maps(*pending, frame.maps);
-    graph::add_times(frame.timings, pending->earlier);
+    while (pending.size() > frames.unfinished() + 1) pending.pop_front();
+    Pending done = std::move(pending.front());
+    pending.pop_front();
+    const graph::Executor& executor = frames.executor();
+    Frame frame = std::move(done.frame);
+    static_cast<ToneMapped&>(frame) = std::move(*shown);
+    frame.clusters = read_one<shared::ClusterReport>(executor, done.clusters);
+    frame.visibility = read_one<shared::VisibilityReport>(executor, done.visibility);
+    if (done.targets) {
+        measure(done.obstacles, executor.read_as<shared::TargetSums>(done.targets), done.view);
+        frame.obstacles = std::move(done.obstacles.seen);
+    }
+    if (done.triangles)
+        frame.obstacle_pixels = obstacles_of_pixels(executor.read_as<glm::uvec2>(done.triangles), done.of_instances);
+    if (done.kept_maps.drawn_on_host) keep_maps(done, frame.maps);
+    graph::add_times(frame.timings, done.earlier);
     return frame;
 }
 
@@ -279,13 +289,17 @@ void Renderer::submit(const RenderSettings& given, const gpu_scene::View& view, 
 }
 
 std::optional<Frame> Renderer::finish() {
-    return state_->or_forget([&] { return state_->finish(); });
+    return state_->or_forget([&] { return state_->take(state_->frames.finish()); });
+}
+
+std::optional<Frame> Renderer::finish_oldest(bool waits) {
+    return state_->or_forget([&] { return state_->take(state_->frames.finish_oldest(waits)); });
 }
 
 Frame Renderer::render(const RenderSettings& given, const gpu_scene::View& view, const gpu_scene::SceneFrame& poses,
                        float seconds, const Outputs& outputs) {
     submit(given, view, poses, seconds, outputs, {});
-    const ChainInputs chain = state_->pending->chain;
+    const ChainInputs chain = state_->pending.back().chain;
     Frame rendered = *finish();
     if (!given.display_average || given.samples <= 1 || !outputs.display) return rendered;
     const RenderSettings settings = ldr_baseline(given);

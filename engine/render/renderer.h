@@ -60,6 +60,9 @@ public:
                 float seconds, const Outputs& outputs, const graph::SubmitSemaphores& semaphores);
     /// Waits for all submitted frames. Returns the results of the last one, once.
     std::optional<Frame> finish();
+    /// Results of the oldest submitted frame whose results were not returned; those of frames before the last
+    /// graph::Executor::kFramesUnderWay are lost. Without `waits` there are none while it is under way.
+    std::optional<Frame> finish_oldest(bool waits);
     /// Where maps of what stands still are kept from run to run; null, as at first: nowhere. Pictures do not depend on
     /// it. Throws nothing.
     void keep_maps(std::shared_ptr<Cache> cache);

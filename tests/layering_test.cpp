@@ -36,7 +36,7 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"osi", {"base", "io", "roads"}},
     {"traffic", {"base", "io", "photometry", "vision", "scene"}},
     {"gpu", {"base"}},
-    {"window", {"base", "gpu", "glsl"}},
+    {"window", {"base", "gpu", "graph", "glsl"}},
     {"graph", {"base", "gpu"}},
     {"gpu_scene", {"base", "photometry", "vision", "scene", "rays", "transport", "gpu", "glsl"}},
     {"render", {"base", "photometry", "vision", "scene", "transport", "gpu", "graph", "gpu_scene", "glsl"}},

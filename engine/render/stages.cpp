@@ -90,12 +90,11 @@ Statistics add_statistics(const FrameContext& frame, Resource retina, const Tone
     return made;
 }
 
-Adaptation add_adaptation_to(const FrameContext& frame, const Statistics& statistics,
-                             const ToneChainSettings& settings, const EyeState& eye, float seconds) {
+Adaptation add_adaptation_to(const FrameContext& frame, const Statistics& statistics, const ToneChainSettings& settings,
+                             const EyeState& eye, float seconds) {
     const std::vector<Resource>& levels = statistics.luminance.levels;
     return add_adaptation(
-        frame,
-        {levels.back(), levels[statistics.fovea.level - 1], statistics.histogram, statistics.colours, eye},
+        frame, {levels.back(), levels[statistics.fovea.level - 1], statistics.histogram, statistics.colours, eye},
         operator_info(settings.tone_operator), parameters_of(settings, statistics.fovea, seconds));
 }
 

@@ -45,8 +45,8 @@ struct Statistics {
 Statistics add_statistics(const FrameContext& frame, graph::Resource retina, const ToneChainSettings& settings);
 
 /// An eye that adapts to one picture (add_adaptation).
-Adaptation add_adaptation_to(const FrameContext& frame, const Statistics& statistics,
-                             const ToneChainSettings& settings, const EyeState& eye, float seconds);
+Adaptation add_adaptation_to(const FrameContext& frame, const Statistics& statistics, const ToneChainSettings& settings,
+                             const EyeState& eye, float seconds);
 
 /// Where codes go.
 struct ShowOutputs {

@@ -19,8 +19,7 @@ graph::Resource StoredPicture::declare(const gpu::Device& device, graph::FrameGr
     if (!texels_ || bytes_of(view_.extent) != bytes) {
         view_.extent = {0, 0}, texels_ = {};
         arena_.emplace(device);
-        texels_ =
-            gpu::make_buffer(device, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+        texels_ = gpu::make_buffer(device, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
         arena_->bind(texels_.get());
     }
     view_ = view;

@@ -16,8 +16,8 @@ public:
     const gpu_scene::View& view() const { return view_; }
     uint64_t bytes() const { return arena_ ? arena_->bytes() : 0; }
 
-    /// Declares that a frame leaves `image`, of the extent of `view`, here. No frame that uses it may be under way where
-    /// the extent changes. Throws Error if the device has no room.
+    /// Declares that a frame leaves `image`, of the extent of `view`, here. No frame that uses it may be under way
+    /// where the extent changes. Throws Error if the device has no room.
     void store(const gpu::Device& device, graph::FrameGraph& graph, graph::Resource image, const gpu_scene::View& view);
     /// The same of the middle of `image`, of the extent `whole`.
     void store_middle(const gpu::Device& device, graph::FrameGraph& graph, graph::Resource image, VkExtent2D whole,

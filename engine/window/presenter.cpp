@@ -8,6 +8,7 @@
 #include "shaders/window/overlay.vert.inc"
 #include "shaders/window/present.frag.inc"
 #include "shaders/window/present.vert.inc"
+#include "shaders/window/present_image.frag.inc"
 #include "shared/present.h"
 
 namespace vesper::window {
@@ -26,6 +27,10 @@ constexpr gpu::GraphicsShaders kPictureOfStorage{"present.frag",
                                                  kStorage,
                                                  sizeof(shared::PresentPush),
                                                  VK_SHADER_STAGE_FRAGMENT_BIT};
+
+constexpr gpu::GraphicsShaders kPictureOfImage{"present_image.frag",        present_vert,
+                                               present_image_frag,          kLetters,
+                                               sizeof(shared::PresentPush), VK_SHADER_STAGE_FRAGMENT_BIT};
 
 constexpr VkVertexInputBindingDescription kVertices[]{{0, sizeof(Overlay::Vertex), VK_VERTEX_INPUT_RATE_VERTEX}};
 constexpr VkVertexInputAttributeDescription kAttributes[]{
@@ -61,6 +66,25 @@ Placement place(VkExtent2D picture, VkExtent2D window, Scaling scaling) {
     }
     return {{{int32_t((window.width - size.width) / 2), int32_t((window.height - size.height) / 2)}, size},
             whole ? times : 0};
+}
+
+graph::ExternalImage PictureImage::target(VkExtent2D extent, uint32_t bits) {
+    const VkFormat format = bits == 8 ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_A2B10G10R10_UNORM_PACK32;
+    if (extent.width != extent_.width || extent.height != extent_.height || bits != bits_) {
+        gpu::check(vkQueueWaitIdle(device_.queue()), "waiting for the device");
+        extent_ = {0, 0}, view_ = {}, image_ = {};
+        arena_.emplace(device_);
+        image_ = gpu::make_image(
+            device_, gpu::image_info(format, extent, 1, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT));
+        arena_->bind(image_.get());
+        view_ = gpu::make_view(device_, image_.get(), format);
+        extent_ = extent, bits_ = bits;
+    }
+    return {.image = image_.get(),
+            .format = format,
+            .extent = extent,
+            .before = VK_IMAGE_LAYOUT_UNDEFINED,
+            .after = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 }
 
 Presenter::Presenter(gpu::Device& device, VkExtent2D coverage_extent, std::span<const uint8_t> coverage)
@@ -115,13 +139,12 @@ void Presenter::draw(VkCommandBuffer commands, const WindowImage& image, const P
     Slot& slot = slots_[image.slot];
     if (!slot.descriptors) slot.descriptors.emplace(device_);
     slot.descriptors->reset();
-    if (!picture.codes.empty()) draw_picture(commands, image, picture, scaling, slot);
+    if (!picture.codes.empty() || picture.image) draw_picture(commands, image, picture, scaling, slot);
     if (!overlay.batches.empty()) draw_overlay(commands, image, overlay, slot);
     vkCmdEndRendering(commands);
 }
 
-void Presenter::draw_picture(VkCommandBuffer commands, const WindowImage& image, const Picture& picture,
-                             Scaling scaling, Slot& slot) {
+void Presenter::upload(const Picture& picture, Slot& slot) const {
     const uint64_t pixels = uint64_t(picture.extent.width) * picture.extent.height;
     if (picture.codes.size() != pixels * 4) throw Error("a picture for a window: not four bytes a pixel");
     if (pixels > device_.most_texels(sizeof(uint32_t)))
@@ -146,7 +169,11 @@ void Presenter::draw_picture(VkCommandBuffer commands, const WindowImage& image,
     }
     std::memcpy(slot.words.data(), picture.codes.data(), picture.codes.size());
     slot.words.flush();
+}
 
+void Presenter::draw_picture(VkCommandBuffer commands, const WindowImage& image, const Picture& picture,
+                             Scaling scaling, Slot& slot) {
+    if (!picture.image) upload(picture, slot);
     const Placement at = place(picture.extent, image.extent, scaling);
     const shared::PresentPush push{.size = {picture.extent.width, picture.extent.height},
                                    .origin = {at.area.offset.x, at.area.offset.y},
@@ -162,13 +189,17 @@ void Presenter::draw_picture(VkCommandBuffer commands, const WindowImage& image,
                               1};
     const VkBufferView view = slot.texels.get();
     const VkDescriptorBufferInfo words{slot.words.buffer(), 0, VK_WHOLE_SIZE};
+    const VkDescriptorImageInfo texels{sampler_.get(), picture.image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    const gpu::GraphicsShaders& shaders = picture.image                      ? kPictureOfImage
+                                          : device_.has_long_texel_buffers() ? kPicture
+                                                                             : kPictureOfStorage;
     VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                                .descriptorCount = 1,
-                               .descriptorType = storage ? kStorage[0] : kTexels[0],
+                               .descriptorType = shaders.bindings[0],
+                               .pImageInfo = &texels,
                                .pBufferInfo = &words,
                                .pTexelBufferView = &view};
-    const gpu::GraphicsPipeline& pipeline =
-        pipelines_.get(storage ? kPictureOfStorage : kPicture, {.targets = {{image.format}}});
+    const gpu::GraphicsPipeline& pipeline = pipelines_.get(shaders, {.targets = {{image.format}}});
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.pipeline());
     vkCmdSetViewport(commands, 0, 1, &viewport);
     vkCmdSetScissor(commands, 0, 1, &at.area);

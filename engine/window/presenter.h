@@ -11,15 +11,38 @@
 #include "gpu/descriptors.h"
 #include "gpu/graphics_pipeline.h"
 #include "gpu/memory.h"
+#include "graph/frame_graph.h"
 #include "window/swapchain.h"
 
 namespace vesper::window {
 
-/// Display codes on the host, 4 bytes a pixel from the top left: RGBA, or words of A2B10G10R10.
+/// Display codes, 4 bytes a pixel from the top left: RGBA, or words of A2B10G10R10. On the host, or in an image on the
+/// device, of such a format in UNORM, that can be sampled in its layout VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL.
 struct Picture {
     std::span<const uint8_t> codes;
     VkExtent2D extent{};
     uint32_t bits = 8;
+    VkImageView image = VK_NULL_HANDLE;  ///< if it is not null, in place of `codes`
+};
+
+/// An image that frames are shown in (render::Outputs::shown) and a presenter draws, in the order in which both are
+/// handed to the queue.
+class PictureImage {
+public:
+    explicit PictureImage(gpu::Device& device) : device_(device) {}
+
+    /// Where the next frame goes. Waits for the device where extent or bits change. Throws Error.
+    graph::ExternalImage target(VkExtent2D extent, uint32_t bits);
+    /// What it shows after that frame.
+    Picture picture() const { return {.codes = {}, .extent = extent_, .bits = bits_, .image = view_.get()}; }
+
+private:
+    gpu::Device& device_;
+    VkExtent2D extent_{0, 0};
+    uint32_t bits_ = 0;
+    std::optional<gpu::Arena> arena_;
+    gpu::OwnedImage image_;
+    gpu::OwnedImageView view_;
 };
 
 /// How a picture of one size is shown in a window of another. What is left is black.
@@ -63,7 +86,7 @@ public:
     /// White of overlays in a HDR10 window, cd/m^2: graphics white of ITU-R BT.2408.
     static constexpr float kOverlayWhite = 203;
 
-    /// Copies what is shown, so none of it is needed afterwards. Throws Error.
+    /// Copies what is shown of the host, so none of it is needed afterwards. Throws Error.
     void draw(VkCommandBuffer, const WindowImage&, const Picture&, Scaling, const Overlay&);
 
 private:
@@ -74,6 +97,7 @@ private:
     };
     void upload_coverage(VkExtent2D, std::span<const uint8_t>);
     void draw_picture(VkCommandBuffer, const WindowImage&, const Picture&, Scaling, Slot&);
+    void upload(const Picture&, Slot&) const;
     void draw_overlay(VkCommandBuffer, const WindowImage&, const Overlay&, Slot&);
 
     gpu::Device& device_;

@@ -1,4 +1,5 @@
-// Reference of the sums of light: double precision, tents written as the function they are. SPDX-License-Identifier: MIT
+// Reference of the sums of light: double precision, tents written as the function they are. SPDX-License-Identifier:
+// MIT
 #pragma once
 
 #include <cmath>

@@ -50,7 +50,8 @@ TEST(LightSums, MatchTheReferenceAtEverySize) {
             for (int c = 0; c < 3; ++c) {
                 const double sum = want.at(nodes[i])[c];
                 // 2e-6: the light of a pixel is good to some roundings, and each level sums nine.
-                ASSERT_NEAR(got[i][c], sum, 2e-6 * sum) << extent.width << " x " << extent.height << ", node " << nodes[i];
+                ASSERT_NEAR(got[i][c], sum, 2e-6 * sum)
+                    << extent.width << " x " << extent.height << ", node " << nodes[i];
             }
     }
     EXPECT_EQ(rig.complaints(), "");

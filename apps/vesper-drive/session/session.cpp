@@ -159,9 +159,8 @@ void Session::begin_frame(const gpu_scene::SceneFrame& moment) {
     renderer_->set_lamp_reflections(lamp_reflections_);
 }
 
-void Session::end_frame(const shared::EyeState& eye) {
+void Session::end_frame() {
     rendered_ = world_->steps();
-    eye_ = eye;
     try {
         note({.kind = DriveEvent::Kind::Frame, .name = {}, .value = {}});
     } catch (const Error& error) {
@@ -170,7 +169,7 @@ void Session::end_frame(const shared::EyeState& eye) {
     }
 }
 
-void Session::skip_frame() { end_frame(eye_); }
+void Session::skip_frame() { end_frame(); }
 
 render::Frame Session::render(const gpu_scene::View& view, render::Outputs outputs) {
     const gpu_scene::SceneFrame now = moment();
@@ -178,8 +177,24 @@ render::Frame Session::render(const gpu_scene::View& view, render::Outputs outpu
     render::Frame frame = frame_maker ? frame_maker(*renderer_, frame_settings(), view, now, float(eye_step_), outputs,
                                                     !rendered_.has_value())
                                       : renderer_->render(frame_settings(), view, now, float(eye_step_), outputs);
-    end_frame(frame.eye);
+    eye_ = frame.eye;
+    end_frame();
     if (on_maps) on_maps(frame.maps);
+    return frame;
+}
+
+void Session::submit(const gpu_scene::View& view, const render::Outputs& outputs) {
+    const gpu_scene::SceneFrame now = moment();
+    begin_frame(now);
+    renderer_->submit(frame_settings(), view, now, float(eye_step_), outputs, {});
+    end_frame();
+}
+
+std::optional<render::Frame> Session::finish_oldest(bool waits) {
+    std::optional<render::Frame> frame = renderer_->finish_oldest(waits);
+    if (!frame) return frame;
+    eye_ = frame->eye;
+    if (on_maps) on_maps(frame->maps);
     return frame;
 }
 
@@ -194,7 +209,8 @@ ChannelMosaic Session::render(const Channels& channels, render::Outputs outputs)
     begin_frame(now);
     ChannelMosaic wall =
         wall_->render(*renderer_, channels, frame_settings(), view({1, 1}), now, float(eye_step_), outputs);
-    end_frame(wall.shown.eye);
+    eye_ = wall.shown.eye;
+    end_frame();
     for (const render::Frame& channel : wall.channels)
         if (on_maps) on_maps(channel.maps);
     return wall;

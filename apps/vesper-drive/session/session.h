@@ -110,6 +110,10 @@ public:
     render::Frame render(VkExtent2D, render::Outputs);
     /// The same of another view.
     render::Frame render(const gpu_scene::View&, render::Outputs);
+    /// The same, submitted without waiting; best with Outputs::shown. Its results come from finish_oldest().
+    void submit(const gpu_scene::View&, const render::Outputs&);
+    /// Results of the oldest submitted frame (Renderer::finish_oldest).
+    std::optional<render::Frame> finish_oldest(bool waits);
     /// All channels of this moment, seen by one eye. Not to be mixed with frames of one view: each way has an eye of
     /// its own.
     ChannelMosaic render(const Channels&, render::Outputs);
@@ -147,7 +151,7 @@ private:
     void update_external(std::optional<double> shown);
     osi::Message message_now() const;
     void begin_frame(const gpu_scene::SceneFrame& moment);
-    void end_frame(const shared::EyeState&);
+    void end_frame();
 
     DriveStart options_;
     Scenery scenery_;

@@ -91,6 +91,7 @@ Screen::Screen(Window& window, gpu::Device& device)
     : window_(window),
       instruments_(std::make_unique<Instruments>(window.handle())),
       swapchain_(device, [&window](VkInstance instance) { return window.make_surface(instance); }),
+      image_(device),
       presenter_(device, Instruments::letters().extent, Instruments::letters().coverage) {}
 
 Screen::~Screen() = default;

@@ -33,6 +33,9 @@ public:
     /// Between these two, instruments are declared (ImGui::Begin and the like). Keys are theirs while `keyboard` says
     /// so, but for those of letters typed.
     void begin_instruments(bool keyboard);
+    /// Where the next frame of a display's codes is shown; then picture() is that frame.
+    graph::ExternalImage image_for(VkExtent2D extent, uint32_t bits) { return image_.target(extent, bits); }
+    window::Picture picture() const { return image_.picture(); }
     /// Shows a picture of a display and the instruments. False: nothing was shown, for now.
     bool show(const window::Picture&, const vision::Display&, const ScreenSettings&);
 
@@ -46,7 +49,8 @@ private:
     Window& window_;
     std::unique_ptr<Instruments> instruments_;
     window::Swapchain swapchain_;
-    window::Presenter presenter_;
+    window::PictureImage image_;
+    window::Presenter presenter_;  // waits for what was drawn, which uses the image
 };
 
 }  // namespace vesper::drive

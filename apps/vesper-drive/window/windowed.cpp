@@ -110,6 +110,7 @@ void WindowedDrive::recover(const gpu::DeviceLost& error) {
     screen_.reset();
     auto device = std::make_unique<gpu::Device>(device_options());
     session_->use(*device);
+    under_way_ = 0;
     device_ = std::move(device);
     screen_ = std::make_unique<Screen>(window_, *device_);
     dirty_ = true;
@@ -159,7 +160,7 @@ void WindowedDrive::reload(const std::string& scene) {
                                                            .settings = settings});
         watches = watch_again(*made);
         if (!recording_.empty()) session_->stop_recording();
-        light_.reset(), session_ = std::move(made), feed_.reset();
+        light_.reset(), session_ = std::move(made), feed_.reset(), under_way_ = 0;
         if (same && arguments_.messages.live) open_feed();
         session_->set_shadow_budget(kWindowShadowBudget);
         if (channels_) session_->share_channels(nullptr, arguments_.latency);
@@ -263,6 +264,7 @@ bool WindowedDrive::replay_to_next_frame() {
 
 // What the world does in so much real time, and a picture of that if anything is new.
 void WindowedDrive::advance(double seconds) {
+    take_finished();
     const double step = session_->options().time_step;
     lag_s_ = paused_ ? 0 : std::min(lag_s_ + seconds, kMostBehind);
     if (std::exchange(one_step_, false)) lag_s_ = step;
@@ -342,7 +344,21 @@ void show_nothing(render::ToneMapped& shown) {
     shown.display.assign(size_t{4} * shown.extent.width * shown.extent.height, 0);
 }
 
-void WindowedDrive::draw(const render::Outputs& outputs, ChannelMosaic& wall) {
+// Whether each frame is waited for: somebody reads its picture, or it depends on the results of the one before.
+bool WindowedDrive::needs_lockstep() const {
+    const render::RenderSettings& settings = session_->settings().render();
+    const bool reads = channels_ || log_ || arguments_.hatches || instruments_.needs_scene() || rendered_.width == 0;
+    return reads || settings.samples > 1 || render::FrameQueue::needs_finished_frame(settings);
+}
+
+// Waits for the frame.
+void WindowedDrive::draw(const render::Outputs& outputs) {
+    on_device_ = false, under_way_ = 0;
+    if (!channels_) {
+        frame_ = session_->render(view_, outputs);
+        return;
+    }
+    ChannelMosaic wall;
     if (ranks_) {
         DriveRows* rows = log_ ? &log_->rows() : nullptr;
         ChannelRanks::LedFrame led = ranks_->render(*session_, *channels_, outputs, {.display = false}, rows);
@@ -350,12 +366,26 @@ void WindowedDrive::draw(const render::Outputs& outputs, ChannelMosaic& wall) {
         meeting_note_ =
             apps::Ranks::all().name(led.meeting.last) + format(" was the last, by %.1f ms", led.meeting.skew * 1e3);
         if (wall.shown.display.empty()) show_nothing(wall.shown);
-        frame_ = logged_frame(wall, channels_->gaze);
-    } else if (channels_) {
-        wall = session_->render(*channels_, outputs);
-        frame_ = logged_frame(wall, channels_->gaze);
     } else {
-        frame_ = session_->render(view_, outputs);
+        wall = session_->render(*channels_, outputs);
+    }
+    frame_ = logged_frame(wall, channels_->gaze);
+    wall_ = std::move(wall.shown), columns_ = wall.columns;
+}
+
+// The frame goes to the screen's image; its results come later.
+void WindowedDrive::submit(VkExtent2D extent) {
+    const uint32_t bits = session_->settings().render().display.bits;
+    session_->submit(view_, {.display = false, .shown = screen_->image_for(extent, bits)});
+    on_device_ = true, ++under_way_;
+}
+
+// One frame may be under way while the next is made: the device has always work, and what somebody does is seen soon.
+void WindowedDrive::take_finished() {
+    while (std::optional<render::Frame> frame = session_->finish_oldest(under_way_ > 1)) {
+        --under_way_;
+        frame_ = std::move(*frame);
+        instruments_.remember(*session_, frame_);
     }
 }
 
@@ -363,15 +393,15 @@ void WindowedDrive::render(bool moved) {
     take_light();
     const VkExtent2D extent = picture_extent(arguments_.scale);
     const bool ldr = session_->settings().render().tone_operator == render::Operator::Ldr;
-    const bool measures = instruments_.needs_scene() || log_;
+    const bool measures = instruments_.needs_scene() || log_, waits = needs_lockstep();
     const render::Outputs outputs{.display = true, .scene = measures && !ldr};
-    const bool lacks = (outputs.scene && !ranks_ && frame_.scene.empty()) || extent.width != rendered_.width ||
-                       extent.height != rendered_.height;
+    const bool lacks = (outputs.scene && !ranks_ && frame_.scene.empty()) || (waits && on_device_) ||
+                       extent.width != rendered_.width || extent.height != rendered_.height;
     if (!moved && !dirty_ && !lacks) return;
     view_ = session_->view(extent);
-    ChannelMosaic wall;
+    const auto make = [&] { waits ? draw(outputs) : submit(extent); };
     try {
-        draw(outputs, wall);
+        make();
     } catch (const gpu::DeviceLost&) {
         throw;
     } catch (const Error& error) {
@@ -381,16 +411,17 @@ void WindowedDrive::render(bool moved) {
         if (!session_->settings().render().shadows || !recorded) throw;
         change("shadows", "off");
         say(error.what(), true);
-        draw(outputs, wall);
+        make();
     }
     rendered_ = extent, dirty_ = false, ++frame_number_;
+    if (!waits) return;
     instruments_.remember(*session_, frame_);
     hatch_unseen(frame_, session_->settings().render(), arguments_.visible_from);
     if (log_) log_frame();
     if (!channels_) return;
     const std::vector<graph::Timing> timings = std::move(frame_.timings);
-    static_cast<render::ToneMapped&>(frame_) = std::move(wall.shown);
-    frame_.timings = timings, columns_ = wall.columns;
+    static_cast<render::ToneMapped&>(frame_) = std::move(wall_);
+    frame_.timings = timings;
 }
 
 // The view that a pixel of the frame belongs to, and its place there.
@@ -426,10 +457,10 @@ void WindowedDrive::present() {
     const std::vector<Change> changes = instruments_.draw(now);
     const bool colours = instruments_.shows_false_colour() && display.bits == 8;
     const auto coloured = colours ? instruments_.coloured(frame_, frame_number_) : std::span<const uint8_t>();
-    const window::Picture picture{.codes = coloured.empty() ? std::span<const uint8_t>(frame_.display) : coloured,
+    const window::Picture of_host{.codes = coloured.empty() ? std::span<const uint8_t>(frame_.display) : coloured,
                                   .extent = frame_.extent,
                                   .bits = display.bits};
-    shown_ |= screen_->show(picture, display, screen_settings_);
+    shown_ |= screen_->show(on_device_ ? screen_->picture() : of_host, display, screen_settings_);
     for (const auto& [name, value] : changes) change(name, value);
 }
 

@@ -68,7 +68,10 @@ private:
     std::string standing_message() const;
     bool replay_to_next_frame();
     void render(bool moved);
-    void draw(const render::Outputs&, ChannelMosaic&);
+    bool needs_lockstep() const;
+    void draw(const render::Outputs&);
+    void submit(VkExtent2D);
+    void take_finished();
     void present();
     std::pair<gpu_scene::View, std::optional<glm::uvec2>> view_at(std::optional<glm::uvec2> pixel) const;
     void say(const std::string& text, bool alarm = false);
@@ -98,11 +101,14 @@ private:
     unsigned coarser_ = 0;            // index of the picture's coarseness
     std::optional<VkExtent2D> size_;  // of pictures, as it was given or recorded; none: the window's
     VkExtent2D rendered_{};
-    render::Frame frame_;
+    render::Frame frame_;     // the last one whose results are known
+    unsigned under_way_ = 0;  // frames whose results are not
+    bool on_device_ = false;  // the picture is the screen's image, and frame_ has no codes
     gpu_scene::View view_;
     std::optional<Channels> channels_;
     std::unique_ptr<ChannelRanks> ranks_;  // that show them; none: this process does
-    std::vector<uint32_t> columns_;        // where each begins in the frame
+    render::ToneMapped wall_;              // the picture of all of them, until the frame's log is written
+    std::vector<uint32_t> columns_;        // where each begins in it
     uint64_t frame_number_ = 0;
     glm::dvec2 mouse_{0};
     std::string recording_, message_;

@@ -83,6 +83,7 @@ void WindowedDrive::save_picture() {
     try {
         const std::string name = free_name("picture-", ".png");
         const DriveSettings& settings = session_->settings();
+        if (on_device_) draw({.display = true});  // once more, for its codes
         apps::write_codes(name, frame_, settings.render().display,
                           apps::describe_settings(settings.recorded(picture_scale())));
         say("saved " + name);

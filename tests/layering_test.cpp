@@ -143,14 +143,16 @@ TEST(Layering, TheRulesRefuse) {
     EXPECT_NE(objection("renderer.cpp", "io/image_file.h"), "") << "has no layer";
 }
 
-/// The files that a pass of this name lacks.
-std::vector<std::string> missing_of(const std::string& pass) {
-    const fs::path files[]{"engine/render/passes/" + pass + ".h",
-                           "engine/render/passes/" + pass + ".cpp",
-                           "glsl/" + pass,
-                           "tests/passes/" + pass + "_reference.h",
-                           "tests/passes/" + pass + "_reference_test.cpp",
-                           "tests/passes/" + pass + "_test.cpp"};
+/// The files that a pass of this name lacks; those of shadows are together in folders of this name.
+std::vector<std::string> missing_of(const std::string& pass, bool of_shadows = false) {
+    const std::string code = of_shadows ? "engine/render/shadows/" : "engine/render/passes/",
+                      test = of_shadows ? "tests/passes/shadows/" : "tests/passes/";
+    const fs::path files[]{code + pass + ".h",
+                           code + pass + ".cpp",
+                           of_shadows ? "glsl/shadows" : "glsl/" + pass,
+                           test + pass + "_reference.h",
+                           test + pass + "_reference_test.cpp",
+                           test + pass + "_test.cpp"};
     std::vector<std::string> missing;
     for (const fs::path& file : files)
         if (!fs::exists(kSource / file)) missing.push_back(file.string());
@@ -174,9 +176,23 @@ TEST(Layering, EveryPassHasItsFilesUnderOneName) {
     EXPECT_GT(passes, 15u);
 }
 
+TEST(Layering, EveryPassOfShadowsHasItsReference) {
+    EXPECT_EQ(missing_of("no_such_pass", true).size(), 5u);
+    const std::set<std::string> parts{"caster_triangles"};  // of draw_shadow_maps
+    size_t passes = 0;
+    for (const fs::path& file : files_under(kSource / "engine" / "render" / "shadows", {".cpp"})) {
+        const std::string pass = file.stem().string(), text = text_of(file);
+        if (parts.contains(pass) || (text.find(".dispatch(") == text.npos && text.find(".raster(") == text.npos))
+            continue;
+        EXPECT_EQ(missing_of(pass, true), std::vector<std::string>()) << pass;
+        ++passes;
+    }
+    EXPECT_EQ(passes, 4u);
+}
+
 // A folder of shaders belongs to the pass of its name; the other folders are listed here.
 TEST(Layering, EveryShaderIsInTheFolderOfItsPass) {
-    const std::set<std::string> others{"window"};
+    const std::set<std::string> others{"shadows", "window"};
     for (const fs::path& file : files_under(kSource / "glsl", {".comp", ".vert", ".frag"})) {
         const std::string folder = first_folder(fs::relative(file, kSource / "glsl"));
         EXPECT_TRUE(others.contains(folder) || missing_of(folder).empty()) << file;

@@ -247,7 +247,7 @@ void add_bench(apps::Command program) {
     apps::Option json = program.add_option("--json", a->json, "Write everything that was measured to a file");
     apps::Option picture = program.add_option("--picture", a->picture, "Write the last frame to a .png file");
     program.add_flag("--no-start", a->no_start,
-                     "Do not time starts with cold and warm caches of shaders and distance maps");
+                     "Do not time starts with cold and warm caches of shaders and shadow maps");
     apps::Option matrix = program.add_option("--matrix", a->growth,
                                              "Drive the street with 64 to 4096 lamps at several sizes with several "
                                              "operators, and draw how time grows into a folder");

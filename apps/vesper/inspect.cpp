@@ -88,7 +88,7 @@ void run(const InspectArguments& a) {
                     : !a.points.empty() ? inspect_light(a)
                     : !a.light.empty()  ? inspect_light_picture(a)
                     : a.lamp.empty()    ? inspect_scene(a)
-                                        : inspect_lamp_map(a);
+                                        : inspect_shadow_map(a);
             break;
         case Kind::Distribution:
             found = inspect_distribution(a);

@@ -36,7 +36,7 @@ Inspection inspect_light(const InspectArguments&);          ///< at points of a 
 void announce_light_picture(const InspectArguments&);       ///< of the files that the next one writes (FileGate)
 Inspection inspect_light_picture(const InspectArguments&);  ///< of what a camera sees; writes the pictures
 Inspection inspect_balance(const InspectArguments&);        ///< of a scene's luminous flux
-Inspection inspect_lamp_map(const InspectArguments&);       ///< of a scene; writes the picture if one is wanted
+Inspection inspect_shadow_map(const InspectArguments&);     ///< of a scene; writes the picture if one is wanted
 Inspection inspect_distribution(const InspectArguments&);   ///< writes the picture if one is wanted
 Inspection inspect_table(const InspectArguments&);          ///< an r-table
 Inspection inspect_picture(const InspectArguments&);        ///< writes the picture if one is wanted

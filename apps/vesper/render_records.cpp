@@ -66,10 +66,10 @@ void print_statistics(const RenderArguments& arguments, const gpu::Device& devic
             lit, dark, mixed, faint);
     if (arguments.settings.shadows)
         print(
-            "distance maps: %u, %.0f MiB; for this frame %u were drawn anew, %u taken from the cache, and %u tiles of "
+            "shadow maps: %u, %.0f MiB; for this frame %u were drawn anew, %u taken from the cache, and %u tiles of "
             "others drawn; %u are out of date\n",
-            frame.maps.lamps, double(frame.maps.bytes) / (1 << 20), frame.maps.maps, frame.maps.kept, frame.maps.tiles,
-            frame.maps.carried);
+            frame.maps.lamps, double(frame.maps.bytes) / (1 << 20), frame.maps.maps, frame.maps.cached,
+            frame.maps.tiles, frame.maps.deferred);
     if (frame.directional_levels > 0)
         print("maps of directional lights: %u levels were drawn for this frame\n", frame.directional_levels);
     print("adaptation luminance %.4g cd/m^2, foveal level %u, %u of %u pixels not finite\n",

@@ -8,8 +8,8 @@
 #include "base/one_line.h"
 #include "gpu_scene/facets.h"
 #include "gpu_scene/intensity_tables.h"
-#include "gpu_scene/leading_vertices.h"
 #include "gpu_scene/occluders.h"
+#include "gpu_scene/provoking_vertices.h"
 #include "scene/reflectance.h"
 #include "shared/edges.h"
 #include "shared/retro.h"
@@ -61,7 +61,7 @@ scene::Material as_sheet(scene::Material m) {
 
 // The facets of all triangles of a primitive, at the vertices that lead them. The primitive's first vertex has the
 // number `first`.
-void add_facets(const scene::Primitive& primitive, const LeadingVertices& triangles, uint32_t first,
+void add_facets(const scene::Primitive& primitive, const ProvokingVertices& triangles, uint32_t first,
                 std::vector<shared::Facet>& to) {
     to.resize(first + triangles.vertices().size());
     const std::vector<Facet> found = facets(primitive);
@@ -136,7 +136,7 @@ void GpuScene::upload_geometry(const gpu::Device& device, const scene::Scene& sc
     for (const scene::Mesh& mesh : scene.meshes) {
         mesh_parts_.emplace_back(uint32_t(parts_.size()), uint32_t(mesh.primitives.size()));
         for (const scene::Primitive& primitive : mesh.primitives) {
-            const LeadingVertices leading(primitive);
+            const ProvokingVertices leading(primitive);
             const glm::vec3 centre =
                 primitive.bounds.empty() ? glm::vec3(0) : (primitive.bounds.low + primitive.bounds.high) * 0.5f;
             const float radius = primitive.bounds.empty() ? 0 : glm::length(primitive.bounds.high - centre);

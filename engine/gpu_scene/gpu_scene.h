@@ -59,7 +59,7 @@ public:
     const std::vector<Surface>& surfaces() const { return surfaces_; }
     const gpu::OwnedBuffer& vertices() const { return vertices_; }
     const gpu::OwnedBuffer& indices() const { return indices_; }
-    /// shared::Facet for each vertex, of the triangle that it is the first of (LeadingVertices).
+    /// shared::Facet for each vertex, of the triangle that it is the first of (ProvokingVertices).
     const gpu::OwnedBuffer& facets() const { return facets_; }
     uint64_t vertex_count() const { return vertex_count_; }
     uint64_t index_count() const { return index_count_; }

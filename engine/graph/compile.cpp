@@ -85,7 +85,7 @@ std::vector<bool> find_live_passes(const FrameGraph& graph) {
     std::vector<bool> wanted(resources.size()), live(graph.passes().size());
     for (size_t i = 0; i < resources.size(); ++i)
         wanted[i] = resources[i].kept || resources[i].origin == Origin::HistoryCurrent ||
-                    resources[i].origin == Origin::Lasting;
+                    resources[i].origin == Origin::Persistent;
     for (size_t p = live.size(); p-- > 0;) {
         const PassInfo& pass = graph.passes()[p];
         live[p] = std::ranges::any_of(pass.uses,
@@ -218,7 +218,7 @@ std::vector<State> start_of_frame(const FrameGraph& graph, const std::vector<Lif
         const ResourceInfo& r = graph.resources()[i];
         if (r.external_image.image) states[i].layout = VK_IMAGE_LAYOUT_GENERAL;  // the border of the frame sees to that
         if (r.origin == Origin::External && !r.shape.is_image()) states[i].since = states[i].written = filled_before();
-        if (r.origin == Origin::Lasting) {
+        if (r.origin == Origin::Persistent) {
             states[i].written = filled_before();
             states[i].written.add(lives[i].accesses);  // of the last frame
             states[i].since = states[i].written;

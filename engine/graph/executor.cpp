@@ -128,7 +128,7 @@ void Executor::run(const FrameGraph& graph) {
 void Executor::submit(const FrameGraph& graph, const SubmitSemaphores& semaphores) {
     Stopwatch watch;
     const bool goes_on = std::ranges::any_of(graph.resources(), [](const auto& r) {
-        return r.external_image.image != VK_NULL_HANDLE || r.origin == FrameGraph::Origin::Lasting;
+        return r.external_image.image != VK_NULL_HANDLE || r.origin == FrameGraph::Origin::Persistent;
     });
     const bool among_others = goes_on || !semaphores.wait.empty() || !semaphores.signal.empty() ||
                               std::ranges::any_of(slots_, &FrameSlot::under_way);
@@ -381,8 +381,8 @@ void Executor::realize_uploads(const FrameGraph& graph) {
 void Executor::realize_externals(const FrameGraph& graph) {
     for (uint32_t i = 0; i < graph.resources().size(); ++i) {
         const auto& info = graph.resources()[i];
-        const bool lasting = info.origin == FrameGraph::Origin::Lasting;
-        if ((info.origin != FrameGraph::Origin::External && !lasting) || info.external_image.image) continue;
+        const bool persistent = info.origin == FrameGraph::Origin::Persistent;
+        if ((info.origin != FrameGraph::Origin::External && !persistent) || info.external_image.image) continue;
         Realized& r = resources_[i];
         r.buffer = info.buffer, r.bytes = r.viewed_bytes = info.shape.bytes;
     }

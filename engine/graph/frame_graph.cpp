@@ -270,8 +270,8 @@ Resource FrameGraph::external(std::string_view name, const gpu::OwnedBuffer& buf
     return resource;
 }
 
-Resource FrameGraph::lasting(std::string_view name, const gpu::OwnedBuffer& buffer, uint64_t bytes, VkFormat texel) {
-    const Resource resource = add(name, buffer_shape(bytes, texel), Origin::Lasting);
+Resource FrameGraph::persistent(std::string_view name, const gpu::OwnedBuffer& buffer, uint64_t bytes, VkFormat texel) {
+    const Resource resource = add(name, buffer_shape(bytes, texel), Origin::Persistent);
     resources_.back().buffer = &buffer;
     return resource;
 }

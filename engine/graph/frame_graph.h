@@ -121,7 +121,7 @@ public:
         Readback,
         HistoryPrevious,
         HistoryCurrent,
-        Lasting
+        Persistent
     };
     enum class PassKind : uint8_t { Dispatch, Raster, Transfer };
 
@@ -131,7 +131,7 @@ public:
         Origin origin = Origin::Transient;
         uint32_t partner = ~0u;                    ///< of a history: the other half
         std::vector<std::byte> contents;           ///< of an upload
-        const gpu::OwnedBuffer* buffer = nullptr;  ///< of an external or lasting buffer
+        const gpu::OwnedBuffer* buffer = nullptr;  ///< of an external or persistent buffer
         ExternalImage external_image;              ///< of an external image or a target
         uint32_t reserved_usage = 0;               ///< of a reserved transient: VkImageUsageFlags or VkBufferUsageFlags
         bool kept = false;
@@ -139,7 +139,7 @@ public:
     /// Whether a resource of this origin holds something before any pass of the frame has written it.
     static bool is_filled(Origin origin) {
         return origin == Origin::Upload || origin == Origin::External || origin == Origin::HistoryPrevious ||
-               origin == Origin::Lasting;
+               origin == Origin::Persistent;
     }
     struct PassInfo {
         std::string name;
@@ -172,8 +172,8 @@ public:
     Resource external(std::string_view name, const gpu::OwnedBuffer& buffer, uint64_t bytes,
                       VkFormat texel = VK_FORMAT_UNDEFINED);
     /// A buffer that outlives the frame with all that passes change in it. The frame is made for those passes, too.
-    Resource lasting(std::string_view name, const gpu::OwnedBuffer& buffer, uint64_t bytes,
-                     VkFormat texel = VK_FORMAT_UNDEFINED);
+    Resource persistent(std::string_view name, const gpu::OwnedBuffer& buffer, uint64_t bytes,
+                        VkFormat texel = VK_FORMAT_UNDEFINED);
     /// An external image, filled by what was handed to the queue earlier.
     Resource external(std::string_view name, const ExternalImage& image);
     /// An external image that passes write; it is kept. Its former content is lost.

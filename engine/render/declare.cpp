@@ -42,7 +42,7 @@ SceneLight declare(const FrameContext& frame, ResidentScene& scene, const Prepar
     const TableTexels tables{data.table_texels.declare(graph, "intensity tables"), data.tables.roads,
                              data.tables.roads != 0};
     ShadeSettings shading = prepared.shading;
-    DirectionalMapsOfFrame directional;
+    FrameClipmaps directional;
     if (prepared.shadows) {
         shading.maps = scene.maps->declare(frame, prepared.lamps, poses);
         if (scene.directional) directional = scene.directional->declare(frame, prepared.lamps, poses, view);

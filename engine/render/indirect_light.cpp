@@ -37,7 +37,7 @@ bool IndirectLight::solve(const transport::RadiosityLight& light, const std::vec
 }
 
 IndirectCells IndirectLight::cells(graph::FrameGraph& graph, const transport::RadiosityLight& light) {
-    const graph::Resource texels = graph.lasting("irradiance cells", texels_, bytes_, VK_FORMAT_R32G32B32A32_UINT);
+    const graph::Resource texels = graph.persistent("irradiance cells", texels_, bytes_, VK_FORMAT_R32G32B32A32_UINT);
     if (!table_.texels.empty()) graph.copy("bring irradiance cells", graph.upload("irradiance", table_.texels), texels);
     table_ = {};
     return {.texels = texels,

@@ -13,7 +13,7 @@ void prepare_shadows(Prepared& frame, ResidentScene& scene, const gpu::Device& d
                      const RenderSettings& settings, const gpu_scene::View& view, const gpu_scene::SceneFrame& poses) {
     const SceneData& data = scene.data;
     if (!scene.maps) {
-        scene.maps = std::make_unique<DistanceMaps>(device, data.resident, data.lamps, data.maps);
+        scene.maps = std::make_unique<ShadowMaps>(device, data.resident, data.lamps, data.maps);
         scene.maps->use(map_cache);
     }
     const uint64_t budget = settings.samples > 1 ? kNoShadowBudget : settings.shadow_budget;
@@ -21,7 +21,7 @@ void prepare_shadows(Prepared& frame, ResidentScene& scene, const gpu::Device& d
     frame.shadows = true, frame.maps = scene.maps->report();
     if (frame.lamps.counts.directional == 0) return;
     if (!scene.directional)
-        scene.directional = std::make_unique<DirectionalMaps>(device, data.resident, data.lamps, data.directional);
+        scene.directional = std::make_unique<Clipmaps>(device, data.resident, data.lamps, data.directional);
     frame.directional_levels = scene.directional->plan(frame.lamps, poses, view);
 }
 

@@ -25,7 +25,7 @@ struct Prepared {
     enum class Indirect { None, Cells, Pixels } indirect = Indirect::None;
     transport::RadiosityLight radiosity;       ///< of Indirect::Cells
     std::vector<transport::LitPatch> patches;  ///< likewise, of lamps that move
-    MapReport maps;                            ///< with shadows
+    ShadowReport maps;                         ///< with shadows
     uint32_t directional_levels = 0;           ///< of maps, to be drawn
 };
 

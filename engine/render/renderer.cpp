@@ -39,7 +39,7 @@ struct Renderer::State {
         ObstaclesInView obstacles;
         gpu_scene::View view;
         std::vector<graph::Timing> earlier;  // of samples before the last
-        KeptMaps kept_maps;                  // to be given to the cache
+        ShadowCache shadow_cache;            // to be given to the cache
         ChainInputs chain;
     };
     /// A frame that is asked for.
@@ -57,7 +57,7 @@ struct Renderer::State {
     SceneLight declare(graph::FrameGraph& graph, const Request& of, const Prepared& prepared, glm::dvec2 place) {
         return render::declare(frames.context(graph, of.view.moved(place)), *scene, prepared, of.poses, of.view);
     }
-    void keep_maps(Pending& of, MapReport& report);
+    void keep_maps(Pending& of, ShadowReport& report);
     void keep_pending_maps();
     void add_samples(const Request& of, const Prepared& prepared, std::span<const glm::dvec2> places, Pending& pending);
     void average_display(const Request& of, const ChainInputs& chain, const gpu_scene::Projection* projection,
@@ -159,16 +159,16 @@ void Renderer::State::add_obstacles(const FrameContext& frame, const Request& of
 }
 
 // Gives maps that a finished frame has drawn to the cache.
-void Renderer::State::keep_maps(Pending& of, MapReport& report) {
-    if (scene->maps) report.note = scene->maps->keep(of.kept_maps, frames.executor());
+void Renderer::State::keep_maps(Pending& of, ShadowReport& report) {
+    if (scene->maps) report.note = scene->maps->keep(of.shadow_cache, frames.executor());
 }
 
 // The same of a frame that nobody has finished, before its readbacks are lost; waits for it.
 void Renderer::State::keep_pending_maps() {
-    if (pending.empty() || !pending.back().kept_maps.drawn_on_host) return;
+    if (pending.empty() || !pending.back().shadow_cache.drawn_on_host) return;
     frames.wait();
     keep_maps(pending.back(), pending.back().frame.maps);
-    pending.back().kept_maps = {};
+    pending.back().shadow_cache = {};
 }
 
 // Samples before the last. Lamps, maps and luminaires are those of the view itself, of which samples see other points.
@@ -183,10 +183,10 @@ void Renderer::State::add_samples(const Request& of, const Prepared& prepared, s
         graph::FrameGraph graph;
         const SceneLight light = declare(graph, of, prepared, place);
         add_sample(frames.context(graph, of.view), light.luminance, samples.declare(graph), first);
-        if (first && scene->maps) to.kept_maps = scene->maps->take_kept();
+        if (first && scene->maps) to.shadow_cache = scene->maps->take_cached();
         graph::add_times(to.earlier, frames.run(graph));
         if (first) keep_maps(to, to.frame.maps);
-        to.kept_maps = {};
+        to.shadow_cache = {};
         if (watch_samples) watch_samples(uint32_t(&place - places.data() + 1));
     }
 }
@@ -227,7 +227,7 @@ void Renderer::State::submit(const Request& of, float seconds, const Outputs& ou
     const FrameContext context = frames.context(frame.graph, view);
     SceneLight light = sampled ? declare(frame.graph, of, prepared, places.back())
                                : render::declare(context, *scene, prepared, poses, view);
-    if (scene->maps) next.kept_maps = scene->maps->take_kept();
+    if (scene->maps) next.shadow_cache = scene->maps->take_cached();
     if (sampled) {
         const SampleSums sums = samples.declare(frame.graph);
         add_sample(context, light.luminance, sums, false);
@@ -277,7 +277,7 @@ std::optional<Frame> Renderer::State::take(std::optional<ToneMapped> shown) {
     }
     if (done.triangles)
         frame.obstacle_pixels = obstacles_of_pixels(executor.read_as<glm::uvec2>(done.triangles), done.of_instances);
-    if (done.kept_maps.drawn_on_host) keep_maps(done, frame.maps);
+    if (done.shadow_cache.drawn_on_host) keep_maps(done, frame.maps);
     graph::add_times(frame.timings, done.earlier);
     return frame;
 }

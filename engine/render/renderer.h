@@ -10,11 +10,11 @@
 
 #include "base/cache.h"
 #include "gpu_scene/luminaires.h"
-#include "render/map_report.h"
 #include "render/passes/cluster.h"
 #include "render/passes/shade.h"
 #include "render/seen_obstacles.h"
 #include "render/settings.h"
+#include "render/shadows/shadow_report.h"
 #include "transport/lamp_reflections.h"
 #include "transport/radiosity.h"
 
@@ -27,7 +27,7 @@ RenderSettings ldr_baseline(RenderSettings settings);
 struct Frame : ToneMapped {
     shared::ClusterReport clusters{};
     shared::VisibilityReport visibility{};  ///< with shadows
-    MapReport maps;                         ///< with shadows
+    ShadowReport maps;                      ///< with shadows
     uint32_t directional_levels = 0;        ///< of maps of directional lamps, drawn for this frame
     uint32_t lamps = 0;                     ///< lamps that shine
     uint32_t luminaires = 0;                ///< of their openings, those in view

@@ -13,8 +13,8 @@ graph::Resource SceneTexels::declare(graph::FrameGraph& graph, const char* name)
 SceneData::SceneData(const gpu::Device& device, const scene::Scene& scene)
     : resident(device, scene),
       lamps(gpu_scene::placed_lamps(scene)),
-      maps(gpu_scene::map_plan(scene, resident, lamps)),
-      directional(gpu_scene::directional_plan(lamps)),
+      maps(shadow_map_plan(scene, resident, lamps)),
+      directional(clipmap_plan(lamps)),
       luminaires(gpu_scene::placed_luminaires(scene)),
       emitting(gpu_scene::emitting_parts(scene)),
       tables(gpu_scene::intensity_tables(scene)),

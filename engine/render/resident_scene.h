@@ -6,16 +6,16 @@
 #include <vector>
 
 #include "gpu_scene/cameras.h"
-#include "gpu_scene/directional_maps.h"
 #include "gpu_scene/gpu_scene.h"
 #include "gpu_scene/intensity_tables.h"
-#include "gpu_scene/lamp_maps.h"
 #include "gpu_scene/lamps.h"
 #include "gpu_scene/luminaires.h"
 #include "gpu_scene/small_emitters.h"
-#include "render/directional_maps.h"
-#include "render/distance_maps.h"
 #include "render/indirect_light.h"
+#include "render/shadows/clipmap_layout.h"
+#include "render/shadows/clipmaps.h"
+#include "render/shadows/shadow_map_layout.h"
+#include "render/shadows/shadow_maps.h"
 #include "transport/lamp_reflections.h"
 
 namespace vesper::render {
@@ -34,8 +34,8 @@ struct SceneData {
 
     gpu_scene::GpuScene resident;
     std::vector<gpu_scene::PlacedLamp> lamps;
-    gpu_scene::MapPlan maps;
-    gpu_scene::DirectionalPlan directional;
+    ShadowMapPlan maps;
+    ClipmapPlan directional;
     gpu_scene::LuminaireSet luminaires;
     std::vector<gpu_scene::EmittingPart> emitting;  ///< by part
     gpu_scene::IntensityTables tables;              ///< without its texels, which are uploaded
@@ -54,8 +54,8 @@ struct ResidentScene {
     ResidentScene(const gpu::Device& device, const scene::Scene& scene) : data(device, scene) {}
 
     const SceneData data;
-    std::unique_ptr<DistanceMaps> maps;
-    std::unique_ptr<DirectionalMaps> directional;
+    std::unique_ptr<ShadowMaps> maps;
+    std::unique_ptr<Clipmaps> directional;
     std::unique_ptr<IndirectLight> indirect;
     std::shared_ptr<const transport::LampReflections> lamp_reflections;
     std::vector<glm::vec4> illuminance;  ///< of pixels, RGB lx; empty: not known

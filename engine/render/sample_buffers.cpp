@@ -25,7 +25,7 @@ void SampleBuffers::resize(const gpu::Device& device, uint64_t pixels) {
 
 SampleSums SampleBuffers::declare(graph::FrameGraph& graph) const {
     const auto buffer = [&](const char* name, const gpu::OwnedBuffer& owned) {
-        return graph.lasting(name, owned, pixels_ * sizeof(glm::vec4));
+        return graph.persistent(name, owned, pixels_ * sizeof(glm::vec4));
     };
     return {buffer("sums of samples", sums_), buffer("rests of samples", rests_)};
 }

@@ -23,7 +23,7 @@ graph::Resource StoredPicture::declare(const gpu::Device& device, graph::FrameGr
         arena_->bind(texels_.get());
     }
     view_ = view;
-    return graph.lasting("stored picture", texels_, bytes);
+    return graph.persistent("stored picture", texels_, bytes);
 }
 
 void StoredPicture::store(const gpu::Device& device, graph::FrameGraph& graph, graph::Resource image,
@@ -46,7 +46,7 @@ void StoredPicture::store_middle(const gpu::Device& device, graph::FrameGraph& g
 
 graph::Resource StoredPicture::load(graph::FrameGraph& graph, const std::string& name) const {
     const graph::Resource image = graph.transient(name, graph::image_shape(kSceneFormat, view_.extent));
-    graph.copy("load " + name, graph.lasting("stored " + name, texels_, bytes_of(view_.extent)), image);
+    graph.copy("load " + name, graph.persistent("stored " + name, texels_, bytes_of(view_.extent)), image);
     return image;
 }
 

@@ -18,7 +18,7 @@ layout(constant_id = 0) const uint kCones = 1u;   // there are points and spots,
 layout(constant_id = 1) const uint kPowers = 1u;  // cosine powers,
 layout(constant_id = 2) const uint kTables = 1u;    // measured distributions,
 layout(constant_id = 3) const uint kRoads = 1u;   // roads with a table,
-layout(constant_id = 4) const uint kMaps = 1u;    // distance maps of lamps
+layout(constant_id = 4) const uint kMaps = 1u;    // shadow maps of lamps
 
 layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
@@ -50,7 +50,7 @@ vec3 points[kPoints];              // m
 Road roads[kPoints];
 float radius;                      // of the points around the middle one, m
 vec3 sum[kNodes];                  // see shared/blocks.h
-bool lookups;                      // whether pixels look up lamps in distance maps
+bool lookups;                      // whether pixels look up lamps in shadow maps
 
 // Where a node or point is, from -1 to 1 between the outer nodes.
 vec2 unit_of(uint k) {

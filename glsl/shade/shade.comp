@@ -14,7 +14,7 @@
 #include "texels.glsl"
 #include "shared/photometry.h"
 #include "shared/blocks.h"
-#include "shared/directional_map.h"
+#include "shared/clipmap.h"
 
 layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(constant_id = 2) const uint kRows = 1u;
@@ -27,9 +27,9 @@ layout(constant_id = 8) const uint kMerged = 1u;    // or added up;
 layout(constant_id = 9) const uint kGlossy = 1u;      // surfaces with a specular lobe,
 layout(constant_id = 10) const uint kRoads = 1u;      // roads with a table,
 layout(constant_id = 11) const uint kRetro = 1u;      // retroreflective surfaces,
-layout(constant_id = 12) const uint kMaps = 1u;       // distance maps of lamps,
+layout(constant_id = 12) const uint kMaps = 1u;       // shadow maps of lamps,
 layout(constant_id = 13) const uint kLookups = 1u;    // which pixels look up where every lamp counts,
-layout(constant_id = 14) const uint kDirectionalMaps = 1u;  // and of directional lamps
+layout(constant_id = 14) const uint kClipmaps = 1u;  // and of directional lamps
 
 layout(binding = 0, rgba16f) readonly uniform image2D reflectance_image;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
@@ -54,7 +54,7 @@ layout(push_constant, scalar) uniform Push { ShadePush push; };
 #include "lamp.glsl"
 #include "retro.glsl"
 #include "road.glsl"
-#include "visibility.glsl"
+#include "shadows/lookup.glsl"
 
 vec3 position[kRows], normal[kRows], toward_eye[kRows];
 uint in_slice[kRows];         // a bit; 0: nothing is drawn
@@ -227,7 +227,7 @@ void add_directional(uint block) {
         FetchedLamp lamp = fetch(first + i, true, 0u);
         const float facing = lamp.intensity;
         [[unroll]] for (uint r = 0u; r < kRows; ++r) {
-            if (kDirectionalMaps != 0u) {
+            if (kClipmaps != 0u) {
                 const uint word = (block * words + i / kSharesPerWord) * kBlockSize * kBlockSize + pixel + r * kBlockSize;
                 const uint share = texel_at(directional_shares, int(word)).r >> 8u * (i % kSharesPerWord) & 255u;
                 lamp.intensity = facing * (float(share) / 255.0);

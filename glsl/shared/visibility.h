@@ -1,7 +1,7 @@
 // Visibility of lamps from blocks of pixels. SPDX-License-Identifier: MIT
 #ifndef VESPER_SHARED_VISIBILITY_H
 #define VESPER_SHARED_VISIBILITY_H
-#include "distance_map.h"
+#include "shadow_map.h"
 #include "shade.h"
 SHARED_BEGIN
 

@@ -277,11 +277,11 @@ TEST(Drive, ShadowsAreSwitchedAndRecorded) {
     };
     session.set_shadow_budget(0);
     const Frame late = drive_on();
-    EXPECT_GT(late.maps.carried, 0u) << "nothing that moves is drawn anew";
+    EXPECT_GT(late.maps.deferred, 0u) << "nothing that moves is drawn anew";
     EXPECT_EQ(late.maps.tiles, 0u);
     session.set("shadow-budget", "100000");
     const Frame whole = drive_on();
-    EXPECT_EQ(whole.maps.carried, 0u) << "the setting wins";
+    EXPECT_EQ(whole.maps.deferred, 0u) << "the setting wins";
     EXPECT_GT(whole.maps.tiles, 0u);
     session.set("shadows", "off");
     EXPECT_EQ(frame(session).maps.lamps, 0u);
@@ -293,7 +293,7 @@ TEST(Drive, ShadowsAreSwitchedAndRecorded) {
     ASSERT_EQ(replayed.size(), 5u);
     EXPECT_EQ(replayed[0].scene, without.scene);
     EXPECT_EQ(replayed[1].scene, with.scene);
-    EXPECT_EQ(replayed[2].maps.carried, 0u) << "a replay draws all";
+    EXPECT_EQ(replayed[2].maps.deferred, 0u) << "a replay draws all";
     EXPECT_EQ(replayed[3].scene, whole.scene);
     EXPECT_TRUE(contains(complaint_of([&] { session.set("shadows", "soft"); }), "--shadows"));
     EXPECT_TRUE(contains(complaint_of([&] { session.set("shadow-budget", "-1"); }), "--shadow-budget"));

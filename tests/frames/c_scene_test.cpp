@@ -144,7 +144,7 @@ TEST_F(CScene, SettingsAreListedSetAndReadByName) {
     EXPECT_EQ(vesper_setting_at(vesper_setting_count(), nullptr, &error), VESPER_BAD_ARGUMENT);
 }
 
-// Distance maps that a host keeps: a second renderer has the same light.
+// Shadow maps that a host keeps: a second renderer has the same light.
 TEST_F(CScene, ShadowsMayBeKept) {
     add(candle());
     uint32_t plate = VESPER_NONE;

@@ -236,10 +236,10 @@ TEST(Plan, AHistoryWhosePreviousIsNotReadWaitsForItselfTwoFramesAgo) {
     EXPECT_EQ(f.text(), "adapt\n    eye: compute store -> compute store\nheap 0 of 0 bytes\n");
 }
 
-TEST(Plan, ALastingBufferIsWhatTheFrameIsMadeForAndWaitsForTheLastFrame) {
+TEST(Plan, APersistentBufferIsWhatTheFrameIsMadeForAndWaitsForTheLastFrame) {
     DeclaredFrame f;
     const gpu::OwnedBuffer none;
-    const Resource maps = f.graph.lasting("maps", none, 8);
+    const Resource maps = f.graph.persistent("maps", none, 8);
     const Resource unread = f.buffer("unread");
     f.compute("look", {load(maps), store(unread)});
     f.compute("draw", {update(maps)});
@@ -426,7 +426,7 @@ TEST(Plan, AReservedTransientKeepsItsPlace) {
                                                   {graph::Access::DepthTarget, graph::Access::Sample});
         const Resource words = f.graph.reserved("words", graph::buffer_shape(4096), {graph::Access::Store});
         const gpu::OwnedBuffer none;
-        const Resource maps = f.graph.lasting("maps", none, 8);
+        const Resource maps = f.graph.persistent("maps", none, 8);
         for (int i = 0; used && i < 2; ++i) {
             f.draw("draw maps", {{scratch, graph::Access::DepthTarget, {}, true}});
             f.compute("store maps", {sample(scratch), update(maps), store(words)});

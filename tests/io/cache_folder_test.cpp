@@ -1,4 +1,4 @@
-// A folder that keeps distance maps: what was kept comes back whole or not at all, whatever is in the folder.
+// A folder that keeps shadow maps: what was kept comes back whole or not at all, whatever is in the folder.
 // SPDX-License-Identifier: MIT
 #include "io/cache_folder.h"
 

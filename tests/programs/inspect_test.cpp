@@ -130,7 +130,7 @@ TEST_F(Inspect, WhatALampSees) {
     EXPECT_TRUE(prints("lamp 'lamp 1' at node 'spot' (1 of 1 of this name)")) << printed;
     EXPECT_TRUE(prints("512 x 512 texels, one hemisphere")) << printed;
     const auto spot = json("a.json");
-    EXPECT_EQ(spot["kind"], "distance map");
+    EXPECT_EQ(spot["kind"], "shadow map");
     const auto axis = spot["directions"].at(0);
     EXPECT_NEAR(axis["distance_m"].get<double>(), 3, 0.01);
     EXPECT_NEAR(axis["world"].at(1).get<double>(), -1, 1e-6);
@@ -213,7 +213,7 @@ TEST_F(Inspect, RefusesLampsThatHaveNoMap) {
     };
     refuses("a.gltf --lamp lantern", "no lamp, and no node with a lamp, is named 'lantern'");
     refuses("a.gltf --lamp spot --lamp-number 2", "--lamp-number 2: 1 lamp is named 'spot'");
-    refuses("a.gltf --lamp sun", "lamp 'sun' has no distance map: it is directional");
+    refuses("a.gltf --lamp sun", "lamp 'sun' has no shadow map: it is directional");
     refuses("a.gltf -o a.png", "with --lamp");
     refuses("a.gltf --lamp-number 2", "only beside --lamp");
     refuses("a.gltf --device cpu", "only beside --lamp");

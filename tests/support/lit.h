@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "base/angle.h"
-#include "render/directional_maps.h"
-#include "render/distance_maps.h"
 #include "render/passes/gbuffer.h"
 #include "render/passes/shade.h"
+#include "render/shadows/clipmaps.h"
+#include "render/shadows/shadow_maps.h"
 #include "support/lamps.h"
 #include "support/shading.h"
 
@@ -21,10 +21,10 @@ struct Lit {
     gpu_scene::SceneFrame poses;
     gpu_scene::GpuScene resident;
     std::vector<gpu_scene::PlacedLamp> lamps;
-    gpu_scene::MapPlan plan;
+    render::ShadowMapPlan plan;
     gpu_scene::IntensityTables tables;
-    render::DistanceMaps maps;
-    render::DirectionalMaps directional;
+    render::ShadowMaps maps;
+    render::Clipmaps directional;
     uint64_t budget = render::kNoShadowBudget;
 
     Lit(PassRig& r, const scene::Scene& s)
@@ -33,10 +33,10 @@ struct Lit {
           poses{scene::world_transforms(s, 0), {}, {}, {}, {}},
           resident(r.device(), s),
           lamps(gpu_scene::placed_lamps(s)),
-          plan(gpu_scene::map_plan(s, resident, lamps)),
+          plan(render::shadow_map_plan(s, resident, lamps)),
           tables(gpu_scene::intensity_tables(s)),
           maps(r.device(), resident, lamps, plan),
-          directional(r.device(), resident, lamps, gpu_scene::directional_plan(lamps)) {}
+          directional(r.device(), resident, lamps, render::clipmap_plan(lamps)) {}
 
     struct Picture {
         gpu_scene::LampList list;
@@ -58,8 +58,8 @@ struct Lit {
         p.levels = directional.plan(p.list, poses, view);
         graph::FrameGraph graph;
         const render::FrameContext frame = rig.frame(graph, view);
-        const render::VisibilityMaps distances = maps.declare(frame, p.list, poses);
-        const render::DirectionalMapsOfFrame levels = directional.declare(frame, p.list, poses, view);
+        const render::FrameShadowMaps distances = maps.declare(frame, p.list, poses);
+        const render::FrameClipmaps levels = directional.declare(frame, p.list, poses, view);
         const render::GBuffer g = render::add_gbuffer(frame, resident, poses);
         const graph::Resource reflectance = keep<uint64_t>(graph, g.reflectance),
                               surface = keep<glm::vec4>(graph, g.surface);
@@ -67,7 +67,7 @@ struct Lit {
                                     {.emission_limit = 0, .all_lamps = all_lamps, .maps = distances}, levels);
         const graph::Resource picture = keep<glm::vec4>(graph, lit.scene),
                               report = keep<shared::VisibilityReport>(graph, lit.blocks.visibility);
-        const render::KeptMaps kept = maps.take_kept();
+        const render::ShadowCache kept = maps.take_cached();
         rig.run(graph);
         p.note = maps.keep(kept, rig.executor());
         p.grid = lit.clusters.push.grid;

@@ -19,7 +19,7 @@ std::vector<float> drawn_texels(PassRig& rig, uint32_t texels, const Declare& de
     const auto buffer = gpu_scene::upload_buffer(rig.device(), arena, std::as_bytes(std::span(nothing)),
                                                  gpu_scene::kTexelUsage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     graph::FrameGraph graph;
-    const graph::Resource words = graph.lasting("distances", buffer, texels * 2);
+    const graph::Resource words = graph.persistent("distances", buffer, texels * 2);
     declare(rig.frame(graph, VkExtent2D{1, 1}), words);
     const graph::Resource distances = PassRig::want<uint32_t>(graph, words, texels / 2);
     rig.run(graph);

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "gpu_scene/facets.h"
-#include "gpu_scene/leading_vertices.h"
+#include "gpu_scene/provoking_vertices.h"
 #include "gpu_scene/view.h"
 #include "passes/edges_reference.h"
 #include "passes/shade_reference.h"
@@ -19,7 +19,7 @@ inline std::vector<std::vector<glm::dvec3>> facets_on_the_device(const scene::Sc
     std::vector<std::vector<glm::dvec3>> all;
     for (const scene::Mesh& mesh : scene.meshes)
         for (const scene::Primitive& primitive : mesh.primitives) {
-            const gpu_scene::LeadingVertices leading(primitive);
+            const gpu_scene::ProvokingVertices leading(primitive);
             const std::vector<gpu_scene::Facet> facets = gpu_scene::facets(primitive);
             const size_t first = all.size();
             all.resize(first + leading.vertices().size());

@@ -7,8 +7,8 @@
 #include "gpu_scene/intensity_tables.h"
 #include "gpu_scene/retro.h"
 #include "passes/shade_reference.h"
-#include "render/passes/directional_visibility.h"
 #include "render/passes/shade.h"
+#include "render/shadows/directional_visibility.h"
 #include "support/compare.h"
 #include "support/texels.h"
 
@@ -53,7 +53,7 @@ struct LitBlocks {
 };
 inline LitBlocks light(const render::FrameContext& frame, const render::GBuffer& g, const gpu_scene::LampList& list,
                        const render::TableTexels& tables, const render::ClusterSettings& clusters,
-                       const render::ShadeSettings& settings, const render::DirectionalMapsOfFrame& directional = {}) {
+                       const render::ShadeSettings& settings, const render::FrameClipmaps& directional = {}) {
     LitBlocks lit{
         .clusters = render::add_clusters(frame, g.surface, list, tables, clusters), .blocks = {}, .scene = {}};
     lit.blocks = render::add_blocks(frame, g, lit.clusters);

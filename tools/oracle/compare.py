@@ -6,7 +6,7 @@ themselves, no ambient light, so that a pixel holds lx. Lamps of less than the t
 
   pixels           the surface that they see is the same for both (unoccluded light within 1 %); the others are left out
   within 5 %       share of pixels whose light differs from the traced light by at most that
-  past contacts    of traced light that nothing nearer than --contact to a surface hides, as distance maps promise
+  past contacts    of traced light that nothing nearer than --contact to a surface hides, as shadow maps promise
   leaks, lost      light that should not be there, and light that is missing, over all traced light
   pairs            of a pixel and a lamp, of lamps that have a colour channel of a picture for themselves
   near an edge     rays to places up to so many texels of the lamp's map around it disagree, or it is in a penumbra
@@ -41,7 +41,7 @@ from scene import GREY, LUMINANCE, BadInput
 
 ROOT = Path(__file__).resolve().parent.parent.parent
 STREET = ROOT / "data/rivoli/rivoli.gltf", ROOT / "data/rivoli/rivoli.photometry.json"
-BRIGHT = 1.3             # lx, as in tests/passes/visibility_test.cpp
+BRIGHT = 1.3             # lx, as in tests/passes/shadows/visibility_test.cpp
 SAME_SURFACE = 0.01
 EDGE_TEXELS = 2
 FEWEST_PAIRS = 200       # of a lamp that is chosen, of the pixels of a camera

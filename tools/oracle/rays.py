@@ -149,8 +149,8 @@ def visible_share(rays, surfaces, points, lit, samples=0, noise=None, contact=0)
 
 
 class Maps:
-    """Where points lie on the distance maps of lamps that an eye sees, by the rules of docs/design/shadows.md and
-    glsl/shared/distance_map.h: needed only to say how many texels away a silhouette is."""
+    """Where points lie on the shadow maps of lamps that an eye sees, by the rules of docs/design/shadows.md and
+    glsl/shared/shadow_map.h: needed only to say how many texels away a silhouette is."""
 
     def __init__(self, lamps, eye):
         self.lamps = lamps

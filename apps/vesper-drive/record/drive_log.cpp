@@ -107,7 +107,7 @@ std::string DriveRows::next(const Session& session, const gpu_scene::View& view,
     double device = 0;
     for (const graph::Timing& timing : frame.timings) device += timing.milliseconds;
     // Every lamp counts: froxels whose lists overflow look at all of them.
-    return line + format(",%u,%u,0,%u,%u,%u,%u,%.3f,%.3f", frame.lamps, frame.luminaires, frame.maps.carried,
+    return line + format(",%u,%u,0,%u,%u,%u,%u,%.3f,%.3f", frame.lamps, frame.luminaires, frame.maps.deferred,
                          frame.histogram.non_finite, frame.extent.width, frame.extent.height, device,
                          frame.milliseconds);
 }

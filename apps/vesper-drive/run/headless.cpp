@@ -319,7 +319,7 @@ void run_headless(const DriveArguments& a) {
     apps::Ranks::all().in_turns([&] {
         if (renders) session.gather_light(cache.get());
     });
-    session.on_maps = [](const render::MapReport& report) { apps::print_cache_note(report.note); };
+    session.on_maps = [](const render::ShadowReport& report) { apps::print_cache_note(report.note); };
     session.on_contact = [&](const traffic::Contact& contact) { outlet.rows().add(contact); };
     if (ranks && !first) return ranks->follow(session, *channels, outlet.rows(), {});
     if (ranks) ranks->lead(session);

@@ -77,7 +77,7 @@ public:
     void set(const std::string& name, const std::string& value);
 
     // Pictures.
-    /// Where distance maps are kept from run to run (Renderer::keep_maps); at first nowhere. It is not recorded.
+    /// Where shadow maps are kept from run to run (Renderer::keep_maps); at first nowhere. It is not recorded.
     void keep_maps(std::shared_ptr<Cache> cache);
     /// What surfaces at rest send each other (Renderer::set_radiosity); at first nothing. It is not recorded: frames
     /// before it is known are replayed with it.
@@ -85,8 +85,8 @@ public:
     /// The same, from the cache (null: none) or gathered, where the settings show any; shows its progress.
     void gather_light(Cache* cache);
     /// Called after a frame for each view of it.
-    std::function<void(const render::MapReport&)> on_maps;
-    /// Tiles of distance maps drawn for a frame where neither the setting "shadow-budget" nor the quality "exact" is
+    std::function<void(const render::ShadowReport&)> on_maps;
+    /// Tiles of shadow maps drawn for a frame where neither the setting "shadow-budget" nor the quality "exact" is
     /// set; at first all. It is not recorded: a replay draws all unless it is told otherwise.
     void set_shadow_budget(uint64_t tiles) { shadow_budget_ = tiles; }
     /// Obstacles of the scene that are measured in frames of one view (Frame::obstacles); at first none. They are not

@@ -205,10 +205,10 @@ void Instruments::draw_performance(const FrameState& now) {
                            now.frame.extent.width, now.frame.extent.height);
         ImGui::Text("%u lamps, %u seen, %u froxels overflowed", now.frame.lamps, now.frame.luminaires,
                     now.frame.clusters.overflowed);
-        const render::MapReport& maps = now.frame.maps;
+        const render::ShadowReport& maps = now.frame.maps;
         if (now.session.settings().render().shadows)
-            ImGui::TextWrapped("shadows: %u distance maps and %u tiles drawn, %u carried over; %.0f MiB", maps.maps,
-                               maps.tiles, maps.carried, double(maps.bytes) / (1 << 20));
+            ImGui::TextWrapped("shadows: %u shadow maps and %u tiles drawn, %u carried over; %.0f MiB", maps.maps,
+                               maps.tiles, maps.deferred, double(maps.bytes) / (1 << 20));
         ImGui::Separator();
         for (const graph::Timing& timing : now.frame.timings) {
             ImGui::ProgressBar(total > 0 ? float(timing.milliseconds / total) : 0, {60, 0}, "");

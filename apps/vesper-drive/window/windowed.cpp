@@ -307,7 +307,7 @@ void WindowedDrive::watch_contacts() {
 void WindowedDrive::keep_maps() {
     if (!map_cache_) map_cache_ = apps::cache_of(arguments_.cache);
     session_->keep_maps(map_cache_);
-    session_->on_maps = [](const render::MapReport& report) { apps::print_cache_note(report.note); };
+    session_->on_maps = [](const render::ShadowReport& report) { apps::print_cache_note(report.note); };
 }
 
 // What is known of the light between surfaces; the first time that it is wanted its work begins.

@@ -14,9 +14,9 @@ struct Blocks {
     graph::Resource counts, entries;  ///< lists of the lamps that its pixels evaluate one by one (shared/shade.h)
     graph::Resource sums;             ///< merged light of the other lamps
     graph::Resource class_counts, class_blocks;
-    graph::Resource shares;              ///< of lamps that pixels see (shared/shade.h); none without distance maps
+    graph::Resource shares;              ///< of lamps that pixels see (shared/shade.h); none without shadow maps
     graph::Resource visibility;          ///< shared::VisibilityReport
-    graph::Resource directional_shares;  ///< of directional lamps (shared/directional_map.h); none: all is seen
+    graph::Resource directional_shares;  ///< of directional lamps (shared/clipmap.h); none: all is seen
 };
 
 /// Lists the lamps that can light some surface of each block. Throws Error for an image of more blocks than the device

@@ -15,7 +15,7 @@ struct GBuffer {
     graph::Resource emission;  ///< rgba32f: emitted RGB luminance, cd/m^2
     graph::Resource depth;     ///< d32: near / depth, 0 at infinity
     graph::Resource
-        triangle;  ///< rg32ui: 1 + its instance, 0 where nothing is drawn; its first vertex, see LeadingVertices
+        triangle;  ///< rg32ui: 1 + its instance, 0 where nothing is drawn; its first vertex, see ProvokingVertices
     graph::Resource instances;         ///< shared::Instance, as rgba32f texels
     graph::Resource vertices, facets;  ///< of the scene, as rg32f and rgba32ui texels; if has_facets()
 };

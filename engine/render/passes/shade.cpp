@@ -25,7 +25,7 @@ enum ShadeVariant : uint32_t {
     kRetro = 256,
     kMaps = 512,
     kLookups = 1024,
-    kDirectionalMaps = 2048
+    kClipmaps = 2048
 };
 
 // The kinds of lamps and surfaces in the frame.
@@ -39,7 +39,7 @@ const gpu::Kernel& shade_kernel(const gpu::KernelCache& kernels, const PixelGrou
     const auto has = [variant](ShadeVariant bit) -> uint32_t { return variant & bit ? 1 : 0; };
     return kernels.get(kShade, {groups.width, groups.height, groups.rows, has(kEveryLamp), has(kCones), has(kPowers),
                                 has(kTables), has(kListed), has(kMerged), has(kGlossy), has(kRoads), has(kRetro),
-                                has(kMaps), has(kLookups), has(kDirectionalMaps)});
+                                has(kMaps), has(kLookups), has(kClipmaps)});
 }
 
 // What is in the blocks of a class, as bits of a shading kernel, beside the lamps that the frame has.
@@ -89,7 +89,7 @@ graph::Resource add_shading(const FrameContext& frame, const GBuffer& g, const C
         if (variant & kListed && settings.all_lamps) variant |= kEveryLamp;
         if (variant & kListed && settings.maps.lamps)
             variant |= kMaps | (settings.all_lamps || c.variant & kRetro ? uint32_t{kLookups} : 0u);
-        if (blocks.directional_shares) variant |= kDirectionalMaps;
+        if (blocks.directional_shares) variant |= kClipmaps;
         frame.graph.dispatch(
             c.name, shade_kernel(frame.kernels, groups, variant),
             {load(g.reflectance), load(g.surface), update(g.emission), sample(clusters.lamps), sample(blocks.counts),

@@ -7,7 +7,7 @@
 #include <glm/glm.hpp>
 
 #include "render/light_settings.h"
-#include "render/passes/visibility.h"
+#include "render/shadows/visibility.h"
 #include "shared/shade.h"
 
 namespace vesper::render {
@@ -19,7 +19,7 @@ struct ShadeSettings {
     glm::vec3 sky{0};                                               ///< cd/m^2 RGB
     bool all_lamps = false;                             ///< evaluate every lamp in every pixel, for comparison
     float merge_error = LightSettings{}.merge_error;    ///< of add_merging
-    VisibilityMaps maps{};                              ///< of the lamps; without: nothing hides a lamp
+    FrameShadowMaps maps{};                             ///< of the lamps; without: nothing hides a lamp
     float shadow_error = LightSettings{}.shadow_error;  ///< of add_visibility
     graph::Resource retro{};  ///< rgba32f texels of shared/retro.h; without: no surface is retroreflective
 };
@@ -31,7 +31,7 @@ struct ShadeSettings {
 /// 2007, a = roughness^2) with height-correlated Smith masking (Heitz 2014) and Schlick's Fresnel; F0 is the base
 /// colour of a metal and 0.04 (1 - a^2) of a dielectric, so that roughness 1 is Lambert. Retroreflective surfaces
 /// (photometry/retroreflection.h) add R_A I / d^2 / cos(view) times their base colour for every lamp in front of them.
-/// With distance maps E_k is times the share of the lamp that the point sees.
+/// With shadow maps E_k is times the share of the lamp that the point sees.
 graph::Resource add_shading(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters,
                             const Blocks& blocks, const ShadeSettings& settings);
 

@@ -1,0 +1,322 @@
+#include "render/shadows/draw_shadow_maps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "render/shadows/caster_parts.h"
+#include "render/shadows/caster_triangles.h"
+#include "shaders/shadows/casters.frag.inc"
+#include "shaders/shadows/casters.vert.inc"
+#include "shaders/shadows/store_shadow_maps.comp.inc"
+
+namespace vesper::render {
+namespace {
+
+using gpu_scene::GpuScene;
+using graph::load, graph::sample, graph::update;
+
+constexpr gpu::Shader kStore{"store_distances.comp", store_shadow_maps_comp};
+
+constexpr VkVertexInputBindingDescription kMapBuffers[]{
+    {0, sizeof(scene::Vertex), VK_VERTEX_INPUT_RATE_VERTEX},
+    {1, sizeof(shared::MapInstance), VK_VERTEX_INPUT_RATE_INSTANCE}};
+constexpr VkVertexInputAttributeDescription kMapAttributes[]{
+    {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(scene::Vertex, position)},
+    {1, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(scene::Vertex, uv)},
+    {2, 0, VK_FORMAT_R16G16B16A16_UNORM, offsetof(scene::Vertex, colour)},
+    {3, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, row_x)},
+    {4, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, row_y)},
+    {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, row_z)},
+    {6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, place)},
+    {7, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, window)},
+    {8, 1, VK_FORMAT_R32_SFLOAT, offsetof(shared::MapInstance, y_sign)},
+    {9, 1, VK_FORMAT_R32_SFLOAT, offsetof(shared::MapInstance, overlap)}};
+constexpr gpu::GraphicsShaders kMapShaders{"casters.frag",  casters_vert,     casters_frag,
+                                           kCasterTextures, sizeof(MaskPush), VK_SHADER_STAGE_FRAGMENT_BIT,
+                                           kMapBuffers,     kMapAttributes};
+
+// In a square of this side, texels.
+uint32_t regions_in(uint32_t side) { return side / shared::kRegion * (side / shared::kRegion); }
+
+// A hemisphere of a map or a tile of one, and its corner in the image.
+struct Square {
+    const ShadowMapToDraw* map;
+    bool second;        // hemisphere
+    glm::uvec2 corner;  // in the hemisphere, texels
+    uint32_t side;      // texels
+    glm::uvec2 place{0};
+};
+
+struct DrawnImage {
+    uint32_t side;  // texels
+    std::vector<Square> squares;
+    std::vector<bool> taken;  // regions
+};
+
+// The place of the n-th region along a curve that fills squares of powers of two one after another (Morton 1966).
+glm::uvec2 region_place(uint32_t n) {
+    glm::uvec2 place(0);
+    for (uint32_t bit = 0; bit < 16; ++bit) place |= glm::uvec2(n >> 2 * bit & 1u, n >> (2 * bit + 1) & 1u) << bit;
+    return place * shared::kRegion;
+}
+
+std::vector<Square> squares_of(std::span<const ShadowMapToDraw> maps) {
+    std::vector<Square> all;
+    for (const ShadowMapToDraw& map : maps)
+        if (map.tile) {
+            all.push_back({&map, map.tile->second, map.tile->corner, shared::kRegion});
+        } else {
+            for (uint32_t h = 0; h < map.layout.hemispheres && map.layout.side > 0; ++h)
+                all.push_back({&map, h == 1, glm::uvec2(0), map.layout.side});
+        }
+    return all;
+}
+
+// The first of the regions, of `count`, that a square is drawn into: lamps are scattered (Knuth 1998, 6.4), and tiles
+// that are side by side seldom meet.
+uint32_t first_region(const Square& square, uint32_t count) {
+    const uint32_t each = regions_in(square.side), places = count / each,
+                   number = 2 * square.map->lamp + (square.second ? 1 : 0);
+    const auto scattered = uint32_t(uint64_t(number * 2654435761u) * places >> 32u);
+    const glm::uvec2 tile = square.map->tile ? square.corner / shared::kRegion : glm::uvec2(0);
+    return (scattered + tile.x + 7 * tile.y) % places * each;
+}
+
+// Squares image by image, the largest first, each in its place in the first where that is free.
+std::vector<DrawnImage> fill_images(std::span<const ShadowMapToDraw> maps, const ShadowMapScratch& scratch) {
+    std::vector<Square> all = squares_of(maps);
+    std::ranges::stable_sort(all, std::greater(), &Square::side);
+    std::vector<DrawnImage> images;
+    for (Square& square : all) {
+        const uint32_t side = scratch.image_for(square.side).side, regions = regions_in(side);
+        const uint32_t first = first_region(square, regions);
+        square.place = region_place(first);
+        const auto has_room = [&](const DrawnImage& image) { return image.side == side && !image.taken[first]; };
+        auto image = std::ranges::find_if(images, has_room);
+        if (image == images.end()) image = images.insert(image, {side, {}, std::vector<bool>(regions)});
+        std::fill_n(image->taken.begin() + first, regions_in(square.side), true);
+        image->squares.push_back(square);
+    }
+    return images;
+}
+
+// What is drawn into an image: triangles of opaque parts; and of masked ones, or of all where there is no room for
+// these, parts and an instance each, side by side.
+struct Drawn {
+    CasterTriangles opaque;
+    std::vector<uint32_t> parts;
+    std::vector<shared::MapInstance> instances;
+};
+
+// What stands where a square sees it.
+class Collector {
+public:
+    Collector(const GpuScene& scene, const gpu_scene::SceneFrame& poses, const gpu::Device& device)
+        : scene_(scene),
+          poses_(poses),
+          triangles_(has_caster_triangles(device, scene)),
+          snap_(map_snap(device)),
+          bounds_(scene.placements().size()) {}
+
+    void collect(const Square& square, uint32_t image_side, Drawn& drawn) {
+        const ShadowMapLayout& layout = square.map->layout;
+        const MapFrame& frame = square.map->frame;
+        const glm::dvec3 mirror(1, 1, square.second ? -1 : 1);
+        const double texel = 2.0 / (double(layout.side) * double(layout.zoom));  // rad, about
+        const std::vector<Quadrant> quadrants = add_quadrants(square, image_side, drawn);
+        for (const uint32_t p : square.map->placements) {
+            const Bounds& bounds = bounds_of(p);
+            if (!matters(*square.map, bounds.whole)) continue;
+            const glm::dvec3 middle = mirror * (frame.rotation * (bounds.whole.centre - frame.position));
+            if (middle.z + bounds.whole.radius < 0 || std::ranges::binary_search(square.map->fixture, p)) continue;
+            const GpuScene::Placement& placement = scene_.placements()[p];
+            std::optional<Rows> rows;
+            for (uint32_t i = 0; i < placement.part_count; ++i) {
+                const auto& [centre, radius] = bounds.parts[i];
+                const GpuScene::Part& part = scene_.parts()[placement.first_part + i];
+                if (part.index_count == 0 || scene_.surfaces()[part.material].material.clear ||
+                    !matters(*square.map, bounds.parts[i]) ||
+                    radius < 0.25 * texel * glm::distance(centre, frame.position))
+                    continue;
+                const glm::dvec3 c = mirror * (frame.rotation * (centre - frame.position));
+                if (c.z + radius < 0) continue;
+                if (!rows) rows = Rows{rows_to_map(frame, poses_.world[placement.node])};
+                for (const Quadrant& quadrant : quadrants)
+                    if (may_see(quadrant.window, quadrant.signs, c, radius))
+                        add(quadrant, placement.first_part + i, *rows, drawn);
+            }
+        }
+    }
+
+private:
+    // Of a placement in the world, and of its parts.
+    struct Bounds {
+        gpu_scene::WorldSphere whole{glm::dvec3(0), -1};
+        std::vector<gpu_scene::WorldSphere> parts;
+    };
+
+    // Computed when a placement is first looked at.
+    const Bounds& bounds_of(uint32_t placement) {
+        const GpuScene::Placement& of = scene_.placements()[placement];
+        Bounds& bounds = bounds_[placement];
+        if (bounds.whole.radius >= 0 || of.part_count == 0) return bounds;
+        for (uint32_t i = 0; i < of.part_count; ++i)
+            bounds.parts.push_back(
+                gpu_scene::world_sphere_of(scene_.parts()[of.first_part + i], poses_.world[of.node]));
+        bounds.whole = bounds.parts[0];
+        for (const gpu_scene::WorldSphere& part : bounds.parts)
+            bounds.whole.radius =
+                std::max(bounds.whole.radius, glm::distance(part.centre, bounds.whole.centre) + part.radius);
+        return bounds;
+    }
+
+    static bool matters(const ShadowMapToDraw& map, const gpu_scene::WorldSphere& sphere) {
+        const glm::dvec3 to = sphere.centre - map.frame.position;
+        const double far = double(map.layout.range) + sphere.radius;
+        return glm::dot(to, to) <= far * far && (!map.matters || map.matters(sphere));
+    }
+
+    static glm::mat4 rows_to_map(const MapFrame& frame, const glm::dmat4& world) {
+        const glm::dmat4 from_lamp = glm::translate(glm::dmat4(1), -frame.position) * world;
+        return glm::transpose(glm::mat4(glm::dmat4(frame.rotation) * from_lamp));
+    }
+
+    // Of a square, in the image.
+    struct Quadrant {
+        MapWindow window;
+        glm::dvec2 signs;
+        uint32_t number;  // among those of opaque triangles
+        shared::MapQuadrant drawn;
+    };
+    // Of the matrix of a placement to a map.
+    struct Rows {
+        glm::mat4 rows;
+        std::optional<uint32_t> number{};  // among those of opaque triangles
+    };
+
+    std::vector<Quadrant> add_quadrants(const Square& square, uint32_t image_side, Drawn& drawn) const {
+        const ShadowMapLayout& layout = square.map->layout;
+        const double zoom = double(layout.zoom), per_texel = 2.0 / double(layout.side);
+        const glm::dvec2 low = per_texel * glm::dvec2(square.corner) - 1.0;
+        const MapWindow window{zoom, low, low + per_texel * double(square.side)};
+        const float image = float(image_side), scale = float(layout.side) / image;
+        const glm::vec2 corner = glm::vec2(square.place) - glm::vec2(square.corner);
+        const glm::vec2 middle = (corner + 0.5f * float(layout.side)) * (2.0f / image) - 1.0f;
+        // Both sides of a border may be off by half a step; less than half a texel, so that no middle is drawn twice.
+        const float overlap = snap_ > 1.0f / 256 ? 4 * snap_ / (layout.zoom * float(layout.side)) : 1e-5f;
+        std::vector<Quadrant> quadrants;
+        for (const glm::dvec2 signs : quadrants_of(layout)) {
+            const shared::MapQuadrant quadrant{.place = glm::vec4(scale, middle, float(signs.x < 0 ? -zoom : zoom)),
+                                               .window = glm::vec4(window.low, window.high),
+                                               .y_sign = float(signs.y),
+                                               .first = 0,
+                                               .mirror = square.second ? -1.0f : 1.0f,
+                                               .side = image,
+                                               .corner = glm::vec2(square.place),
+                                               .width = float(square.side),
+                                               .overlap = overlap};
+            quadrants.push_back({window, signs, drawn.opaque.quadrants(), quadrant});
+            drawn.opaque.add_quadrant(quadrant);
+        }
+        return quadrants;
+    }
+
+    void add(const Quadrant& quadrant, uint32_t part, Rows& rows, Drawn& drawn) const {
+        const shared::MapQuadrant& to = quadrant.drawn;
+        const GpuScene::Part& of = scene_.parts()[part];
+        if (!triangles_ || scene_.surfaces()[of.material].material.alpha == scene::Material::Alpha::Mask) {
+            drawn.parts.push_back(part);
+            drawn.instances.push_back({.row_x = rows.rows[0],
+                                       .row_y = rows.rows[1],
+                                       .row_z = to.mirror * rows.rows[2],
+                                       .place = to.place,
+                                       .window = to.window,
+                                       .y_sign = to.y_sign,
+                                       .overlap = to.overlap});
+            return;
+        }
+        if (!rows.number) rows.number = drawn.opaque.add_rows(rows.rows);
+        drawn.opaque.add(of, *rows.number, quadrant.number);
+    }
+
+    const GpuScene& scene_;
+    const gpu_scene::SceneFrame& poses_;
+    bool triangles_;              // opaque parts are drawn by them
+    float snap_;                  // texels, see map_snap
+    std::vector<Bounds> bounds_;  // of placements
+};
+
+uint32_t saved_word(const std::optional<MapTile>& tile) {
+    if (!tile) return shared::kNotSaved;
+    return tile->saved / shared::kMapUnit | (tile->save ? shared::kSaveNow : 0u);
+}
+
+std::vector<shared::MapRegion> regions_of(const std::vector<Square>& squares) {
+    std::vector<shared::MapRegion> regions;
+    for (const Square& square : squares) {
+        const ShadowMapLayout& layout = square.map->layout;
+        const uint32_t first = (layout.first + (square.second ? layout.side * layout.side : 0)) / shared::kMapUnit;
+        for (uint32_t y = 0; y < square.side; y += shared::kRegion)
+            for (uint32_t x = 0; x < square.side; x += shared::kRegion)
+                regions.push_back({square.place.x + x, square.place.y + y, square.corner.x + x, square.corner.y + y,
+                                   layout.side, first, saved_word(square.map->tile), 0});
+    }
+    return regions;
+}
+
+// Masked parts, in an order in which few states change.
+struct MaskedParts {
+    std::vector<shared::MapInstance> instances;
+    std::vector<CasterBatch> batches;
+};
+
+MaskedParts masked_parts(const Drawn& drawn, const GpuScene& scene) {
+    MaskedParts parts;
+    for (const uint32_t i : order_by_part(drawn.parts, scene)) {
+        add_to_batches(parts.batches, drawn.parts[i], uint32_t(parts.instances.size()));
+        parts.instances.push_back(drawn.instances[i]);
+    }
+    if (parts.instances.empty()) parts.instances.emplace_back();  // an upload is never empty
+    return parts;
+}
+
+}  // namespace
+
+void add_shadow_maps(const FrameContext& frame, const GpuScene& scene, const gpu_scene::SceneFrame& poses,
+                     std::span<const ShadowMapToDraw> maps, graph::Resource distances, ShadowMapScratch& scratch) {
+    graph::FrameGraph& graph = frame.graph;
+    Collector collector(scene, poses, frame.kernels.device());
+    for (DrawnImage& image : fill_images(maps, scratch)) {
+        const std::string which = " " + std::to_string(scratch.drawn++);
+        const auto [side, depth, small] = scratch.image_for(image.side);
+        Drawn drawn;
+        for (const Square& square : image.squares) collector.collect(square, image.side, drawn);
+        MaskedParts parts = masked_parts(drawn, scene);
+
+        const graph::Resource placed = graph.upload("map instances" + which, parts.instances);
+        graph.raster("map parts", {{placed, graph::Access::Vertices}, {depth, graph::Access::DepthTarget, {}, true}},
+                     [&pipelines = frame.pipelines, &scene, placed,
+                      batches = std::move(parts.batches)](const graph::Recording& recording) {
+                         record_casters(recording, pipelines, kMapShaders, scene, placed, batches);
+                     });
+        graph.clear("clear small triangles", small);
+        drawn.opaque.draw(frame, {which, depth, small}, scratch);
+
+        const std::vector<shared::MapRegion> regions = regions_of(image.squares);
+        const graph::Resource list = graph.upload("map regions" + which, regions);
+        graph.dispatch("store distances", frame.kernels.get(kStore),
+                       {sample(depth), load(list), update(distances), load(small)},
+                       graph::Groups{uint32_t(regions.size()), 1, 1});
+    }
+}
+
+void add_shadow_map_shaders(Digest& digest) {
+    for (const std::span<const uint32_t> spirv : {kMapShaders.vertex, kMapShaders.fragment, kStore.spirv})
+        digest.add_list(spirv);
+    add_caster_triangle_shaders(digest);
+}
+
+}  // namespace vesper::render

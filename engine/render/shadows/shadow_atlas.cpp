@@ -1,0 +1,114 @@
+#include "render/shadows/shadow_atlas.h"
+
+#include <algorithm>
+#include <bit>
+#include <functional>
+#include <numeric>
+
+namespace vesper::render {
+namespace {
+
+// Pieces of the buffer are powers of two of the least map, which has one tile.
+constexpr uint32_t kPiece = ShadowAtlas::kTileTexels;
+static_assert(kLeastMapSide == shared::kRegion);
+
+uint32_t size_of(const ShadowMapLayout& layout) { return uint32_t(std::countr_zero(layout.texels() / kPiece)); }
+
+uint64_t largest_texels(const std::vector<ShadowMapLayout>& layouts) {
+    uint64_t texels = 0;
+    for (ShadowMapLayout layout : layouts) {
+        layout.side = layout.range > 0 ? kMostMapSide : 0;
+        texels += layout.texels();
+    }
+    return texels;
+}
+
+}  // namespace
+
+ShadowAtlas::ShadowAtlas(std::vector<ShadowMapLayout> layouts, double scale)
+    : layouts_(std::move(layouts)),
+      scale_(scale),
+      texels_(std::clamp<uint64_t>(largest_texels(layouts_), kPiece, kMostMapTexels)),
+      places_(uint32_t(texels_ / kPiece)) {
+    for (uint32_t k = kTiles; k-- > 0;) free_tiles_.push_back(uint32_t(texels_) + k * kTileTexels);
+}
+
+ShadowAtlas::Change ShadowAtlas::fit(const gpu_scene::LampList& list, uint64_t most_texels,
+                                     const std::vector<bool>& moves) {
+    std::vector<ShadowMapLayout> wanted;
+    std::vector<double> distances;
+    for (uint32_t i = 0; i < list.placed(); ++i) {
+        wanted.push_back(layouts_[list.indices[i]]);
+        distances.push_back(double(glm::length(list.lamps[i].position)));
+    }
+    choose_sides(wanted, distances, scale_, texels_);
+    for (uint32_t i = 0; i < list.placed(); ++i)
+        if (moves[list.indices[i]] && wanted[i].side > kLeastMapSide) wanted[i].side /= 2;
+    const auto ratio = [&](uint32_t i) {  // a power of two
+        const uint32_t a = wanted[i].side, b = layouts_[list.indices[i]].side;
+        return b == 0 ? ~0u : std::max(a, b) / std::max(std::min(a, b), 1u);
+    };
+    std::vector<uint32_t> order(list.placed());
+    std::iota(order.begin(), order.end(), 0u);
+    const bool all = most_texels >= texels_;
+    if (!all) std::ranges::stable_sort(order, std::greater(), ratio);
+    std::vector<uint32_t> changed;
+    for (const uint32_t i : order) {
+        ShadowMapLayout& layout = layouts_[list.indices[i]];
+        if (layout.side == wanted[i].side) continue;
+        const bool has = layout.side != 0;
+        if (has && !all && (ratio(i) <= 2 || wanted[i].texels() > most_texels)) continue;
+        if (has) places_.give(layout.first / kPiece, size_of(layout));
+        if (has && !all) most_texels -= wanted[i].texels();
+        layout.side = wanted[i].side;
+        changed.push_back(list.indices[i]);
+    }
+    if (place(changed)) return {std::move(changed), {}};
+    return place_all(list, wanted, std::move(changed));
+}
+
+// Where there is no place, lamps that do not shine lose theirs and the others find new ones, the largest first: with
+// the sides that the view wants these always fit.
+ShadowAtlas::Change ShadowAtlas::place_all(const gpu_scene::LampList& list, const std::vector<ShadowMapLayout>& wanted,
+                                           std::vector<uint32_t> changed) {
+    const std::vector<ShadowMapLayout> before = layouts_;
+    std::vector<bool> holds(layouts_.size(), true);
+    for (const uint32_t lamp : changed) holds[lamp] = false;
+    places_.clear();
+    for (ShadowMapLayout& layout : layouts_) layout.side = 0;
+    Change change;
+    std::vector<uint32_t> all;
+    for (uint32_t i = 0; i < list.placed(); ++i) {
+        const uint32_t lamp = list.indices[i];
+        layouts_[lamp].side = wanted[i].side;
+        all.push_back(lamp);
+        if (!holds[lamp] || before[lamp].side != wanted[i].side) change.lamps.push_back(lamp);
+    }
+    place(all);
+    for (const uint32_t lamp : all) {
+        const ShadowMapLayout &from = before[lamp], &to = layouts_[lamp];
+        if (holds[lamp] && to.side != 0 && from.side == to.side && from.first != to.first)
+            change.moves.push_back({from.first, to.first, to.texels()});
+    }
+    return change;
+}
+
+bool ShadowAtlas::place(std::vector<uint32_t> lamps) {
+    std::ranges::stable_sort(lamps, std::greater(), [&](uint32_t lamp) { return layouts_[lamp].texels(); });
+    for (const uint32_t lamp : lamps) {
+        if (layouts_[lamp].side == 0) continue;
+        const std::optional<uint32_t> at = places_.take(size_of(layouts_[lamp]));
+        if (!at) return false;
+        layouts_[lamp].first = *at * kPiece;
+    }
+    return true;
+}
+
+std::optional<uint32_t> ShadowAtlas::allocate() {
+    if (free_tiles_.empty()) return std::nullopt;
+    const uint32_t first = free_tiles_.back();
+    free_tiles_.pop_back();
+    return first;
+}
+
+}  // namespace vesper::render

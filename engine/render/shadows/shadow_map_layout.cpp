@@ -1,0 +1,228 @@
+#include "render/shadows/shadow_map_layout.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <string>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "base/angle.h"
+#include "base/error.h"
+#include "scene/fixtures.h"
+#include "scene/lamp.h"
+#include "scene/placement.h"
+
+namespace vesper::render {
+namespace {
+
+constexpr double kMostZoom = 8;
+constexpr double kWidestFlat = kPi / 6;  // rad: of a wider beam most texels of a flat map would be far from the axis
+constexpr double kNearestEye = 4;        // m: a lamp's light is not seen from nearer
+constexpr double kLeastScale = -16;
+constexpr double kMostScale = 8;  // log2 of the side for 0.001 cd, 1 m from the eye
+
+// The largest angle from the lamp's axis at which it shines, rad; half a turn if it shines to all sides.
+double widest_angle(const scene::Scene& scene, const scene::Lamp& lamp) {
+    constexpr double kHalfTurn = kPi;
+    switch (lamp.kind) {
+        case scene::Lamp::Kind::Spot:
+            return double(lamp.outer_cone);
+        case scene::Lamp::Kind::CosinePower:
+            return kHalfTurn / 2;
+        case scene::Lamp::Kind::Measured:
+            break;
+        default:
+            return kHalfTurn;
+    }
+    // Between the angles of the file intensity is linear, so a step of a degree to either side holds what is between.
+    constexpr int kSteps = 180;
+    for (int i = kSteps; i >= 0; --i) {
+        const double polar = double(i) * kRadiansPerDegree, sine = std::sin(polar), cosine = std::cos(polar);
+        for (int j = 0; j < 2 * kSteps; ++j) {
+            const double azimuth = double(j) * kRadiansPerDegree;
+            const glm::dvec3 direction(sine * std::cos(azimuth), sine * std::sin(azimuth), -cosine);
+            if (scene::luminous_intensity(lamp, scene.distributions, direction) > 0)
+                return std::min(polar + kRadiansPerDegree, kHalfTurn);
+        }
+    }
+    return kRadiansPerDegree;
+}
+
+// How much of the square of a hemisphere a cone takes: its edge is farthest out along the diagonals of x and y.
+double zoom_of(double angle, bool flat) {
+    if (flat) return std::min(0.98 / (std::numbers::sqrt2 * std::tan(angle)), kMostZoom);
+    const double sine = std::numbers::sqrt2 * std::sin(angle),
+                 farthest = sine / (sine + std::max(std::cos(angle), 0.0));
+    return angle >= kPi / 2 ? 1 : std::clamp(0.98 / farthest, 1.0, kMostZoom);
+}
+
+double largest_candela(const scene::Scene& scene, const scene::Lamp& lamp) {
+    return double(lamp.intensity) * (lamp.kind == scene::Lamp::Kind::Measured
+                                         ? photometry::largest_intensity(scene.distributions.at(lamp.distribution))
+                                         : 1.0);
+}
+
+ShadowMapLayout layout_of(const scene::Scene& scene, const scene::Lamp& lamp, double angle) {
+    const double candela = largest_candela(scene, lamp);
+    if (lamp.kind == scene::Lamp::Kind::Directional || !(candela > 0)) return {};
+    const double range = std::sqrt(candela / kFaintestLight);
+    const bool flat = angle <= kWidestFlat;
+    return {.side = 0,
+            .hemispheres = angle > kPi / 2 + 1e-3 ? 2u : 1u,
+            .zoom = float(zoom_of(angle, flat)),
+            .flat = flat,
+            .range = float(range),
+            .radius = float(std::sqrt(lamp.opening.area() / kPi))};
+}
+
+std::vector<ShadowMapLayout> layouts_of(const scene::Scene& scene, const std::vector<gpu_scene::PlacedLamp>& lamps) {
+    std::vector<ShadowMapLayout> layouts;
+    std::map<uint32_t, double> angles;  // of distributions
+    for (const auto& [lamp, node] : lamps) {
+        const auto known = angles.find(lamp.distribution);
+        const bool measured = lamp.kind == scene::Lamp::Kind::Measured;
+        const double angle = measured && known != angles.end() ? known->second : widest_angle(scene, lamp);
+        if (measured) angles[lamp.distribution] = angle;
+        layouts.push_back(layout_of(scene, lamp, angle));
+    }
+    return layouts;
+}
+
+// Of each lamp the placements that scene::fixture_nodes() names by their nodes.
+std::vector<std::vector<uint32_t>> fixtures_of(const scene::Scene& scene, const gpu_scene::GpuScene& resident,
+                                               const std::vector<gpu_scene::PlacedLamp>& lamps,
+                                               std::span<const glm::dmat4> world) {
+    std::vector<uint32_t> placement_at(scene.nodes.size(), scene::kNone), nodes;
+    for (uint32_t p = 0; p < resident.placements().size(); ++p) placement_at[resident.placements()[p].node] = p;
+    for (const gpu_scene::PlacedLamp& lamp : lamps) nodes.push_back(lamp.node);
+    std::vector<std::vector<uint32_t>> own = scene::fixture_nodes(scene, nodes, world);
+    for (std::vector<uint32_t>& fixture : own)
+        for (uint32_t& node : fixture) node = placement_at[node];
+    return own;
+}
+
+uint64_t texels_of(const std::vector<ShadowMapLayout>& layouts) {
+    uint64_t texels = 0;
+    for (const ShadowMapLayout& layout : layouts) texels += layout.texels();
+    return texels;
+}
+
+}  // namespace
+
+ShadowMapPlan shadow_map_plan(const scene::Scene& scene, const gpu_scene::GpuScene& resident,
+                              const std::vector<gpu_scene::PlacedLamp>& lamps) {
+    const std::vector<glm::dmat4> world = scene::world_transforms(scene, 0);
+    std::vector<glm::dvec3> places;
+    for (const gpu_scene::PlacedLamp& lamp : lamps) places.emplace_back(world[lamp.node][3]);
+    std::vector<ShadowMapLayout> layouts = layouts_of(scene, lamps);
+    const double scale = scene_scale(layouts, places);
+    return {std::move(layouts), scale, fixtures_of(scene, resident, lamps, world), scene::animated_nodes(scene)};
+}
+
+double choose_sides(std::vector<ShadowMapLayout>& layouts, const std::vector<double>& distances, double scale,
+                    uint64_t most_texels) {
+    constexpr double kStep = 0.125, kLeast = std::countr_zero(kLeastMapSide), kMost = std::countr_zero(kMostMapSide);
+    std::vector<double> powers;  // of two, at a scale of 0
+    for (size_t i = 0; i < layouts.size(); ++i) {
+        const double away = std::sqrt(std::max(distances[i], kNearestEye)) * double(layouts[i].zoom);
+        powers.push_back(std::log2(std::sqrt(std::max(double(layouts[i].range), 1e-30)) / away));
+    }
+    const auto with = [&](double tried) {
+        for (size_t i = 0; i < layouts.size(); ++i) {
+            const double wanted = std::round(tried + powers[i]);
+            const double power = wanted > kLeast ? std::min(wanted, kMost) : kLeast;  // also where it is no number
+            layouts[i].side = layouts[i].range > 0 ? 1u << uint32_t(power) : 0;
+        }
+        return texels_of(layouts);
+    };
+    for (; with(scale) > most_texels; scale -= kStep)
+        if (scale < kLeastScale)
+            throw Error("shadows of " + std::to_string(layouts.size()) + " lamps take shadow maps of more than " +
+                        std::to_string(most_texels) + " texels; without shadows the scene can be rendered");
+    return scale;
+}
+
+double scene_scale(const std::vector<ShadowMapLayout>& layouts, const std::vector<glm::dvec3>& places) {
+    constexpr size_t kMostEyes = 64;
+    double scale = kMostScale;
+    std::vector<ShadowMapLayout> tried = layouts;
+    if (choose_sides(tried, std::vector<double>(layouts.size()), kLeastScale, ~uint64_t{0});
+        texels_of(tried) > kMostMapTexels)
+        return scale;  // which is said when they are wanted
+    for (size_t eye = 0; eye < places.size(); eye += std::max<size_t>(places.size() / kMostEyes, 1)) {
+        std::vector<double> distances;
+        for (const glm::dvec3 place : places) distances.push_back(glm::distance(place, places[eye]));
+        scale = choose_sides(tried, distances, scale, kMostMapTexels);
+    }
+    return scale;
+}
+
+MapFrame map_frame(const glm::dmat4& world) {
+    const auto unit = [](glm::dvec3 v, glm::dvec3 otherwise) {
+        const double length = glm::length(v);
+        return length > 0 ? v / length : otherwise;
+    };
+    const glm::dvec3 z = unit(-glm::dvec3(world[2]), {0, -1, 0});
+    const glm::dvec3 across = std::abs(z.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 x0(world[0]);
+    const glm::dvec3 x = unit(x0 - glm::dot(x0, z) * z, glm::normalize(glm::cross(z, across)));
+    return {glm::dvec3(world[3]), glm::transpose(glm::dmat3(x, glm::cross(z, x), z))};
+}
+
+std::span<const glm::dvec2> quadrants_of(const ShadowMapLayout& layout) {
+    static constexpr glm::dvec2 kFour[]{{1, 1}, {1, -1}, {-1, 1}, {-1, -1}}, kFlat[]{{0, 0}};
+    if (layout.flat) return kFlat;
+    return kFour;
+}
+
+bool may_see(const MapWindow& window, glm::dvec2 signs, glm::dvec3 centre, double radius) {
+    const auto outside = [&](glm::dvec3 inward) { return glm::dot(inward, centre) < -radius * glm::length(inward); };
+    const glm::dvec3 norm(signs, 1), u(window.zoom, window.zoom, 0), v(window.zoom, -window.zoom, 0);
+    return !outside({signs.x, 0, 0}) && !outside({0, signs.y, 0}) && !outside({0, 0, 1}) &&
+           !outside(u - window.low.x * norm) && !outside(v - window.low.y * norm) &&
+           !outside(window.high.x * norm - u) && !outside(window.high.y * norm - v);
+}
+
+std::vector<glm::uvec2> tiles_of(const ShadowMapLayout& layout, glm::dvec3 centre, double radius) {
+    // u and v of a direction change by at most sqrt(5) times its angle: at the axes of x and y.
+    constexpr double kSteepest = 2.24;
+    const double away = glm::length(centre), zoom = double(layout.zoom);
+    glm::dvec2 low(-1), high(1);
+    if (away > radius && !layout.flat) {
+        const glm::dvec3 o(centre.x, centre.y, std::abs(centre.z));  // what is behind is no nearer to what is before
+        const glm::dvec2 middle = zoom / (std::abs(o.x) + std::abs(o.y) + o.z) * glm::dvec2(o.x + o.y, o.x - o.y);
+        const double reach = kSteepest * zoom * std::asin(radius / away);
+        low = glm::max(low, middle - reach), high = glm::min(high, middle + reach);
+    }
+    std::vector<glm::uvec2> tiles;
+    if (low.x >= high.x || low.y >= high.y || layout.side == 0) return tiles;
+    const double count = double(layout.side / shared::kRegion), width = 2 / count;
+    const glm::uvec2 first(glm::floor((0.5 * low + 0.5) * count)), end(glm::ceil((0.5 * high + 0.5) * count));
+    for (uint32_t y = first.y; y < end.y; ++y)
+        for (uint32_t x = first.x; x < end.x; ++x) {
+            const glm::dvec2 corner = width * glm::dvec2(x, y) - 1.0;
+            const MapWindow window{zoom, corner, corner + width};
+            if (std::ranges::any_of(quadrants_of(layout),
+                                    [&](glm::dvec2 signs) { return may_see(window, signs, centre, radius); }))
+                tiles.push_back(glm::uvec2(x, y) * shared::kRegion);
+        }
+    return tiles;
+}
+
+glm::vec4 rotation_to_map(const glm::dmat3& rotation, const gpu_scene::View& view) {
+    const glm::dquat q = glm::normalize(glm::quat_cast(rotation * glm::transpose(glm::dmat3(view.world_to_view))));
+    return {float(q.x), float(q.y), float(q.z), float(q.w)};
+}
+
+shared::ShadowMap shadow_map(const ShadowMapLayout& layout, const MapFrame& frame, const gpu_scene::View& view) {
+    return {.rotation = rotation_to_map(frame.rotation, view),
+            .first = float(layout.first / shared::kMapUnit),
+            .side = layout.flat ? -float(layout.side) : float(layout.side),
+            .zoom = layout.hemispheres == 2 ? -layout.zoom : layout.zoom,
+            .radius = layout.radius};
+}
+
+}  // namespace vesper::render

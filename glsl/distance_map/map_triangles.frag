@@ -1,5 +1,0 @@
-#version 460
-
-// Distance maps, opaque triangles: their depth is all.
-
-void main() {}

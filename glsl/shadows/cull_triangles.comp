@@ -1,0 +1,109 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#extension GL_EXT_scalar_block_layout : require
+
+// Shadow maps, opaque triangles, one run per workgroup (shared/shadow_map.h). Those that cover no middle of a texel of their
+// quadrant are left out, small ones are drawn here, and the others are kept for rasterizing: what a far lamp sees is mostly of
+// a few texels or less, for which that takes much longer.
+
+#include "texels.glsl"
+#include "shared/shadow_map.h"
+#include "shared/edges.h"
+
+layout(local_size_x_id = 0) in;
+
+TEXELS(0, vec2, vertices);
+TEXELS(1, uint, indices);
+layout(binding = 2, scalar) readonly buffer Rows { MapRows rows[]; };
+layout(binding = 3, scalar) readonly buffer Runs { TriangleRun runs[]; };
+layout(binding = 4, scalar) readonly buffer Quadrants { MapQuadrant quadrants[]; };
+layout(binding = 5, scalar) buffer Draws { uvec4 draws[]; };              // VkDrawIndirectCommand, one for each quadrant
+layout(binding = 6, scalar) writeonly buffer Triangles { float kept[]; };  // corners in the frame of the map, m
+layout(binding = 7, scalar) buffer Small { uint small[]; };                // kMapNear / distance, bits of a float, of the image
+
+#include "quadrant.glsl"
+
+// Texels: vertices are snapped to that when they are rasterized, and rounded before. What is drawn here is wider by that, so
+// that no gap is left beside what is rasterized.
+layout(constant_id = 1) const float kSnap = 1.0 / 256.0;
+
+// Corners in the image, texels, and the texels whose middles they may cover, within the hemisphere or tile.
+struct InImage {
+    vec2 corners[3];
+    vec2 first, last;
+};
+
+InImage in_image(InQuadrant at[3], MapQuadrant quadrant) {
+    InImage image;
+    [[unroll]] for (int k = 0; k < 3; ++k) image.corners[k] = (at[k].position.xy / at[k].position.w * 0.5 + 0.5) * quadrant.side;
+    const vec2 low = min(image.corners[0], min(image.corners[1], image.corners[2]));
+    const vec2 high = max(image.corners[0], max(image.corners[1], image.corners[2]));
+    image.first = max(ceil(low - kSnap - 0.5), quadrant.corner);
+    image.last = min(floor(high + kSnap - 0.5), quadrant.corner + quadrant.width - 1.0);
+    return image;
+}
+
+void draw_small(InImage image, InQuadrant at[3], uint side) {
+    const vec2 a = image.corners[1] - image.corners[0], b = image.corners[2] - image.corners[0];
+    const float area = a.x * b.y - a.y * b.x, turn = area < 0.0 ? -1.0 : 1.0;
+    // Distances from the lines along the edges, of the texel's middle; not less than the margin inside.
+    vec3 edges[3];
+    [[unroll]] for (int k = 0; k < 3; ++k) {
+        const vec2 from = image.corners[k], along = image.corners[(k + 1) % 3] - from;
+        edges[k] = turn * vec3(-along.y, along.x, along.y * from.x - along.x * from.y);
+        edges[k].z += kSnap * (abs(along.x) + abs(along.y) + kSnap);
+    }
+    const vec3 inverse = kMapNear / vec3(at[0].position.w, at[1].position.w, at[2].position.w);
+    const float least = min(inverse.x, min(inverse.y, inverse.z)), most = max(inverse.x, max(inverse.y, inverse.z));
+    if (abs(area) <= 1e-6) return;  // seen from its edge
+    const float per_area = 1.0 / area;
+    const vec2 rise = inverse.yz - inverse.x;
+    const vec2 slope = per_area * vec2(rise.x * b.y - rise.y * a.y, rise.y * a.x - rise.x * b.x);
+    const uint width = uint(image.last.x - image.first.x) + 1u, count = width * (uint(image.last.y - image.first.y) + 1u);
+    uvec2 place = uvec2(0u);
+    for (uint n = 0u; n < count; ++n) {
+        const vec2 texel = image.first + vec2(place), middle = texel + 0.5;
+        bool covered = true;
+        [[unroll]] for (int k = 0; k < 3; ++k) covered = covered && dot(edges[k].xy, middle) + edges[k].z >= 0.0;
+        const float value = clamp(inverse.x + dot(slope, middle - image.corners[0]), least, most);
+        if (covered) atomicMax(small[uint(texel.y) * side + uint(texel.x)], floatBitsToUint(value));
+        const bool ends = ++place.x == width;
+        place = ends ? uvec2(0u, place.y + 1u) : place;
+    }
+}
+
+// `number`: of the quadrant.
+void draw(uint number, MapQuadrant quadrant, vec3 q[3], InQuadrant at[3]) {
+    // Before the lamp as a whole, and within the quadrant.
+    bool whole = min(at[0].position.w, min(at[1].position.w, at[2].position.w)) >= kMapNear;
+    [[unroll]] for (int i = 0; i < 3; ++i) whole = whole && min(at[0].outside[i], min(at[1].outside[i], at[2].outside[i])) >= 0.0;
+    const InImage image = in_image(at, quadrant);
+    if (whole && any(greaterThan(image.first, image.last))) return;
+    const bool is_small = whole && all(lessThan(image.last - image.first, vec2(float(kSmallTriangle))));
+    for (uint once = 0u; once < (is_small ? 1u : 0u); ++once) draw_small(image, at, uint(quadrant.side));  // a CPU device skips loops, not branches
+    if (is_small) return;
+    const uint vertex = quadrant.first * 3u + atomicAdd(draws[number].x, 3u);
+    [[unroll]] for (uint k = 0u; k < 3u; ++k)
+        [[unroll]] for (int c = 0; c < 3; ++c) kept[3u * (vertex + k) + uint(c)] = q[k][c];
+}
+
+void main() {
+    const TriangleRun run = runs[gl_WorkGroupID.x];
+    const MapRows to_map = rows[run.rows];
+    const MapQuadrant quadrant = quadrants[run.quadrant];
+    for (uint triangle = gl_LocalInvocationID.x; triangle < run.triangles; triangle += gl_WorkGroupSize.x) {
+        vec3 q[3];
+        InQuadrant at[3];
+        [[unroll]] for (uint k = 0u; k < 3u; ++k) {
+            const int first = int((run.first_vertex + texel_at(indices, int(run.first_index + 3u * triangle + k)).r) * kTexelsPerVertex);
+            const vec4 p = vec4(texel_at(vertices, first).xy, texel_at(vertices, first + 1).x, 1.0);
+            q[k] = vec3(dot(to_map.x, p), dot(to_map.y, p), dot(to_map.z, p) * quadrant.mirror);
+            at[k] = to_quadrant(q[k], quadrant.place, quadrant.window, quadrant.y_sign, quadrant.overlap);
+        }
+        bool out_of_sight = max(at[0].position.w, max(at[1].position.w, at[2].position.w)) < kMapNear;
+        [[unroll]] for (int i = 0; i < 7; ++i)
+            out_of_sight = out_of_sight || max(at[0].outside[i], max(at[1].outside[i], at[2].outside[i])) < 0.0;
+        if (!out_of_sight) draw(run.quadrant, quadrant, q, at);
+    }
+}

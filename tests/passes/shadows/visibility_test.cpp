@@ -1,0 +1,480 @@
+// What pixels see of lamps, on the device: closed forms, and rays through the whole night street.
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/packing.hpp>
+
+#include "base/angle.h"
+#include "gpu_scene/cameras.h"
+#include "passes/shade_reference.h"
+#include "passes/shadows/visibility_reference.h"
+#include "places.h"
+#include "scene/convert.h"
+#include "scene/scene_files.h"
+#include "support/lit.h"
+#include "support/noise.h"
+#include "support/occluders.h"
+#include "support/ray_caster.h"
+
+namespace vesper::test::visibility_test {
+namespace {
+
+// A lamp 6 m above the ground and a plate 2 m above it: the edge of the shadow is where the ray by the plate's edge
+// ends, half as far out again. Texels of the map are 2 mm there.
+TEST(Visibility, AShadowEndsWhereTheRayByTheEdgeDoes) {
+    PassRig rig;
+    OccluderScene s;
+    s.plate({0, 0, 0}, {20, 0, 0}, {0, 0, -20});
+    s.plate({0, 2, 0}, {1, 0, 0}, {0, 0, -0.6f});
+    scene::Lamp lamp;
+    lamp.intensity = 1000;
+    for (const bool spot : {false, true}) {
+        SCOPED_TRACE(spot ? "spot" : "point");
+        lamp.kind = spot ? scene::Lamp::Kind::Spot : scene::Lamp::Kind::Point;
+        lamp.inner_cone = 1.1f, lamp.outer_cone = 1.2f;
+        OccluderScene lit = s;
+        lit.lamp(lamp, {0, 6, 0}, glm::angleAxis(float(-kPi / 2), glm::vec3(1, 0, 0)));
+        Lit all(rig, lit.scene());
+        // From straight above the lamp; 500 px over 10 m of ground, the plate in the middle.
+        const gpu_scene::View view = view_of_the_ground(500, 10);
+        const Lit::Picture p = all.render(view);
+        size_t wrong = 0, dark = 0;
+        for (size_t i = 0; i < p.pixels.size(); ++i) {
+            const glm::dvec3 at = p.place(i, 500);
+            const double x = at.x, z = -at.y, away = std::hypot(x, 6.0, z);
+            if (at.z > -19) continue;  // the plate
+            // 10 mm: half a texel and rounding.
+            const double inside = std::min(1.5 - std::abs(x), 0.9 - std::abs(z));
+            if (std::abs(inside) < 0.01) continue;
+            const double bright = double(p.pixels[i].x + p.pixels[i].y + p.pixels[i].z);
+            dark += bright == 0 ? 1 : 0;
+            if (inside > 0) {
+                wrong += bright != 0 ? 1 : 0;
+            } else if (!spot || std::acos(6 / away) < 1.05) {
+                const double light = 3 * 1000 * 6 / (away * away * away) / kPi;
+                wrong += std::abs(bright - light) > 2e-3 * light ? 1 : 0;
+            }
+        }
+        EXPECT_EQ(wrong, 0u);
+        EXPECT_GT(dark, 500u);
+        EXPECT_GT(p.pairs.dark, 2u);
+        EXPECT_GT(p.pairs.mixed, 10u);
+        EXPECT_GT(p.pairs.lit, 3000u);
+        // Pixel by pixel, without blocks, it is the same.
+        const Lit::Picture slow = all.render(view, true);
+        for (size_t i = 0; i < p.pixels.size(); ++i)
+            ASSERT_NEAR(p.pixels[i].y, slow.pixels[i].y, 2e-3 * slow.pixels[i].y) << i % 500 << " " << i / 500;
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// A thin wall 1 m high on the ground, 2 m from a lamp 2 m up. On the ground behind it the way from the wall is d of the
+// 2 m + d from the lamp, and so 2 d of the norm |x| + |y| + |z| = 4 m + d; a shadow begins where that is more than 1/64
+// m
+// + (1/1024 + half a texel) 4 m. Maps have 256 to 2,048 texels: that is at 10 to 18 mm; and a texel across is up to 8
+// mm.
+TEST(Visibility, ShadowsBeginAtTheFootOfAWall) {
+    PassRig rig;
+    OccluderScene s;
+    s.plate({0, 0, 0}, {20, 0, 0}, {0, 0, -20});
+    s.plate({0, 0.5f, 0}, {0, 0.5f, 0}, {0, 0, -5});
+    scene::Lamp lamp;
+    lamp.intensity = 1000;
+    s.lamp(lamp, {-2, 2, 0}, glm::angleAxis(float(-kPi / 2), glm::vec3(1, 0, 0)));
+    Lit all(rig, s.scene());
+    constexpr uint32_t kPixels = 400;  // of 0.5 mm
+    for (const bool all_lamps : {false, true}) {
+        const Lit::Picture p = all.render(view_of_the_ground(kPixels, 0.2), all_lamps);
+        size_t dark_before = 0, lit_behind = 0;
+        double leak = 0;  // m of lit ground behind the wall, the mean over rows
+        for (size_t i = 0; i < p.pixels.size(); ++i) {
+            const double x = p.place(i, kPixels).x, bright = double(p.pixels[i].g);
+            if (p.place(i, kPixels).z > -19.99) continue;  // the wall
+            dark_before += x < -0.002 && bright == 0 ? 1 : 0;
+            lit_behind += x > 0.03 && bright > 0 ? 1 : 0;
+            leak += x > 0 && bright > 0 ? 0.2 / kPixels / kPixels : 0;
+        }
+        EXPECT_EQ(dark_before, 0u);
+        EXPECT_EQ(lit_behind, 0u);
+        EXPECT_GT(leak, 0.006);
+        EXPECT_LT(leak, 0.020);
+        RecordProperty("leak_mm", std::to_string(1e3 * leak));
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// Maps of noise: every look of a pixel at a lamp is that of the reference.
+TEST(Visibility, PixelsLookAtTheTexelsOfTheReference) {
+    PassRig rig;
+    constexpr uint32_t kSide = 64;
+    Noise noise(5);
+    const gpu_scene::View view = gpu_scene::View::symmetric({83, 61}, 0.7f, glm::mat4(1));
+    Surfaces s{view.extent, {}, {}, {}};
+    for (uint32_t i = 0; i < view.extent.width * view.extent.height; ++i) {  // a road and a wall, and bumps on them
+        const glm::dvec2 ray =
+            glm::dvec2(view.ray_scale()) * (glm::dvec2(s.pixel(i)) + 0.5) + glm::dvec2(view.ray_offset());
+        const double road = ray.y < 0 ? 1.2 / -ray.y : 1e6, depth = std::min(road, 12.0);
+        const glm::dvec3 normal =
+            glm::normalize((road < 12 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, 1)) + 0.2 * noise.facing(0.1));
+        s.reflectance.emplace_back(0.5f, 0.5f, 0.5f, 0.0f);
+        s.surface.emplace_back(glm::vec2(reference::octahedral_encode(normal)), float(depth), 1.0f);
+        s.emission.emplace_back(0);
+    }
+    for (const auto& [zoom, hemispheres, flat] : {std::tuple{1.0, 2u, false}, {1.7, 1u, false}, {0.6, 1u, true}}) {
+        SCOPED_TRACE("zoom " + std::to_string(zoom));
+        gpu_scene::LampList list;
+        shared::Lamp lamp{};
+        lamp.position = {0.7f, 1.5f, -5}, lamp.intensity = 1000, lamp.axis = {0, -1, 0}, lamp.lobe_b = 1,
+        lamp.colour = glm::vec3(1);
+        list.lamps = {lamp}, list.indices = {0}, list.counts = {1, 0, 0, 0};
+        const render::MapFrame turned =
+            render::map_frame(glm::mat4_cast(glm::angleAxis(-1.2, glm::normalize(glm::dvec3(1, 0.2, 0.4)))));
+        std::vector<uint16_t> texels;
+        reference::HemisphereMap maps[2]{{kSide, {}}, {kSide, {}}};
+        for (uint32_t k = 0; k < hemispheres * kSide * kSide; ++k) {
+            const float value = k % 97 == 0 ? std::numeric_limits<float>::infinity() : 1 + 12 * noise.fine();
+            texels.push_back(glm::packHalf1x16(value));
+            maps[k / (kSide * kSide)].norms.push_back(double(glm::unpackHalf1x16(texels.back())));
+        }
+        graph::FrameGraph graph;
+        const render::FrameContext frame = rig.frame(graph, view);
+        const render::GBuffer g = upload(graph, s);
+        const std::vector map{render::shadow_map({.side = kSide,
+                                                  .hemispheres = hemispheres,
+                                                  .zoom = float(zoom),
+                                                  .flat = flat,
+                                                  .range = 1,
+                                                  .radius = 0,
+                                                  .first = 0},
+                                                 turned, view)};
+        const render::FrameShadowMaps seen{graph.upload("maps", map, VK_FORMAT_R32G32B32A32_SFLOAT),
+                                           graph.upload("distances", texels, VK_FORMAT_R16_SFLOAT)};
+        const LitBlocks shaded = light(frame, g, list, no_tables(graph), {}, {.all_lamps = true, .maps = seen});
+        const graph::Resource picture = keep<glm::vec4>(graph, shaded.scene);
+        rig.run(graph);
+        const std::vector<glm::vec4> pixels = rig.got<glm::vec4>(picture);
+        size_t dark = 0, lit = 0;
+        for (size_t i = 0; i < pixels.size(); ++i) {
+            const glm::dvec3 point = reference::view_position(shaded.clusters.push.grid, glm::dvec2(s.pixel(i)) + 0.5,
+                                                              double(s.surface[i].z));
+            const glm::dvec3 normal = reference::octahedral_decode(glm::dvec2(s.surface[i]));
+            if (glm::dot(normal, glm::dvec3(lamp.position) - point) < 0.01) continue;
+            glm::dvec3 in_map = turned.rotation * (point - glm::dvec3(lamp.position)),
+                       facing = turned.rotation * normal;
+            const bool second = in_map.z < 0;
+            if (second && hemispheres == 2) in_map.z = -in_map.z, facing.z = -facing.z;
+            const reference::MapLook look =
+                reference::look(maps[second && hemispheres == 2 ? 1 : 0], zoom, in_map, facing, flat);
+            if (!look.certain) continue;
+            (look.seen ? lit : dark) += 1;
+            EXPECT_EQ(pixels[i].x > 0, look.seen) << i % view.extent.width << " " << i / view.extent.width;
+        }
+        EXPECT_GT(dark, 300u);
+        EXPECT_GT(lit, 500u);
+
+        // Block by block it is the same; but a lamp that gives little counts with a mean.
+        const auto by_blocks = [&](float faint, shared::VisibilityReport& pairs, float radius = 0) {
+            graph::FrameGraph again;
+            std::vector<shared::ShadowMap> wide = map;
+            wide[0].radius = radius;
+            const render::FrameShadowMaps same{again.upload("maps", wide, VK_FORMAT_R32G32B32A32_SFLOAT),
+                                               again.upload("distances", texels, VK_FORMAT_R16_SFLOAT)};
+            const LitBlocks lit_blocks = light(rig.frame(again, view), upload(again, s), list, no_tables(again), {},
+                                               {.merge_error = 0, .maps = same, .shadow_error = faint});
+            const graph::Resource seen_picture = keep<glm::vec4>(again, lit_blocks.scene),
+                                  report = keep<shared::VisibilityReport>(again, lit_blocks.blocks.visibility);
+            rig.run(again);
+            pairs = rig.got<shared::VisibilityReport>(report).at(0);
+            return rig.got<glm::vec4>(seen_picture);
+        };
+        shared::VisibilityReport pairs{};
+        const std::vector<glm::vec4> exact = by_blocks(0, pairs);
+        size_t other = 0;
+        for (size_t i = 0; i < pixels.size(); ++i) other += exact[i] == pixels[i] ? 0 : 1;
+        EXPECT_LE(other, pixels.size() / 200) << "blocks whose probes agree and other pixels do not";
+        EXPECT_GT(pairs.mixed, 30u);
+        EXPECT_EQ(pairs.faint, 0u);
+        const std::vector<glm::vec4> mean = by_blocks(100, pairs);
+        EXPECT_LT(pairs.mixed, 20u) << "blocks of which no probe sees anything";
+        EXPECT_GT(pairs.faint, 20u);
+        double sum = 0, truth = 0;
+        for (size_t i = 0; i < pixels.size(); ++i) sum += double(mean[i].x), truth += double(exact[i].x);
+        // Probes take one texel, pixels what most of four say: in noise that is more often the likelier answer.
+        EXPECT_NEAR(sum, truth, 0.1 * truth);
+        // With a size every pixel gets a part of what it would get of the whole lamp, whatever the maps hold.
+        const std::vector<glm::vec4> soft = by_blocks(0, pairs, 0.4f);
+        size_t parts = 0;
+        for (size_t i = 0; i < pixels.size(); ++i) {
+            ASSERT_TRUE(soft[i].x >= 0 && soft[i].x < 1e6f) << i;
+            if (pixels[i].x > 0) {
+                EXPECT_LE(soft[i].x, pixels[i].x * 1.001f) << i;
+                parts += soft[i].x < 0.99f * pixels[i].x ? 1 : 0;
+            }
+        }
+        EXPECT_GT(parts, 300u);
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// A lamp never shades itself by its fixture; something that moves takes its shadow along; a lamp that is switched on
+// later has shadows; what has no place any more finds one.
+TEST(Visibility, MapsAreNeverStale) {
+    PassRig rig;
+    OccluderScene s;
+    s.plate({0, 0, 0}, {20, 0, 0}, {0, 0, -20});
+    const uint32_t box = s.box({0, 0, 0}, glm::vec3(0.5f));
+    scene::Lamp lamp;
+    lamp.intensity = 1000;
+    const uint32_t post = s.box({3, 3, 0}, {0.1f, 3, 0.1f});  // reaches above its lamp
+    const uint32_t node = s.lamp(lamp, {3, 5, 0});
+    s.scene().nodes[node].parent = post;
+    Lit all(rig, s.scene());
+    const gpu_scene::View view = view_of_the_ground(64, 10);
+    const auto brightness = [&](double x, double z) {
+        const Lit::Picture p = all.render(view);
+        const glm::ivec2 px(32 + int(std::floor(x * 6.4)), 32 + int(std::floor(z * 6.4)));
+        return double(p.pixels[size_t(px.y) * 64 + size_t(px.x)].y);
+    };
+    const auto move = [&](double x) { all.poses.world[box] = glm::translate(glm::dmat4(1), glm::dvec3(x, 2, 0)); };
+    move(1.5);  // the box is on the way from (3, 5) to (0, 0)
+    EXPECT_EQ(brightness(0, 0), 0);
+    EXPECT_GT(brightness(0, 3), 0);
+    move(-3);
+    EXPECT_GT(brightness(0, 0), 0);
+    move(1.5);
+    EXPECT_EQ(brightness(0, 0), 0);
+    all.poses.dimming.assign(s.scene().nodes.size(), 1);
+    all.poses.dimming[node] = 0;
+    EXPECT_EQ(brightness(0, 3), 0);
+    move(1.2);
+    all.poses.dimming[node] = 0.5f;
+    EXPECT_EQ(brightness(0, 0), 0);
+    EXPECT_GT(brightness(0, 3), 0);
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// A street of posts with lamps, a box that moves through it, and a lamp on another box that moves.
+struct Traffic {
+    OccluderScene s;
+    uint32_t box = 0, carrier = 0;
+    Traffic() {
+        s.plate({0, 0, 0}, {20, 0, 0}, {0, 0, -20});
+        scene::Lamp lamp;
+        lamp.intensity = 1000;
+        for (const double x : {-3.0, 0.0, 3.0}) {
+            s.box({float(x), 1, -2}, {0.2f, 1, 0.2f});
+            s.lamp(lamp, {x, 5, -3}, glm::angleAxis(float(-kPi / 2), glm::vec3(1, 0, 0)));
+        }
+        lamp.kind = scene::Lamp::Kind::Spot, lamp.outer_cone = 0.9f;
+        s.lamp(lamp, {1, 6, 2}, glm::angleAxis(float(-kPi / 2), glm::vec3(1, 0, 0)));
+        box = s.box({0, 0, 0}, {0.6f, 0.4f, 0.3f});
+        carrier = s.box({0, 0, 0}, {0.3f, 0.3f, 0.3f});
+        lamp.intensity = 300;
+        const uint32_t node = s.lamp(lamp, {0, 0.2, -0.4});
+        s.scene().nodes[node].parent = carrier;
+    }
+    void place(gpu_scene::SceneFrame& poses, double x) {
+        poses.world[box] = glm::translate(glm::dmat4(1), glm::dvec3(x, 1.5, 0.3));
+        poses.world[carrier] = glm::translate(glm::dmat4(1), glm::dvec3(-x, 0.8, 3));
+        poses.world.back() = poses.world[carrier] * glm::translate(glm::dmat4(1), glm::dvec3(0, 0.2, -0.4));
+        poses.moving.assign(poses.world.size(), false);
+        poses.moving[box] = poses.moving[carrier] = poses.moving.back() = true;
+    }
+    static gpu_scene::View view() { return view_of_the_ground(160, 14); }
+};
+
+size_t different(const Lit::Picture& a, const Lit::Picture& b) {
+    size_t pixels = 0;
+    for (size_t i = 0; i < a.pixels.size(); ++i) pixels += a.pixels[i] == b.pixels[i] ? 0 : 1;
+    return pixels;
+}
+
+// Whatever was drawn before: maps over which something moved hold what maps hold that are drawn anew.
+TEST(Visibility, WhatMovesIsDrawnOverWhatStandsStill) {
+    PassRig rig;
+    Traffic street;
+    Lit all(rig, street.s.scene());
+    std::optional<Lit::Picture> before;
+    for (const double x : {-2.0, -1.9, 2.5, 0.1, 0.1}) {
+        SCOPED_TRACE("at " + std::to_string(x));
+        street.place(all.poses, x);
+        const Lit::Picture now = all.render(Traffic::view());
+        EXPECT_EQ(all.maps.report().deferred, 0u);
+        EXPECT_EQ(all.maps.report().lamps, 5u);
+        if (before) {
+            EXPECT_LE(all.maps.report().maps, 1u);  // that of the lamp that moves
+            EXPECT_LE(all.maps.report().tiles, render::ShadowAtlas::kTiles);
+        }
+        Lit anew(rig, street.s.scene());
+        street.place(anew.poses, x);
+        EXPECT_EQ(different(now, anew.render(Traffic::view())), 0u);
+        Lit still(rig, street.s.scene());  // but for the lamp, what is not known to move is drawn with the rest
+        still.poses.world = anew.poses.world;
+        still.poses.moving.assign(still.poses.world.size(), false);
+        still.poses.moving.back() = true;
+        // Vertices are snapped to 1/256 texel of the tile or of the map.
+        EXPECT_LE(different(now, still.render(Traffic::view())), 30u);
+        if (before && x == 0.1) {
+            before = now;
+            continue;
+        }
+        if (before) {
+            EXPECT_GT(different(now, *before), 100u);
+        }
+        before = now;
+    }
+    EXPECT_EQ(all.maps.report().maps + all.maps.report().tiles, 0u) << "at the end nothing has moved";
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// The map of a lamp that moves holds what hides it from the view that it is drawn for. Other views of the same moment,
+// and a view that moves on while nothing else does, see as much as if all were drawn.
+TEST(Visibility, ALampThatMovesIsHiddenFromEachView) {
+    PassRig rig;
+    Traffic street;
+    Lit all(rig, street.s.scene());
+    const auto aside = [](double x, double z) {  // at a quarter of the ground
+        gpu_scene::View view = view_of_the_ground(96, 5);
+        view.world_to_view = view.world_to_view * glm::translate(glm::dmat4(1), glm::dvec3(-x, 0, -z));
+        return view;
+    };
+    size_t of_one = 0;
+    for (const double x : {-2.0, -1.9, 2.5, 2.4, 0.1, 0.1}) {
+        SCOPED_TRACE("at " + std::to_string(x));
+        street.place(all.poses, x);
+        std::vector<gpu_scene::View> views{aside(-2, 3)};
+        if (x > 2.45) views.push_back(aside(3, -2));
+        if (x == 0.1) views = {of_one++ == 0 ? aside(2, 4) : aside(-2, -3)};
+        for (const gpu_scene::View& view : views) {
+            Lit anew(rig, street.s.scene());
+            street.place(anew.poses, x);
+            EXPECT_EQ(different(all.render(view), anew.render(view)), 0u);
+        }
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// What hides a lamp that is dimmed hides it when it shines again, though nothing has moved.
+TEST(Visibility, ALampThatMovesIsHiddenHoweverItIsDimmed) {
+    PassRig rig;
+    Traffic street;
+    Lit all(rig, street.s.scene());
+    street.place(all.poses, -2);
+    all.poses.dimming.assign(all.poses.world.size(), 1);
+    for (const float dimmed : {1e-5f, 1.0f}) {
+        all.poses.dimming.back() = dimmed;
+        Lit anew(rig, street.s.scene());
+        anew.poses = all.poses;
+        EXPECT_EQ(different(all.render(Traffic::view()), anew.render(Traffic::view())), 0u) << dimmed;
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// What a budget does not reach stays as it was, is counted, and is drawn later.
+TEST(Visibility, WhatTheBudgetDoesNotReachIsCarriedOver) {
+    PassRig rig;
+    Traffic street;
+    Lit all(rig, street.s.scene());
+    all.budget = 0;
+    street.place(all.poses, -2);
+    all.render(Traffic::view());
+    EXPECT_EQ(all.maps.report().maps, 5u) << "maps that hold nothing are always drawn";
+    EXPECT_GT(all.maps.report().deferred, 3u) << "but not what moves";
+    street.place(all.poses, 1);
+    uint32_t frames = 0;
+    for (all.budget = 40; frames < 50; ++frames) {
+        all.render(Traffic::view());
+        EXPECT_LE(all.maps.report().tiles, 40u);
+        if (all.maps.report().deferred == 0) break;
+    }
+    EXPECT_GT(frames, 0u);
+    EXPECT_LT(frames, 50u);
+    Lit anew(rig, street.s.scene());
+    street.place(anew.poses, 1);
+    EXPECT_EQ(different(all.render(Traffic::view()), anew.render(Traffic::view())), 0u);
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// What a part of a picture shows, in pixels from its top left corner.
+gpu_scene::View part_of(gpu_scene::View view, glm::dvec2 corner, VkExtent2D extent) {
+    const glm::vec2 size(float(view.extent.width), float(view.extent.height));
+    const glm::vec2 per_pixel = (view.tangent_high - view.tangent_low) / size;
+    view.tangent_low.x += per_pixel.x * float(corner.x);
+    view.tangent_high.y -= per_pixel.y * float(corner.y);
+    view.tangent_high.x = view.tangent_low.x + per_pixel.x * float(extent.width);
+    view.tangent_low.y = view.tangent_high.y - per_pixel.y * float(extent.height);
+    view.extent = extent;
+    return view;
+}
+
+// Of matt pixels: luminance for a reflectance of 1, cd/m^2, added up.
+struct StreetLight {
+    double got = 0, truth = 0, leaked = 0, lost = 0;
+    size_t pixels = 0, within = 0;  // with 1.3 lx and more; within 5 % of the truth
+};
+
+void compare_with_rays(Lit& street, const RayCaster& rays, const gpu_scene::View& view, StreetLight& light) {
+    const Lit::Picture p = street.render(view);
+    const glm::dmat4 to_world = glm::inverse(view.world_to_view);
+    for (size_t i = 0; i < p.pixels.size(); ++i) {
+        const glm::vec4 surface = p.surfaces[i], colour = p.colours[i];
+        if (!(surface.z > 0) || surface.w < 1 || colour.w != 0) continue;  // matt alone
+        const glm::dvec3 point = reference::view_position(
+            p.grid, glm::dvec2(i % view.extent.width, i / view.extent.width) + 0.5, double(surface.z));
+        const glm::dvec3 normal = reference::octahedral_decode(glm::dvec2(surface));
+        const glm::dvec3 in_world(to_world * glm::dvec4(point + 2e-3 * normal, 1));
+        double expected = 0;  // lx, times reflectance over pi
+        for (uint32_t l = 0; l < p.list.placed(); ++l) {
+            reference::Shaded sum;
+            reference::add_lamp(p.list.lamps[l], reference::kind_of(l, p.list.counts), point, normal,
+                                glm::dvec3(colour) / kPi, {}, 1, 0.001, sum);
+            if (!(sum.luminance.y > 0)) continue;
+            const std::vector<uint32_t>& fixture = street.plan.fixtures[p.list.indices[l]];
+            const glm::dvec3 lamp(street.poses.world[street.lamps[p.list.indices[l]].node][3]);
+            const double hit = rays.hit(lamp, in_world, 0, 1, [&](uint32_t node) {
+                return std::ranges::none_of(fixture,
+                                            [&](uint32_t f) { return street.resident.placements()[f].node == node; });
+            });
+            if (!(hit < 1)) expected += sum.luminance.y;
+        }
+        const double got = double(p.pixels[i].y);
+        light.got += got, light.truth += expected;
+        light.leaked += std::max(got - expected, 0.0), light.lost += std::max(expected - got, 0.0);
+        if (std::max(got, expected) < 1.3 * double(colour.y) / kPi) continue;
+        ++light.pixels;
+        light.within += std::abs(got - expected) <= 0.05 * expected ? 1 : 0;
+    }
+}
+
+// The light of all lamps on matt pixels of the night street, with rays deciding which of them each pixel sees.
+TEST(Visibility, NightStreetAgreesWithRays) {
+    TempFolder folder;
+    const std::filesystem::path data = std::filesystem::path(VESPER_SOURCE_DIR) / "data/rivoli";
+    scene::convert(data / "rivoli.gltf", data / "rivoli.photometry.json", folder / "night.gltf");
+    const scene::Scene scene = scene::read_scene(folder / "night.gltf").scene;
+    PassRig rig;
+    Lit street(rig, scene);
+    const RayCaster rays(scene, street.poses.world);
+    ASSERT_EQ(rays.size(), street.resident.triangles());
+
+    for (const char* camera : {"driver", "crossing"}) {
+        StreetLight light;
+        const gpu_scene::View whole = gpu_scene::camera_view(scene, street.poses, camera, {1680, 1050});
+        for (const double x : {0.1, 0.45, 0.8})
+            for (const double y : {0.35, 0.55, 0.75})
+                compare_with_rays(street, rays, part_of(whole, {1680 * x, 1050 * y}, {32, 24}), light);
+        // Without maps the light is 1.4 to 1.9 times as much. What differs are edges of shadows, by less than a texel.
+        EXPECT_NEAR(light.got, light.truth, 0.01 * light.truth) << camera;
+        EXPECT_LT(light.leaked, 0.006 * light.truth) << camera;
+        EXPECT_LT(light.lost, 0.008 * light.truth) << camera;
+        EXPECT_GT(double(light.within), 0.935 * double(light.pixels)) << camera;
+        EXPECT_GT(light.pixels, 2000u);
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+}  // namespace
+}  // namespace vesper::test::visibility_test

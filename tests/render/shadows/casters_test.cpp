@@ -76,7 +76,7 @@ TEST(LightPaths, TellTheLargestIntensityTowardsASphere) {
                   {.intensity = 100, .axis = {0, 0, -1}, .lobe_a = 1}};
     list.counts = {1, 1, 0, 0};
     const auto towards = [&](uint32_t lamp, double angle, double radius) {
-        return intensity_towards(list, lamp, 10.0 * glm::dvec3(std::sin(angle), 0, -std::cos(angle)), radius);
+        return render::intensity_towards(list, lamp, 10.0 * glm::dvec3(std::sin(angle), 0, -std::cos(angle)), radius);
     };
     EXPECT_NEAR(towards(0, 0, 0), 100, 1e-4);
     EXPECT_EQ(towards(0, kPi / 5, 0), 0);

@@ -198,6 +198,10 @@ VesperResult set_eye(Handle* handle, const void* bytes, size_t size, VesperError
     });
 }
 
+/// A frame of a renderer with all that changed in its scene, waited for. A call that is refused changes nothing.
+render::Frame render_frame(VesperRenderer& renderer, const VesperToneSettings* settings, const VesperView* view,
+                           float seconds, const render::Outputs& outputs);
+
 /// Images of the host's.
 graph::ExternalImage picture_image(const VesperImage* given);
 graph::ExternalImage shown_image(const VesperImage* given, VkExtent2D extent);

@@ -94,6 +94,16 @@ void require_node(const VesperRenderer& renderer, uint32_t node) {
 
 }  // namespace
 
+render::Frame render_frame(VesperRenderer& renderer, const VesperToneSettings* settings, const VesperView* view,
+                           float seconds, const render::Outputs& outputs) {
+    const float passed = seconds_of(seconds);
+    const FrameRequest request = request_of(renderer, settings, view);
+    finish(renderer);  // what it left stays should this frame fail
+    take_over_scene(renderer);
+    find_lamp_reflections(renderer, request);
+    return renderer.engine.render(request.settings, request.view, request.frame, passed, outputs);
+}
+
 extern "C" {
 
 VesperResult vesper_renderer_create(VesperDevice* device, const VesperScene* scene, VesperRenderer** renderer,
@@ -162,14 +172,7 @@ VesperResult vesper_render(VesperRenderer* renderer, const VesperToneSettings* s
     return guarded(error, [&] {
         require(renderer, VesperRenderer::kNone);
         const VesperOutputs to = outputs_of(outputs);
-        const float passed = seconds_of(seconds);
-        const FrameRequest request = request_of(*renderer, settings, view);
-        finish(*renderer);  // what it left stays should this frame fail
-        take_over_scene(*renderer);
-        find_lamp_reflections(*renderer, request);
-        const render::Frame frame =
-            renderer->engine.render(request.settings, request.view, request.frame, passed, wanted(to));
-        give(frame, to);
+        give(render_frame(*renderer, settings, view, seconds, wanted(to)), to);
     });
 }
 

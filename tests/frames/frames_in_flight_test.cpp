@@ -110,7 +110,8 @@ TEST_F(FramesInFlight, NothingElseIsWaitedFor) {
     for (unsigned i = 6; i < 6 + graph::Executor::kFramesUnderWay; ++i) submit(renderer, i);
     EXPECT_EQ(device.use().waits, before.waits);
     EXPECT_EQ(device.use().submissions, before.submissions + graph::Executor::kFramesUnderWay);
-    while (renderer.finish_oldest(true)) {}
+    while (renderer.finish_oldest(true)) {
+    }
     EXPECT_EQ(device.use().waits, before.waits + graph::Executor::kFramesUnderWay);
 }
 

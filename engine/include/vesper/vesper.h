@@ -449,6 +449,35 @@ VesperResult vesper_renderer_set_eye(VesperRenderer* renderer, const void* bytes
 
 /** @} */
 
+/** @name One eye before several screens
+ * The stages of a frame one by one: look at each view, adapt to all of them, show each. Pictures stay on the device.
+ * Every view scatters its own light in the eye; what one scatters into another is left out.
+ * @{ */
+
+/** The eye that sees several views at once. */
+typedef struct VesperSharedEye VesperSharedEye;
+
+/** Makes an eye of 1 to 16 views. */
+VesperResult vesper_shared_eye_create(VesperDevice* device, uint32_t views, VesperSharedEye** eye, VesperError* error);
+/** Destroys a shared eye. */
+void vesper_shared_eye_destroy(VesperSharedEye* eye);
+/** Renders what view `index` sees. `settings` as of vesper_render; VESPER_LDR is refused. */
+VesperResult vesper_shared_eye_look(VesperSharedEye* eye, uint32_t index, VesperRenderer* renderer,
+                                    const VesperToneSettings* settings, const VesperView* view, VesperError* error);
+/** Scatters the light of all views in the eye and adapts it: to the luminance where it looks in view `looked_at`, and
+ * to the luminances of all. All were looked at since the last adaptation, `seconds` ago. Fills `report`, which may be
+ * null. */
+VesperResult vesper_shared_eye_adapt(VesperSharedEye* eye, const VesperToneSettings* settings, uint32_t looked_at,
+                                     float seconds, VesperFrameReport* report, VesperError* error);
+/** Shows a view as the eye has adapted, on the display of `settings`: VesperOutputs::codes and ::display_light; the
+ * others must be null. */
+VesperResult vesper_shared_eye_show(VesperSharedEye* eye, uint32_t index, const VesperToneSettings* settings,
+                                    const VesperOutputs* outputs, VesperError* error);
+/** Resets the eye's state, as at a cut. */
+VesperResult vesper_shared_eye_reset(VesperSharedEye* eye, VesperError* error);
+
+/** @} */
+
 #ifdef __cplusplus
 }
 #endif

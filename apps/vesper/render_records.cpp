@@ -85,6 +85,11 @@ void print_statistics(const RenderArguments& arguments, const gpu::Device& devic
         total += timing.milliseconds;
     }
     print("  %-24s %8.3f\n", "sum", total);
+    const graph::HostTimes& host = frame.host_times;
+    print("host's time, ms\n  %-24s %8.3f\n  %-24s %8.3f\n  %-24s %8.3f\n  %-24s %8.3f\n", "prepare and declare",
+          host.declare, "plan", host.plan, "record", host.record, "submit", host.submit);
+    const double explained = total + host.declare + host.plan + host.record + host.submit;
+    print("device and host: %.1f of %.1f ms of this frame\n", explained, frame.milliseconds);
     if (frame.pupil > 0)
         print("pupil %.2f mm, its needles and halo made on the host in %.1f ms\n", frame.pupil,
               frame.pattern_milliseconds);

@@ -1,4 +1,4 @@
-// Triangles that one vertex tells apart. SPDX-License-Identifier: MIT
+// Triangles that have provoking vertices of their own. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <vector>
@@ -7,8 +7,9 @@
 
 namespace vesper::gpu_scene {
 
-/// The triangles of a primitive, turned so that no two have the same first vertex, with copies of vertices where there
-/// are too few: the first vertex of a triangle, which a rasterizer hands on without interpolation, then is its number.
+/// The triangles of a primitive, turned so that no two have the same provoking vertex, with copies of vertices where
+/// there are too few. The provoking vertex is the first one, whose values a rasterizer hands on without interpolation:
+/// its number tells the triangle.
 class ProvokingVertices {
 public:
     explicit ProvokingVertices(const scene::Primitive& primitive);

@@ -103,7 +103,7 @@ float seen[kRows];  // share of a lamp that each pixel sees
 
 // Finds how much the pixels see of a lamp that something may hide from some of them. Loops of one turn, so that a CPU
 // device does nothing for other lamps.
-void look_at(uint index, vec3 position_of_lamp, uint entry, uint block, bool every_lamp) {
+void look_up(uint index, vec3 position_of_lamp, uint entry, uint block, bool every_lamp) {
     const float share = every_lamp ? 1.0 : share_of(entry);
     [[unroll]] for (uint r = 0u; r < kRows; ++r) seen[r] = share;
     for (uint k = 0u; k < (!every_lamp && (entry & kMixedBit) != 0u ? 1u : 0u); ++k) {
@@ -168,7 +168,7 @@ List list_of(uint block) {
 
 void add_listed(uint index, uint entry, uint slices, uint block, bool cone, bool every_lamp) {
     const FetchedLamp lamp = fetch(index, cone, push.lamps.cones + push.lamps.powers);
-    if (kMaps != 0u) look_at(index, lamp.position, entry, block, every_lamp);
+    if (kMaps != 0u) look_up(index, lamp.position, entry, block, every_lamp);
     add_lamp(lamp, slices, cone);
 }
 

@@ -15,7 +15,7 @@ layout(local_size_x_id = 0) in;
 
 TEXELS(0, vec2, vertices);
 TEXELS(1, uint, indices);
-layout(binding = 2, scalar) readonly buffer Rows { MapRows rows[]; };
+layout(binding = 2, scalar) readonly buffer Rows { mat3x4 rows[]; };  // in its columns
 layout(binding = 3, scalar) readonly buffer Runs { TriangleRun runs[]; };
 layout(binding = 4, scalar) readonly buffer Quadrants { MapQuadrant quadrants[]; };
 layout(binding = 5, scalar) buffer Draws { uvec4 draws[]; };              // VkDrawIndirectCommand, one for each quadrant
@@ -90,7 +90,7 @@ void draw(uint number, MapQuadrant quadrant, vec3 q[3], InQuadrant at[3]) {
 
 void main() {
     const TriangleRun run = runs[gl_WorkGroupID.x];
-    const MapRows to_map = rows[run.rows];
+    const mat3x4 to_map = rows[run.rows];
     const MapQuadrant quadrant = quadrants[run.quadrant];
     for (uint triangle = gl_LocalInvocationID.x; triangle < run.triangles; triangle += gl_WorkGroupSize.x) {
         vec3 q[3];
@@ -98,7 +98,7 @@ void main() {
         [[unroll]] for (uint k = 0u; k < 3u; ++k) {
             const int first = int((run.first_vertex + texel_at(indices, int(run.first_index + 3u * triangle + k)).r) * kTexelsPerVertex);
             const vec4 p = vec4(texel_at(vertices, first).xy, texel_at(vertices, first + 1).x, 1.0);
-            q[k] = vec3(dot(to_map.x, p), dot(to_map.y, p), dot(to_map.z, p) * quadrant.mirror);
+            q[k] = vec3(dot(to_map[0], p), dot(to_map[1], p), dot(to_map[2], p) * quadrant.mirror);
             at[k] = to_quadrant(q[k], quadrant.place, quadrant.window, quadrant.y_sign, quadrant.overlap);
         }
         bool out_of_sight = max(at[0].position.w, max(at[1].position.w, at[2].position.w)) < kMapNear;

@@ -5,8 +5,9 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
-// Visibility of directional lamps from pixels: one block per workgroup, and one column of pixels per invocation. Each pixel looks at the middle of a lamp's disc and beside it; where these differ within a block, each looks for
-// what hides the lamp, as far as its penumbra may reach, and then at all of the disc from its own place (Fernando 2005).
+// Visibility of directional lamps from pixels: one block per workgroup, and one column of pixels per invocation. Each pixel
+// looks up the middle of a lamp's disc and a point beside it; where these differ within a block, each searches casters as far
+// as its penumbra may reach, and then looks up all of the disc from its own place (Fernando 2005).
 
 #include "blocks.glsl"
 #include "normal.glsl"
@@ -27,7 +28,7 @@ layout(push_constant, scalar) uniform Push { DirectionalVisibilityPush push; };
 
 const float kWiden = 1.08;        // a level reaches at least that much less far from the eye than its half width
 const float kSteepest = 100.0;    // tangent of the angle from the way of the light: the plane of a surface is taken to be no steeper
-const float kLeastWidth = 0.7;    // texels, radius of what a pixel looks at: edges of lamps without a size are that soft
+const float kLeastWidth = 0.7;    // texels, radius of the disc that a pixel looks up: edges of lamps without a size are that soft
 const float kFarthest = 0.8 * kMapFar;  // m: nothing is known of surfaces farther along the light
 
 vec3 position[kBlockSize], normal[kBlockSize];  // of the column
@@ -81,7 +82,7 @@ float depth_below(LevelPoint p, vec2 offset) {
 // The widest penumbra, texels.
 float reach_of(DirectionalLamp lamp, LevelPoint p) { return max(lamp.reach / p.width, kLeastWidth); }
 
-// Where the k-th of kDisc looks searches, in lengths of the widest penumbra: most of them near the middle, since what is close
+// Where the k-th of kDisc lookups searches, in lengths of the widest penumbra: most of them near the middle, since what is close
 // to the surface has narrow ones.
 vec2 search_point(uint k) {
     const float u = (float(k) + 0.5) / float(kDisc);
@@ -114,7 +115,7 @@ uint share_of_disc(DirectionalLamp lamp, LevelPoint p) {
 }
 
 // Shares of the column, 8 bits at a shift each.
-void look(uint number, inout uint words[kBlockSize]) {
+void look_up(uint number, inout uint words[kBlockSize]) {
     const DirectionalLamp lamp = fetch_lamp(number);
     const uint lane = gl_LocalInvocationID.x, shift = 8u * (number % kSharesPerWord);
     bool any_seen = false, any_hidden = false;
@@ -148,7 +149,7 @@ void main() {
     for (uint w = 0u; w < count; ++w) {
         uint words[kBlockSize];
         [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) words[r] = 0u;
-        for (uint i = w * kSharesPerWord; i < min(push.lamps, (w + 1u) * kSharesPerWord); ++i) look(i, words);
+        for (uint i = w * kSharesPerWord; i < min(push.lamps, (w + 1u) * kSharesPerWord); ++i) look_up(i, words);
         const int at = int(((block * count + w) * kBlockSize) * kBlockSize + lane);
         [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) shares[at + int(r * kBlockSize)] = words[r];
     }

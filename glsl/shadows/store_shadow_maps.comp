@@ -4,7 +4,7 @@
 #extension GL_EXT_samplerless_texture_functions : require
 
 // Shadow maps, from what was drawn to texels: one group of texels per invocation, one region per workgroup
-// (shared/shadow_map.h). What moves is drawn over what stands still: the nearer of both stays.
+// (shared/shadow_map.h). Moving casters are drawn over still ones: the nearer of both stays.
 
 #include "shared/shadow_map.h"
 

@@ -5,10 +5,10 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
-// Visibility of lamps from blocks of pixels: one block per workgroup. Pixels of the block, the probes,
-// tell what it sees of each lamp on its list, one lamp per invocation: four of them, and sixteen of a lamp that gives a good
-// part of the block's light. Where these differ, or the block is no plane, all pixels look: one column of them per invocation.
-// Lamps that nothing of the block sees leave its list.
+// Visibility of lamps from blocks of pixels: one block per workgroup. Some pixels of the block, the probes, look up each lamp
+// on its list in its shadow map, one lamp per invocation: four of them, and sixteen for a lamp that gives a good part of the
+// block's light. Where these differ, or the block is no plane, all pixels do: one column of them per invocation. Lamps that no
+// pixel of the block sees leave its list.
 
 #include "blocks.glsl"
 #include "normal.glsl"
@@ -38,7 +38,7 @@ layout(push_constant, scalar) uniform Push { VisibilityPush push; };
 const float kMostSheen = 8.0;  // what a sheen or a wide lobe has, at most, in place of a cosine
 const uint kProbes = 16u, kFirstProbes = 4u;
 const float kMostTilt = 1e-3, kMostLift = 1e-3;  // of a plane's pixels: rad; and of their distance from the eye
-// Of the radius of a lamp: how far probes look aside, and so the widest radius of a penumbra. It is that of what stops the
+// Of the radius of a lamp: how far aside probes look up, and so the widest radius of a penumbra. It is that of what stops the
 // light after a quarter of the way.
 const float kWidest = 3.0;
 
@@ -55,10 +55,10 @@ shared uint listed[kBlockCapacity];      // their entries
 shared uint found[kBlockCapacity];       // what their blocks see, see below
 shared float brightest[kBlockCapacity];  // the largest illuminance that they give a probe, lx
 shared float way[kBlockCapacity];        // how much of the way from the lamp its light gets, where something stops it
-shared uint chosen[kBlockCapacity];      // places on the list of those that all probes look at
-shared uint counted[kBlockSize];         // by columns: see look()
+shared uint chosen[kBlockCapacity];      // places on the list of lamps that all probes look up
+shared uint counted[kBlockSize];         // by columns: see look_up()
 
-void look_at_block(uvec2 corner) {
+void read_block(uvec2 corner) {
     const uint column = gl_LocalInvocationID.x;
     bool shines = false, all_drawn = true;
     float nearest = 1e30;
@@ -111,8 +111,8 @@ uint found_of(Sight s) {
     return s.seen == s.facing ? kLit : clamp((kShares * s.seen + s.facing / 2u) / s.facing, 1u, kShares - 1u);
 }
 
-// Looks from a probe, or from beside it. Returns the cosine of incidence, 0 where it does not see the lamp.
-float look_from(uint k, vec3 beside, FetchedMap map, vec3 lamp, inout Sight s, out vec3 to, out float inverse) {
+// Looks up a lamp from a probe, or from beside it. Returns the cosine of incidence, 0 where it does not see the lamp.
+float probe_from(uint k, vec3 beside, FetchedMap map, vec3 lamp, inout Sight s, out vec3 to, out float inverse) {
     to = lamp - probe_position[k];
     inverse = inversesqrt(max(dot(to, to), 1e-12));
     const float cosine = dot(probe_normal[k], to) * inverse;
@@ -126,7 +126,7 @@ float look_from(uint k, vec3 beside, FetchedMap map, vec3 lamp, inout Sight s, o
     return sees_it ? cosine : 0.0;
 }
 
-// The first probes look at a lamp, one for each invocation. Returns the mean of what they get of it, lx.
+// The first probes look up a lamp, one for each invocation. Returns their mean illuminance by it, lx.
 float probe(uint number, uint index, bool cone) {
     const FetchedMap map = fetch_map(index);
     const FetchedLamp lamp = fetch(index, cone, push.lamps.cones + push.lamps.powers);
@@ -135,7 +135,7 @@ float probe(uint number, uint index, bool cone) {
     [[unroll]] for (uint k = 0u; k < kFirstProbes; ++k) {
         vec3 to;
         float inverse;
-        const float cosine = look_from(k, vec3(0.0), map, lamp.position, s, to, inverse);
+        const float cosine = probe_from(k, vec3(0.0), map, lamp.position, s, to, inverse);
         const float here = lamp.intensity * relative_intensity(lamp, -dot(lamp.axis, to) * inverse, -to, inverse, cone) * inverse * inverse;
         sum += here * cosine;
         beam = max(beam, probe_drawn[k] ? here : 0.0);
@@ -165,7 +165,7 @@ void probe_more(uint number, uint index) {
         const vec3 beside = k < 8u ? vec3(0.0) : aside[k & 7u].x * along_a + aside[k & 7u].y * along_b;
         vec3 to;
         float inverse;
-        look_from(k, beside, map, lamp, s, to, inverse);
+        probe_from(k, beside, map, lamp, s, to, inverse);
     }
     found[number] = pack(s);
     if (shiny || !plane) brightest[number] *= shiny && s.facing > 0u ? kMostSheen : s.cosine;
@@ -174,7 +174,7 @@ void probe_more(uint number, uint index) {
 
 // What all pixels see: a share of the lamp for each of the column, four bits; and what the block sees. `stops`: how much of
 // the way from the lamp its light gets, where something stops it.
-uint look(uint index, float stops, out uint word) {
+uint look_up(uint index, float stops, out uint word) {
     const FetchedMap map = fetch_map(index);
     const vec3 lamp = texel_at(lamps, int(index * kTexelsPerLamp)).xyz;
     const uint lane = gl_LocalInvocationID.x;
@@ -189,8 +189,8 @@ uint look(uint index, float stops, out uint word) {
         [[unroll]] for (uint r = 0u; r < kBlockSize; ++r)
             word |= uint(visibility(map, position[r] - lamp, normal[r]) * 15.0) << 4u * r;
     } else {
-        // Each pixel looks at every second point of the disc; in wide penumbrae each of 2 x 2 at another quarter of them.
-        const uint step = by_fours ? 4u : 2u, looks = kDisc / step;
+        // Each pixel looks up every second point of the disc; in wide penumbrae each of 2 x 2 another quarter of them.
+        const uint step = by_fours ? 4u : 2u, lookups = kDisc / step;
         // Rows side by side, so that points of the disc are computed for all of them at once.
         MapPoint points[kBlockSize];
         mat2 steps[kBlockSize];
@@ -211,7 +211,7 @@ uint look(uint index, float stops, out uint word) {
         }
         uint packed = 0u;
         [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
-            counts[r] = points[r].inside ? counts[r] : looks;
+            counts[r] = points[r].inside ? counts[r] : lookups;
             packed |= counts[r] << 4u * r;  // 8 at most, by fours
         }
         counted[lane] = packed;
@@ -222,7 +222,7 @@ uint look(uint index, float stops, out uint word) {
             const uint four = counts[r] + counts[r ^ 1u] + (beside >> 4u * r & 15u) + (beside >> 4u * (r ^ 1u) & 15u);
             // Rounded in four ways, so that the mean of the four is finer than what four bits hold.
             const uint rounding = ((r & 1u) * 2u + ((lane + r) & 1u)) * (kDisc / 4u) + kDisc / 8u;
-            word |= (by_fours ? (four * 15u + rounding) / kDisc : (counts[r] * 15u + looks / 2u) / looks) << 4u * r;
+            word |= (by_fours ? (four * 15u + rounding) / kDisc : (counts[r] * 15u + lookups / 2u) / lookups) << 4u * r;
         }
     }
     [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
@@ -240,7 +240,7 @@ uvec4 see(uint x, uint y) {
     const int counts = int(2u * block), first = int(block * push.capacity), last = first + int(push.capacity) - 1;
     const uint cones = block_counts[counts], all_ = cones + block_counts[counts + 1];
     if (cones == kAllLamps || all_ == 0u) return uvec4(0u);
-    look_at_block(uvec2(x, y) * kBlockSize);
+    read_block(uvec2(x, y) * kBlockSize);
 
     float light = 0.0;  // the mean of the block is the sum of all invocations, lx
     for (uint i = lane; i < all_; i += kBlockSize) {
@@ -248,7 +248,7 @@ uvec4 see(uint x, uint y) {
         listed[i] = entry;
         light += probe(i, lamp_of(entry), i < cones);
     }
-    // What a lamp must give for more probes to look at it: more than the share shadow_error of the block's mean light.
+    // The light that a lamp must give for more probes to look it up: more than the share shadow_error of the block's mean light.
     float limit = max(push.shadow_error * lanes_add(light), 1e-9);
     uint number = 0u;
     for (uint begin = 0u; begin < all_; begin += kBlockSize) {
@@ -283,14 +283,14 @@ uvec4 see(uint x, uint y) {
         const uint entry = there ? listed[i] : 0u;
         uint visible = there ? found[i] : kDark, mark = 0u;
         const bool matters = there && is_open(visible) && brightest[i] > limit;
-        // Lamps that all pixels look at, one after another.
+        // Lamps that all pixels look up, one after another.
         uint next = lanes_max(matters ? i + 1u : 0u);
         while (next != 0u) {
             const bool mine = i + 1u == next;
             const uint lamp = lanes_max(mine ? lamp_of(entry) : 0u);
             uint word;
             const float stops = lanes_max(mine ? way[i] : 0.0);
-            const uint sees_it = look(lamp, stops, word);
+            const uint sees_it = look_up(lamp, stops, word);
             if (sees_it == kMixed)
                 write_texel(shares, int((block * kSharePlaces + mixed) * kBlockSize + lane), word);
             visible = mine ? sees_it : visible;

@@ -9,16 +9,16 @@
 #include "shade.h"
 SHARED_BEGIN
 
-const uint kClipmapLevels = 8u;        // at most
-const uint kClipmapTexels = 10u;       // rgba32f per lamp, see Clipmap
+const uint kClipmapLevels = 8u;            // at most
+const uint kClipmapTexels = 10u;           // rgba32f per lamp, see Clipmap
 const float kFirstHalfWidth = 16.0;        // m, of the first level: half the side of its square
 const float kLevelStep = 0.125;            // half widths: a level moves with the eye in such steps
-const float kPenumbraReach = 256.0;     // m: penumbrae of what is farther from the lit surface are no wider
+const float kPenumbraReach = 256.0;        // m: penumbrae of what is farther from the lit surface are no wider
 const uint kSharesPerWord = 4u;            // lamps, 8 bits each
 
 // The maps of a directional lamp, as a frame sees it.
 struct Clipmap {
-    vec4 rotation;     // quaternion from the view frame to that of the map: z is the way the light goes
+    vec4 rotation; // quaternion from the view frame to that of the map: z is the way the light goes
     float first;   // texel of the first level, in units of kMapUnit
     float radius;  // tangent of half the angle that the lamp takes in the sky
     float unused_a, unused_b;

@@ -10,7 +10,7 @@
 #include "types.h"
 SHARED_BEGIN
 
-const uint kShadowMapTexels = 2u;        // rgba32f per lamp, see ShadowMap
+const uint kShadowMapTexels = 2u;  // rgba32f per lamp, see ShadowMap
 const uint kMapUnit = 64u;         // maps begin at multiples of that many texels
 const uint kRegion = 64u;          // texels, side of what a workgroup stores; the smallest side of a map
 const uint kGroup = 4u;            // texels, side of what an invocation stores
@@ -25,7 +25,7 @@ const float kMapNear = 0.03125;       // m in the norm above: nothing nearer to 
 
 // The map of a lamp, as a frame sees it.
 struct ShadowMap {
-    vec4 rotation;         // quaternion from the view frame to that of the map
+    vec4 rotation;     // quaternion from the view frame to that of the map
     float first;       // texel, in units of kMapUnit
     float side;        // texels; 0: nothing hides the lamp; negative: the map is flat
     float zoom;        // negative: there are two hemispheres
@@ -33,8 +33,8 @@ struct ShadowMap {
 };
 SHARED_SIZE(ShadowMap, 32)
 
-// One square of kRegion texels of a hemisphere that was drawn. Where only what moves was drawn, over what stands still, the
-// texels without it are saved elsewhere.
+// One square of kRegion texels of a hemisphere that was drawn. Where moving casters alone were drawn, over still ones, the
+// texels without them are saved in a tile.
 struct MapRegion {
     uint drawn_x, drawn_y;    // its corner in the image, texels
     uint x, y;                // and in the hemisphere, texels
@@ -53,7 +53,7 @@ struct MapInstance {
     vec4 place;        // clip space: scale of (u, v); middle of the square (2); zoom, negative in quadrants of x < 0
     vec4 window;       // least and greatest (u, v) of what is drawn of the square
     float y_sign;      // of the quadrant; 0: the map is flat and has no quadrants
-    float overlap;        // part of the norm by which quadrants overlap, so that no texel on their borders is left to neither side
+    float overlap;     // part of the norm by which quadrants overlap, so that no texel on their borders is left to neither side
 };
 SHARED_SIZE(MapInstance, 88)
 
@@ -67,13 +67,13 @@ struct MapQuadrant {
     float side;        // of the image, texels
     vec2 corner;       // of the hemisphere or tile in the image, texels
     float width;       // its own side, texels
-    float overlap;        // as in MapInstance
+    float overlap;     // as in MapInstance
 };
 SHARED_SIZE(MapQuadrant, 64)
 
 // Triangles of one part, for one quadrant; at most kTrianglesOfRun.
 struct TriangleRun {
-    uint rows;         // of its placement around the lamp, see MapRows
+    uint rows;         // of the matrix from its mesh to the frame of the map, m, in a list of mat3x4
     uint quadrant;
     uint first_index;
     uint first_vertex;
@@ -82,12 +82,6 @@ struct TriangleRun {
 SHARED_SIZE(TriangleRun, 20)
 const uint kTrianglesOfRun = 128u;
 const uint kSmallTriangle = 16u;  // texels: triangles in boxes of that side are drawn by cull_triangles.comp itself
-
-// Of the matrix from a mesh to the frame of a map, m.
-struct MapRows {
-    vec4 x, y, z;
-};
-SHARED_SIZE(MapRows, 48)
 
 SHARED_END
 #endif

@@ -1,4 +1,4 @@
-// Shadow maps that are kept from run to run: the same texels, and never those of something else.
+// Shadow maps from the cache: the same texels, and never those of something else.
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <functional>

@@ -207,7 +207,7 @@ void Instruments::draw_performance(const FrameState& now) {
                     now.frame.clusters.overflowed);
         const render::ShadowReport& maps = now.frame.maps;
         if (now.session.settings().render().shadows)
-            ImGui::TextWrapped("shadows: %u shadow maps and %u tiles drawn, %u carried over; %.0f MiB", maps.maps,
+            ImGui::TextWrapped("shadows: %u shadow maps and %u tiles drawn, %u deferred; %.0f MiB", maps.maps,
                                maps.tiles, maps.deferred, double(maps.bytes) / (1 << 20));
         ImGui::Separator();
         for (const graph::Timing& timing : now.frame.timings) {

@@ -32,22 +32,22 @@ ShadowMapScratch add_shadow_map_scratch(const FrameContext& frame, const gpu_sce
         const std::string which = " of " + std::to_string(side);
         const uint64_t texels = uint64_t{side} * side;
         image = {side,
-                 graph.reserved("drawn maps" + which, graph::image_shape(kDepthFormat, {side, side}),
+                 graph.reserved("drawn shadow maps" + which, graph::image_shape(kDepthFormat, {side, side}),
                                 {Access::DepthTarget, Access::Sample}),
-                 graph.reserved("small triangles" + which, graph::buffer_shape(texels * sizeof(float)),
+                 graph.reserved("small shadow casters" + which, graph::buffer_shape(texels * sizeof(float)),
                                 {Access::CopyTarget, Access::Update, Access::Load})};
         side *= 2;
     }
     scratch.draws = graph.reserved(
-        "map draws", graph::buffer_shape(ShadowMapScratch::kMostQuadrants * sizeof(VkDrawIndirectCommand)),
+        "shadow draws", graph::buffer_shape(ShadowMapScratch::kMostQuadrants * sizeof(VkDrawIndirectCommand)),
         {Access::CopyPart, Access::Update, Access::Arguments});
     scratch.triangles = graph.reserved(
-        "map triangles", graph::buffer_shape(uint64_t{ShadowMapScratch::kMostTriangles} * 3 * sizeof(glm::vec3)),
+        "shadow triangles", graph::buffer_shape(uint64_t{ShadowMapScratch::kMostTriangles} * 3 * sizeof(glm::vec3)),
         {Access::Store, Access::Vertices});
     if (scene.vertex_count() > 0) {
-        scratch.vertices = graph.external("vertices of maps", scene.vertices(),
+        scratch.vertices = graph.external("vertices of casters", scene.vertices(),
                                           scene.vertex_count() * sizeof(scene::Vertex), VK_FORMAT_R32G32_SFLOAT);
-        scratch.indices = graph.external("indices of maps", scene.indices(), scene.index_count() * sizeof(uint32_t),
+        scratch.indices = graph.external("indices of casters", scene.indices(), scene.index_count() * sizeof(uint32_t),
                                          VK_FORMAT_R32_UINT);
     }
     return scratch;

@@ -1,4 +1,4 @@
-// Parts of a scene, drawn into maps of distances from lamps. SPDX-License-Identifier: MIT
+// Parts of a scene that cast shadows, and the images that they are drawn into. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <array>
@@ -10,10 +10,11 @@
 
 namespace vesper::render {
 
-/// A buffer for so many texels of maps, halves, two a word; at least one word. Bound in `arena`.
+/// A buffer for so many texels of shadow maps, halves, two a word; at least one word. Bound in `arena`.
 gpu::OwnedBuffer make_shadow_texels(const gpu::Device& device, gpu::Arena& arena, uint64_t texels);
 
-/// What maps of lamps are drawn with, one image after the other: of every frame that has maps, drawn or not.
+/// Images and buffers in which shadow maps of lamps are drawn, one image after the other; reserved in every frame that
+/// has maps, drawn or not.
 struct ShadowMapScratch {
     struct Image {
         uint32_t side;          ///< texels
@@ -32,7 +33,7 @@ struct ShadowMapScratch {
 };
 ShadowMapScratch add_shadow_map_scratch(const FrameContext& frame, const gpu_scene::GpuScene& scene);
 
-/// Of casters.frag: what a masked material lets through.
+/// Of casters.frag: the opacity of a masked material.
 struct MaskPush {
     float base_opacity, cutoff;
 };

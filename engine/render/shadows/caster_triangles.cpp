@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <utility>
+#include <optional>
 
 #include "shaders/shadows/caster_triangles.frag.inc"
 #include "shaders/shadows/caster_triangles.vert.inc"
@@ -42,81 +42,66 @@ float map_snap(const gpu::Device& device) {
     return std::ldexp(1.0f, -int(std::min(device.limits().subPixelPrecisionBits, 8u)));
 }
 
-// What one dispatch culls.
-struct CasterTriangles::Chunk {
-    std::vector<shared::MapRows> rows;
-    std::vector<shared::MapQuadrant> quadrants;
-    std::vector<shared::TriangleRun> runs;
-    uint32_t triangles = 0;
-
-    bool has_room(uint32_t more) const {
-        return runs.size() < kMostRuns && triangles + more <= ShadowMapScratch::kMostTriangles;
-    }
-};
-
-void CasterTriangles::add_quadrant(const shared::MapQuadrant& quadrant) { quadrants_.push_back({quadrant, {}}); }
+void CasterTriangles::add_quadrant(const shared::MapQuadrant& quadrant) { quadrants_.push_back(quadrant); }
 
 uint32_t CasterTriangles::add_rows(const glm::mat4& rows) {
-    rows_.push_back({rows[0], rows[1], rows[2]});
+    rows_.emplace_back(rows[0], rows[1], rows[2]);
     return uint32_t(rows_.size()) - 1;
 }
 
 void CasterTriangles::add(const gpu_scene::GpuScene::Part& part, uint32_t rows, uint32_t quadrant) {
     for (uint32_t first = 0; first < part.index_count; first += 3 * shared::kTrianglesOfRun)
-        quadrants_[quadrant].runs.push_back(
-            {.rows = rows,
-             .quadrant = 0,  // in its chunk
-             .first_index = part.first_index + first,
-             .first_vertex = uint32_t(part.first_vertex),
-             .triangles = std::min((part.index_count - first) / 3, shared::kTrianglesOfRun)});
+        runs_.push_back({.rows = rows,
+                         .quadrant = quadrant,
+                         .first_index = part.first_index + first,
+                         .first_vertex = uint32_t(part.first_vertex),
+                         .triangles = std::min((part.index_count - first) / 3, shared::kTrianglesOfRun)});
 }
 
 void CasterTriangles::draw(const FrameContext& frame, const Image& image, const ShadowMapScratch& scratch) const {
-    if (rows_.empty()) return;
-    Chunk chunk;
-    uint32_t number = 0;
-    const auto draw_chunk = [&] {
-        draw(chunk, frame, {image.name + "." + std::to_string(number++), image.depth, image.small}, scratch);
-        chunk = {};
+    std::vector<shared::TriangleRun> runs = runs_;
+    std::ranges::stable_sort(runs, {}, &shared::TriangleRun::quadrant);
+    CasterTriangles once;  // quadrants, rows and runs of one dispatch
+    uint32_t number = 0, triangles = 0, last_rows = 0;
+    std::optional<uint32_t> quadrant;
+    const auto dispatch_once = [&] {
+        once.dispatch(frame, {image.name + "." + std::to_string(number++), image.depth, image.small}, scratch);
+        once = {}, quadrant = {}, triangles = 0;
     };
-    for (const QuadrantRuns& of : quadrants_) {
-        bool begun = false;
-        uint32_t last_rows = 0;
-        for (shared::TriangleRun run : of.runs) {
-            if (!chunk.has_room(run.triangles)) draw_chunk(), begun = false;
-            if (!begun) chunk.quadrants.push_back(of.quadrant), chunk.quadrants.back().first = chunk.triangles;
-            if (!begun || run.rows != last_rows) chunk.rows.push_back(rows_[run.rows]);
-            begun = true;
-            last_rows = std::exchange(run.rows, uint32_t(chunk.rows.size()) - 1);
-            run.quadrant = uint32_t(chunk.quadrants.size()) - 1;
-            chunk.triangles += run.triangles;
-            chunk.runs.push_back(run);
-        }
+    for (shared::TriangleRun run : runs) {
+        if (once.runs_.size() == kMostRuns || triangles + run.triangles > ShadowMapScratch::kMostTriangles)
+            dispatch_once();
+        const bool begins = quadrant != run.quadrant;
+        if (begins) once.quadrants_.push_back(quadrants_[run.quadrant]), once.quadrants_.back().first = triangles;
+        if (begins || run.rows != last_rows) once.rows_.push_back(rows_[run.rows]);
+        quadrant = run.quadrant, last_rows = run.rows;
+        run.rows = uint32_t(once.rows_.size()) - 1, run.quadrant = uint32_t(once.quadrants_.size()) - 1;
+        triangles += run.triangles;
+        once.runs_.push_back(run);
     }
-    if (!chunk.runs.empty()) draw_chunk();
+    if (!once.runs_.empty()) dispatch_once();
 }
 
-void CasterTriangles::draw(const Chunk& chunk, const FrameContext& frame, const Image& image,
-                           const ShadowMapScratch& scratch) const {
+void CasterTriangles::dispatch(const FrameContext& frame, const Image& image, const ShadowMapScratch& scratch) const {
     graph::FrameGraph& graph = frame.graph;
     const std::string& name = image.name;
     const graph::Resource kept = scratch.triangles, draws = scratch.draws;
-    std::vector<VkDrawIndirectCommand> none(chunk.quadrants.size());
-    for (size_t i = 0; i < none.size(); ++i) none[i] = {0, 1, 3 * chunk.quadrants[i].first, 0};
-    graph.copy("no map triangles", graph.upload("no triangles" + name, none), draws,
+    std::vector<VkDrawIndirectCommand> none(quadrants_.size());
+    for (size_t i = 0; i < none.size(); ++i) none[i] = {0, 1, 3 * quadrants_[i].first, 0};
+    graph.copy("clear shadow draws", graph.upload("empty shadow draws" + name, none), draws,
                {{0, 0, none.size() * sizeof(VkDrawIndirectCommand)}});
     graph.dispatch(
-        "cull triangles",
+        "cull shadow triangles",
         frame.kernels.get(kCull,
                           {frame.lockstep() ? 8u : 64u, std::bit_cast<uint32_t>(map_snap(frame.kernels.device()))}),
-        {sample(scratch.vertices), sample(scratch.indices), load(graph.upload("map rows" + name, chunk.rows)),
-         load(graph.upload("map runs" + name, chunk.runs)), load(graph.upload("map quadrants" + name, chunk.quadrants)),
+        {sample(scratch.vertices), sample(scratch.indices), load(graph.upload("shadow rows" + name, rows_)),
+         load(graph.upload("shadow runs" + name, runs_)), load(graph.upload("shadow quadrants" + name, quadrants_)),
          update(draws), store(kept), update(image.small)},
-        graph::Groups{uint32_t(chunk.runs.size()), 1, 1});
+        graph::Groups{uint32_t(runs_.size()), 1, 1});
     graph.raster(
-        "map triangles",
+        "shadow triangles",
         {{kept, graph::Access::Vertices}, {draws, graph::Access::Arguments}, {image.depth, graph::Access::DepthTarget}},
-        [&pipelines = frame.pipelines, kept, draws, quadrants = chunk.quadrants](const graph::Recording& recording) {
+        [&pipelines = frame.pipelines, kept, draws, quadrants = quadrants_](const graph::Recording& recording) {
             const VkCommandBuffer commands = recording.commands();
             const gpu::GraphicsPipeline& pipeline = pipelines.get(kTriangles, {.targets = {}, .depth = kDepthFormat});
             const VkBuffer buffer = recording.buffer(kept);

@@ -1,4 +1,4 @@
-// Opaque triangles, drawn into maps of distances from lamps. SPDX-License-Identifier: MIT
+// Opaque casters, drawn into shadow maps triangle by triangle. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <string>
@@ -18,10 +18,9 @@ bool has_caster_triangles(const gpu::Device& device, const gpu_scene::GpuScene& 
 /// The step to which vertices are snapped in maps, texels: at most 1/16. 1/256 where it is finer.
 float map_snap(const gpu::Device& device);
 
-/// What is drawn into an image: runs of triangles, quadrant by quadrant.
+/// The opaque casters of an image: runs of triangles in quadrants.
 class CasterTriangles {
 public:
-    /// Begins a quadrant, of which runs follow.
     void add_quadrant(const shared::MapQuadrant& quadrant);
     uint32_t quadrants() const { return uint32_t(quadrants_.size()); }
     /// The number of the rows of a matrix from a mesh to the frame of a map, m, for add().
@@ -38,15 +37,12 @@ public:
     void draw(const FrameContext& frame, const Image& image, const ShadowMapScratch& scratch) const;
 
 private:
-    struct Chunk;
-    struct QuadrantRuns {
-        shared::MapQuadrant quadrant;
-        std::vector<shared::TriangleRun> runs;
-    };
-    void draw(const Chunk& chunk, const FrameContext& frame, const Image& image, const ShadowMapScratch& scratch) const;
+    // Of one dispatch, in the order of quadrants.
+    void dispatch(const FrameContext& frame, const Image& image, const ShadowMapScratch& scratch) const;
 
-    std::vector<QuadrantRuns> quadrants_;
-    std::vector<shared::MapRows> rows_;
+    std::vector<shared::MapQuadrant> quadrants_;
+    std::vector<glm::mat3x4> rows_;
+    std::vector<shared::TriangleRun> runs_;
 };
 
 /// The shaders that draw them.

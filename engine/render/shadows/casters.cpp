@@ -4,6 +4,13 @@
 #include <cmath>
 
 namespace vesper::render {
+namespace {
+
+// visibility.comp: a lookup is aside by at most so many radii of the lamp, across the way of its light and then along a
+// plane on which it is ten times as long; and by so many texels, where the plane of a surface may be twice as far.
+constexpr double kAside = 3 * 11, kTexelsAside = 4, kPlaneReach = 2;
+
+}  // namespace
 
 std::vector<HalfSpace> light_paths(const gpu_scene::View& view, glm::dvec3 lamp, double reach) {
     constexpr double kLeast = 1e-9;  // m: a lamp nearer to an edge of what is seen gives no plane with it
@@ -56,6 +63,27 @@ double intensity_towards(const gpu_scene::LampList& list, uint32_t number, glm::
         return nearest > 0 ? double(lamp.intensity) * std::pow(nearest, double(lamp.lobe_a)) : 0;
     const double ramp = std::clamp(double(lamp.lobe_a) * nearest + double(lamp.lobe_b), 0.0, 1.0);
     return double(lamp.intensity) * ramp * ramp;
+}
+
+IsCaster select_casters(const CastingLamp& lamp, const gpu_scene::LampList& list, const gpu_scene::View& view,
+                        bool culled) {
+    std::vector<HalfSpace> paths;
+    if (culled) paths = light_paths(view, lamp.position, kPlaneReach);
+    const double beside = kAside * double(lamp.layout.radius);
+    const double texels = kTexelsAside * 2 / (double(lamp.layout.side) * double(lamp.layout.zoom));
+    const double undimmed = kFaintestLight * double(lamp.layout.range) * double(lamp.layout.range);  // cd
+    const double share = undimmed / double(list.lamps[lamp.number].intensity);
+    const glm::dmat3 to_view(view.world_to_view);
+    const glm::dvec3 position = lamp.position;
+    const double least = lamp.least_light;
+    const uint32_t number = lamp.number;
+    return [=, &list](const gpu_scene::WorldSphere& sphere) {
+        const glm::dvec3 to = sphere.centre - position;
+        const double away = glm::length(to), nearest = std::max(away - sphere.radius, 0.0);
+        const double radius = sphere.radius + beside + texels * away;
+        return may_lie_in(paths, {sphere.centre, radius}) &&
+               share * intensity_towards(list, number, to_view * to, radius) >= least * nearest * nearest;
+    };
 }
 
 }  // namespace vesper::render

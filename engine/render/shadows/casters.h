@@ -1,11 +1,13 @@
-// Where what hides a lamp from a view can stand. SPDX-License-Identifier: MIT
+// The selection of casters: surfaces whose shadows a view may see. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "gpu_scene/gpu_scene.h"
 #include "gpu_scene/lamps.h"
 #include "gpu_scene/view.h"
+#include "render/shadows/shadow_map_layout.h"
 
 namespace vesper::render {
 
@@ -25,5 +27,21 @@ bool may_lie_in(const std::vector<HalfSpace>& spaces, const gpu_scene::WorldSphe
 /// The largest intensity of a lamp of a list towards a sphere, cd; of a measured one, of all directions. `number`: in
 /// the list; `to`: from the lamp to the middle of the sphere, m, in the frame of the view.
 double intensity_towards(const gpu_scene::LampList& list, uint32_t number, glm::dvec3 to, double radius);
+
+/// Whether surfaces in a sphere (world, m) may cast a shadow that is wanted.
+using IsCaster = std::function<bool(const gpu_scene::WorldSphere&)>;
+
+/// A lamp whose casters are selected.
+struct CastingLamp {
+    uint32_t number;      ///< in the list
+    glm::dvec3 position;  ///< m, world
+    const ShadowMapLayout& layout;
+    double least_light;  ///< lx: light below casts no shadow
+};
+/// Selects the casters of a lamp of a list: surfaces that get enough light of it, undimmed, so that its map serves at
+/// any dimming. `culled`: only those on its paths to what the view sees, with room for penumbrae. The list must outlive
+/// the result.
+IsCaster select_casters(const CastingLamp& lamp, const gpu_scene::LampList& list, const gpu_scene::View& view,
+                        bool culled);
 
 }  // namespace vesper::render

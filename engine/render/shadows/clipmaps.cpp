@@ -18,7 +18,7 @@ Clipmaps::Clipmaps(const gpu::Device& device, const gpu_scene::GpuScene& residen
       levels_(plan.lamps * shared::kClipmapLevels) {
     if (plan.lamps == 0) return;
     if (plan.side == 0)
-        throw Error("shadows of " + std::to_string(plan.lamps) + " directional lights take maps of more than " +
+        throw Error("shadows of " + std::to_string(plan.lamps) + " directional lights take clipmaps of more than " +
                     std::to_string(kMostClipmapTexels) + " texels; without shadows the scene can be rendered");
     distances_ = make_shadow_texels(device, arena_, plan.texels());
 }

@@ -1,4 +1,4 @@
-// Maps of a scene's directional lamps, kept from frame to frame. SPDX-License-Identifier: MIT
+// Clipmaps of a scene's directional lamps, from frame to frame. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace vesper::render {
 
-/// Owns the maps on the device. A level is drawn when the eye has moved on by a step of it, when its lamp turns, and
-/// all are when anything in the scene moves: what a map holds depends on the frame alone. Not thread-safe.
+/// Owns the clipmaps on the device. A level is drawn when the eye has moved on by a step of it, when its lamp turns,
+/// and all are when anything in the scene moves: the content of a clipmap depends on the frame alone. Not thread-safe.
 class Clipmaps {
 public:
     /// Throws Error where there are too many directional lamps.
@@ -19,16 +19,16 @@ public:
 
     /// Finds which levels are out of date for a frame; returns how many. Host work only.
     uint32_t plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses, const gpu_scene::View& view);
-    /// Declares what plan() found, with its arguments; declared again, nothing is left to draw. Returns the maps of the
-    /// directional lamps of the list.
+    /// Declares the work that plan() found, with its arguments; declared again, nothing is left to draw. Returns the
+    /// clipmaps of the directional lamps of the list.
     FrameClipmaps declare(const FrameContext& frame, const gpu_scene::LampList& list,
                           const gpu_scene::SceneFrame& poses, const gpu_scene::View& view);
-    /// A frame that was declared has failed: all maps are drawn anew.
+    /// A frame that was declared has failed: all levels are drawn anew.
     void forget();
     uint64_t bytes() const { return arena_.bytes(); }  ///< of device memory
 
 private:
-    /// What a level was drawn for.
+    /// The place for which a level was drawn.
     struct Level {
         glm::dmat3 rotation{0};
         glm::dvec3 middle{0};

@@ -33,7 +33,7 @@ constexpr gpu::GraphicsShaders kLevelShaders{"clipmap.vert",  clipmap_vert,     
                                              kCasterTextures, sizeof(MaskPush), VK_SHADER_STAGE_FRAGMENT_BIT,
                                              kLevelBuffers,   kLevelAttributes};
 
-// What a level sees, and how far along the light, m from its plane.
+// Casters within a level, and their extent along the light, m from its plane.
 struct LevelParts {
     std::vector<uint32_t> placements, parts;  // side by side
     double nearest = 0, farthest = 1;
@@ -97,8 +97,9 @@ void add_clipmaps(const FrameContext& frame, const GpuScene& scene, const gpu_sc
         }
         if (instances.empty()) instances.emplace_back();  // an upload is never empty
 
-        const graph::Resource placed = graph.upload("directional instances" + which, instances);
-        graph.raster("clipmaps", {{placed, graph::Access::Vertices}, {scratch, graph::Access::DepthTarget, {}, true}},
+        const graph::Resource placed = graph.upload("clipmap casters" + which, instances);
+        graph.raster("clipmap casters",
+                     {{placed, graph::Access::Vertices}, {scratch, graph::Access::DepthTarget, {}, true}},
                      [&pipelines = frame.pipelines, &scene, placed,
                       batches = std::move(batches)](const graph::Recording& recording) {
                          record_casters(recording, pipelines, kLevelShaders, scene, placed, batches);
@@ -108,7 +109,7 @@ void add_clipmaps(const FrameContext& frame, const GpuScene& scene, const gpu_sc
                                             .farthest = float(seen.farthest),
                                             .range = float(seen.farthest - seen.nearest)};
         const gpu::Kernel& store = frame.kernels.get(kStoreLevel);
-        graph.dispatch("store level", store, {sample(scratch), update(distances)}, push,
+        graph.dispatch("store clipmaps", store, {sample(scratch), update(distances)}, push,
                        graph::cover(side / 2, side, store.group[0], store.group[1]));
     }
 }

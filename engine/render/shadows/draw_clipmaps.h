@@ -1,4 +1,4 @@
-// Maps of directional lamps, drawn. SPDX-License-Identifier: MIT
+// Clipmaps of directional lamps, drawn. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <span>
@@ -23,7 +23,8 @@ void add_clipmaps(const FrameContext& frame, const gpu_scene::GpuScene& scene, c
                   std::span<const LevelToDraw> levels, uint32_t side, graph::Resource distances,
                   graph::Resource scratch);
 
-/// What levels of `side` texels are drawn with, one after the other: of every frame that has maps, drawn or not.
+/// The image in which levels of `side` texels are drawn, one after the other; reserved in every frame that has
+/// clipmaps, drawn or not.
 graph::Resource add_level_scratch(graph::FrameGraph& graph, uint32_t side);
 
 }  // namespace vesper::render

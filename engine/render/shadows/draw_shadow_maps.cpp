@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -47,13 +48,9 @@ struct Square {
     bool second;        // hemisphere
     glm::uvec2 corner;  // in the hemisphere, texels
     uint32_t side;      // texels
+    // Its image: its side, texels; its number among those of this side; and the square's corner in it, texels.
+    uint32_t image_side = 0, image = 0;
     glm::uvec2 place{0};
-};
-
-struct DrawnImage {
-    uint32_t side;  // texels
-    std::vector<Square> squares;
-    std::vector<bool> taken;  // regions
 };
 
 // The place of the n-th region along a curve that fills squares of powers of two one after another (Morton 1966).
@@ -85,33 +82,34 @@ uint32_t first_region(const Square& square, uint32_t count) {
     return (scattered + tile.x + 7 * tile.y) % places * each;
 }
 
-// Squares image by image, the largest first, each in its place in the first where that is free.
-std::vector<DrawnImage> fill_images(std::span<const ShadowMapToDraw> maps, const ShadowMapScratch& scratch) {
+// All squares, image by image, the largest first, each in its place in the first image where that is free.
+std::vector<Square> place_squares(std::span<const ShadowMapToDraw> maps, const ShadowMapScratch& scratch) {
     std::vector<Square> all = squares_of(maps);
     std::ranges::stable_sort(all, std::greater(), &Square::side);
-    std::vector<DrawnImage> images;
+    std::map<uint32_t, std::vector<std::vector<bool>>> taken;  // regions, by sides of images and their numbers
     for (Square& square : all) {
-        const uint32_t side = scratch.image_for(square.side).side, regions = regions_in(side);
-        const uint32_t first = first_region(square, regions);
+        square.image_side = scratch.image_for(square.side).side;
+        const uint32_t regions = regions_in(square.image_side), first = first_region(square, regions);
         square.place = region_place(first);
-        const auto has_room = [&](const DrawnImage& image) { return image.side == side && !image.taken[first]; };
-        auto image = std::ranges::find_if(images, has_room);
-        if (image == images.end()) image = images.insert(image, {side, {}, std::vector<bool>(regions)});
-        std::fill_n(image->taken.begin() + first, regions_in(square.side), true);
-        image->squares.push_back(square);
+        std::vector<std::vector<bool>>& images = taken[square.image_side];
+        const auto image = std::ranges::find_if(images, [&](const std::vector<bool>& of) { return !of[first]; });
+        square.image = uint32_t(image - images.begin());
+        if (image == images.end()) images.emplace_back(regions);
+        std::fill_n(images[square.image].begin() + first, regions_in(square.side), true);
     }
-    return images;
+    std::ranges::stable_sort(all, {}, [](const Square& square) { return std::pair(~square.image_side, square.image); });
+    return all;
 }
 
-// What is drawn into an image: triangles of opaque parts; and of masked ones, or of all where there is no room for
-// these, parts and an instance each, side by side.
+// The casters of an image: triangles of opaque parts; and of masked ones, or of all where there is no room for these,
+// parts and an instance each, side by side.
 struct Drawn {
     CasterTriangles opaque;
     std::vector<uint32_t> parts;
     std::vector<shared::MapInstance> instances;
 };
 
-// What stands where a square sees it.
+// Collects the casters that squares see.
 class Collector {
 public:
     Collector(const GpuScene& scene, const gpu_scene::SceneFrame& poses, const gpu::Device& device)
@@ -121,15 +119,15 @@ public:
           snap_(map_snap(device)),
           bounds_(scene.placements().size()) {}
 
-    void collect(const Square& square, uint32_t image_side, Drawn& drawn) {
+    void collect(const Square& square, Drawn& drawn) {
         const ShadowMapLayout& layout = square.map->layout;
         const MapFrame& frame = square.map->frame;
         const glm::dvec3 mirror(1, 1, square.second ? -1 : 1);
         const double texel = 2.0 / (double(layout.side) * double(layout.zoom));  // rad, about
-        const std::vector<Quadrant> quadrants = add_quadrants(square, image_side, drawn);
+        const std::vector<Quadrant> quadrants = add_quadrants(square, drawn);
         for (const uint32_t p : square.map->placements) {
             const Bounds& bounds = bounds_of(p);
-            if (!matters(*square.map, bounds.whole)) continue;
+            if (!is_caster(*square.map, bounds.whole)) continue;
             const glm::dvec3 middle = mirror * (frame.rotation * (bounds.whole.centre - frame.position));
             if (middle.z + bounds.whole.radius < 0 || std::ranges::binary_search(square.map->fixture, p)) continue;
             const GpuScene::Placement& placement = scene_.placements()[p];
@@ -138,7 +136,7 @@ public:
                 const auto& [centre, radius] = bounds.parts[i];
                 const GpuScene::Part& part = scene_.parts()[placement.first_part + i];
                 if (part.index_count == 0 || scene_.surfaces()[part.material].material.clear ||
-                    !matters(*square.map, bounds.parts[i]) ||
+                    !is_caster(*square.map, bounds.parts[i]) ||
                     radius < 0.25 * texel * glm::distance(centre, frame.position))
                     continue;
                 const glm::dvec3 c = mirror * (frame.rotation * (centre - frame.position));
@@ -158,7 +156,7 @@ private:
         std::vector<gpu_scene::WorldSphere> parts;
     };
 
-    // Computed when a placement is first looked at.
+    // Computed when a placement is first asked for.
     const Bounds& bounds_of(uint32_t placement) {
         const GpuScene::Placement& of = scene_.placements()[placement];
         Bounds& bounds = bounds_[placement];
@@ -173,10 +171,10 @@ private:
         return bounds;
     }
 
-    static bool matters(const ShadowMapToDraw& map, const gpu_scene::WorldSphere& sphere) {
+    static bool is_caster(const ShadowMapToDraw& map, const gpu_scene::WorldSphere& sphere) {
         const glm::dvec3 to = sphere.centre - map.frame.position;
         const double far = double(map.layout.range) + sphere.radius;
-        return glm::dot(to, to) <= far * far && (!map.matters || map.matters(sphere));
+        return glm::dot(to, to) <= far * far && (!map.is_caster || map.is_caster(sphere));
     }
 
     static glm::mat4 rows_to_map(const MapFrame& frame, const glm::dmat4& world) {
@@ -197,12 +195,12 @@ private:
         std::optional<uint32_t> number{};  // among those of opaque triangles
     };
 
-    std::vector<Quadrant> add_quadrants(const Square& square, uint32_t image_side, Drawn& drawn) const {
+    std::vector<Quadrant> add_quadrants(const Square& square, Drawn& drawn) const {
         const ShadowMapLayout& layout = square.map->layout;
         const double zoom = double(layout.zoom), per_texel = 2.0 / double(layout.side);
         const glm::dvec2 low = per_texel * glm::dvec2(square.corner) - 1.0;
         const MapWindow window{zoom, low, low + per_texel * double(square.side)};
-        const float image = float(image_side), scale = float(layout.side) / image;
+        const float image = float(square.image_side), scale = float(layout.side) / image;
         const glm::vec2 corner = glm::vec2(square.place) - glm::vec2(square.corner);
         const glm::vec2 middle = (corner + 0.5f * float(layout.side)) * (2.0f / image) - 1.0f;
         // Both sides of a border may be off by half a step; less than half a texel, so that no middle is drawn twice.
@@ -254,7 +252,7 @@ uint32_t saved_word(const std::optional<MapTile>& tile) {
     return tile->saved / shared::kMapUnit | (tile->save ? shared::kSaveNow : 0u);
 }
 
-std::vector<shared::MapRegion> regions_of(const std::vector<Square>& squares) {
+std::vector<shared::MapRegion> regions_of(std::span<const Square> squares) {
     std::vector<shared::MapRegion> regions;
     for (const Square& square : squares) {
         const ShadowMapLayout& layout = square.map->layout;
@@ -289,25 +287,32 @@ void add_shadow_maps(const FrameContext& frame, const GpuScene& scene, const gpu
                      std::span<const ShadowMapToDraw> maps, graph::Resource distances, ShadowMapScratch& scratch) {
     graph::FrameGraph& graph = frame.graph;
     Collector collector(scene, poses, frame.kernels.device());
-    for (DrawnImage& image : fill_images(maps, scratch)) {
+    const std::vector<Square> squares = place_squares(maps, scratch);
+    for (auto begin = squares.begin(); begin != squares.end();) {
+        const auto in_other_image = [&](const Square& square) {
+            return square.image_side != begin->image_side || square.image != begin->image;
+        };
+        const std::span<const Square> of_image(begin, std::find_if(begin, squares.end(), in_other_image));
         const std::string which = " " + std::to_string(scratch.drawn++);
-        const auto [side, depth, small] = scratch.image_for(image.side);
+        const auto [side, depth, small] = scratch.image_for(begin->image_side);
+        begin += std::ptrdiff_t(of_image.size());
         Drawn drawn;
-        for (const Square& square : image.squares) collector.collect(square, image.side, drawn);
+        for (const Square& square : of_image) collector.collect(square, drawn);
         MaskedParts parts = masked_parts(drawn, scene);
 
-        const graph::Resource placed = graph.upload("map instances" + which, parts.instances);
-        graph.raster("map parts", {{placed, graph::Access::Vertices}, {depth, graph::Access::DepthTarget, {}, true}},
+        const graph::Resource placed = graph.upload("shadow casters" + which, parts.instances);
+        graph.raster("masked shadow casters",
+                     {{placed, graph::Access::Vertices}, {depth, graph::Access::DepthTarget, {}, true}},
                      [&pipelines = frame.pipelines, &scene, placed,
                       batches = std::move(parts.batches)](const graph::Recording& recording) {
                          record_casters(recording, pipelines, kMapShaders, scene, placed, batches);
                      });
-        graph.clear("clear small triangles", small);
+        graph.clear("clear small shadow casters", small);
         drawn.opaque.draw(frame, {which, depth, small}, scratch);
 
-        const std::vector<shared::MapRegion> regions = regions_of(image.squares);
-        const graph::Resource list = graph.upload("map regions" + which, regions);
-        graph.dispatch("store distances", frame.kernels.get(kStore),
+        const std::vector<shared::MapRegion> regions = regions_of(of_image);
+        const graph::Resource list = graph.upload("shadow map regions" + which, regions);
+        graph.dispatch("store shadow maps", frame.kernels.get(kStore),
                        {sample(depth), load(list), update(distances), load(small)},
                        graph::Groups{uint32_t(regions.size()), 1, 1});
     }

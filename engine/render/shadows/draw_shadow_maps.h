@@ -1,7 +1,6 @@
 // Shadow maps of lamps, drawn. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,6 +8,7 @@
 #include "base/digest.h"
 #include "render/frame_context.h"
 #include "render/shadows/caster_parts.h"
+#include "render/shadows/casters.h"
 #include "render/shadows/shadow_map_layout.h"
 
 namespace vesper::render {
@@ -27,9 +27,8 @@ struct ShadowMapToDraw {
     MapFrame frame;
     std::span<const uint32_t> fixture;     ///< placements that do not hide the lamp, ascending
     std::span<const uint32_t> placements;  ///< what else is drawn
-    /// Whether what a sphere holds is to be drawn; empty: all is.
-    std::function<bool(const gpu_scene::WorldSphere&)> matters{};
-    std::optional<MapTile> tile{};  ///< into this tile, over what it saved; without: into an empty map
+    IsCaster is_caster{};                  ///< of these; empty: all
+    std::optional<MapTile> tile{};         ///< into this tile, over what it saved; without: into an empty map
     /// Number of the lamp. Chooses where in an image it is drawn: coordinates are rounded there, so that texels depend
     /// on it by a bit, and on nothing else that is drawn.
     uint32_t lamp = 0;

@@ -1,4 +1,4 @@
-// The distances that one lamp sees, on the host. SPDX-License-Identifier: MIT
+// The shadow map of one lamp, on the host. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <vector>

@@ -10,6 +10,7 @@ namespace {
 
 // Pieces of the buffer are powers of two of the least map, which has one tile.
 constexpr uint32_t kPiece = ShadowAtlas::kTileTexels;
+constexpr uint64_t kBytesOfTexel = sizeof(uint16_t);
 static_assert(kLeastMapSide == shared::kRegion);
 
 uint32_t size_of(const ShadowMapLayout& layout) { return uint32_t(std::countr_zero(layout.texels() / kPiece)); }
@@ -34,7 +35,7 @@ ShadowAtlas::ShadowAtlas(std::vector<ShadowMapLayout> layouts, double scale)
 }
 
 ShadowAtlas::Change ShadowAtlas::fit(const gpu_scene::LampList& list, uint64_t most_texels,
-                                     const std::vector<bool>& moves) {
+                                     const std::vector<bool>& moving) {
     std::vector<ShadowMapLayout> wanted;
     std::vector<double> distances;
     for (uint32_t i = 0; i < list.placed(); ++i) {
@@ -43,7 +44,7 @@ ShadowAtlas::Change ShadowAtlas::fit(const gpu_scene::LampList& list, uint64_t m
     }
     choose_sides(wanted, distances, scale_, texels_);
     for (uint32_t i = 0; i < list.placed(); ++i)
-        if (moves[list.indices[i]] && wanted[i].side > kLeastMapSide) wanted[i].side /= 2;
+        if (moving[list.indices[i]] && wanted[i].side > kLeastMapSide) wanted[i].side /= 2;
     const auto ratio = [&](uint32_t i) {  // a power of two
         const uint32_t a = wanted[i].side, b = layouts_[list.indices[i]].side;
         return b == 0 ? ~0u : std::max(a, b) / std::max(std::min(a, b), 1u);
@@ -88,7 +89,7 @@ ShadowAtlas::Change ShadowAtlas::place_all(const gpu_scene::LampList& list, cons
     for (const uint32_t lamp : all) {
         const ShadowMapLayout &from = before[lamp], &to = layouts_[lamp];
         if (holds[lamp] && to.side != 0 && from.side == to.side && from.first != to.first)
-            change.moves.push_back({from.first, to.first, to.texels()});
+            change.moves.push_back({kBytesOfTexel * from.first, kBytesOfTexel * to.first, kBytesOfTexel * to.texels()});
     }
     return change;
 }

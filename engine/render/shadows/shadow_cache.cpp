@@ -63,18 +63,19 @@ bool ShadowCache::find(Cache& cache, const Digest::Value& key, const ShadowMapLa
     return false;
 }
 
-void ShadowCache::bring(graph::FrameGraph& graph, graph::Resource distances) {
+void ShadowCache::upload(graph::FrameGraph& graph, graph::Resource distances) {
     if (copies.empty()) return;
-    graph.copy("bring kept maps", graph.upload("kept maps", std::move(found)), distances, std::move(copies));
+    graph.copy("copy cached shadow maps", graph.upload("cached shadow maps", std::move(found)), distances,
+               std::move(copies));
 }
 
-void ShadowCache::fetch(graph::FrameGraph& graph, graph::Resource distances) {
+void ShadowCache::read_back(graph::FrameGraph& graph, graph::Resource distances) {
     if (missing.empty()) return;
-    drawn_on_host = graph.readback("maps to keep", missing.back().at + missing.back().bytes);
-    graph.copy("fetch maps to keep", distances, drawn_on_host, drawn);
+    drawn_on_host = graph.readback("shadow maps for the cache", missing.back().at + missing.back().bytes);
+    graph.copy("read back shadow maps", distances, drawn_on_host, drawn);
 }
 
-std::string ShadowCache::keep(Cache& cache, const graph::Executor& executor) const {
+std::string ShadowCache::store(Cache& cache, const graph::Executor& executor) const {
     if (missing.empty()) return {};
     const std::span<const std::byte> texels = executor.read(drawn_on_host);
     for (const Missing& map : missing)

@@ -1,4 +1,4 @@
-// Shadow maps that are kept from run to run. SPDX-License-Identifier: MIT
+// Shadow maps that outlast a run. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <string>
@@ -10,15 +10,16 @@
 
 namespace vesper::render {
 
-/// What a whole map depends on beside its lamp: shaders, driver, the scene, the placements that are drawn, which
-/// `still` are, and their poses.
+/// A digest of all that a whole map depends on beside its lamp: shaders, driver, the scene, the placements that are
+/// drawn, which are `still`, and their poses.
 Digest::Value shadow_surroundings(const gpu::Device& device, const gpu_scene::GpuScene& scene,
                                   const std::vector<uint32_t>& still, const gpu_scene::SceneFrame& poses);
 
 /// The key of a whole map of what stands still.
 Digest::Value shadow_map_key(const Digest::Value& surroundings, const ShadowMapToDraw& map);
 
-/// Maps of lamps that stand still in one frame: those that a cache has, and those that it gets once they are drawn.
+/// The exchange of one frame with a cache of maps of lamps that stand still: maps that the cache has, and maps that it
+/// gets once they are drawn.
 struct ShadowCache {
     struct Missing {
         Digest::Value key;
@@ -33,12 +34,12 @@ struct ShadowCache {
 
     /// Looks for a map. Returns whether the cache has it.
     bool find(Cache& cache, const Digest::Value& key, const ShadowMapLayout& layout);
-    /// Declares copies of those found, before others are drawn.
-    void bring(graph::FrameGraph& graph, graph::Resource distances);
-    /// Declares copies of the missing ones, once they are drawn and before anything is drawn over them.
-    void fetch(graph::FrameGraph& graph, graph::Resource distances);
-    /// Gives the missing ones of a finished frame to the cache. Returns a line if the cache failed, once.
-    std::string keep(Cache& cache, const graph::Executor& executor) const;
+    /// Declares copies of the maps found, before others are drawn.
+    void upload(graph::FrameGraph& graph, graph::Resource distances);
+    /// Declares copies of the missing maps, once they are drawn and before anything is drawn over them.
+    void read_back(graph::FrameGraph& graph, graph::Resource distances);
+    /// Gives the missing maps of a finished frame to the cache. Returns a line if the cache failed, once.
+    std::string store(Cache& cache, const graph::Executor& executor) const;
 };
 
 }  // namespace vesper::render

@@ -151,7 +151,7 @@ double scene_scale(const std::vector<ShadowMapLayout>& layouts, const std::vecto
     std::vector<ShadowMapLayout> tried = layouts;
     if (choose_sides(tried, std::vector<double>(layouts.size()), kLeastScale, ~uint64_t{0});
         texels_of(tried) > kMostMapTexels)
-        return scale;  // which is said when they are wanted
+        return scale;  // an error is thrown when they are wanted
     for (size_t eye = 0; eye < places.size(); eye += std::max<size_t>(places.size() / kMostEyes, 1)) {
         std::vector<double> distances;
         for (const glm::dvec3 place : places) distances.push_back(glm::distance(place, places[eye]));

@@ -1,4 +1,4 @@
-// Shadow maps of lamps: their sizes and places, and what is drawn into them. SPDX-License-Identifier: MIT
+// The layout of shadow maps: sides, projections, and the tiles that see something. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace vesper::render {
 
-constexpr double kFaintestLight = 0.01;  ///< lx: what is lit less may be lit through a wall
+constexpr double kFaintestLight = 0.01;  ///< lx: light below casts no shadow
 
 /// The shadow map of a lamp (shared/shadow_map.h).
 struct ShadowMapLayout {
@@ -20,7 +20,7 @@ struct ShadowMapLayout {
     uint32_t hemispheres = 1;  ///< 1: about its axis; 2: all directions
     float zoom = 1;            ///< the share of the hemisphere's square that the map has is its inverse
     bool flat = false;         ///< a map for a narrow beam: one perspective projection
-    float range = 0;           ///< m: no farther surface matters
+    float range = 0;           ///< m: no farther surface is a caster
     float radius = 0;          ///< of a disc of the area of its opening, m; 0 without
     uint32_t first = 0;        ///< texel, a multiple of shared::kMapUnit
 

@@ -1,7 +1,6 @@
-// Shadow maps of a scene's lamps, kept from frame to frame. SPDX-License-Identifier: MIT
+// Shadow maps of a scene's lamps, from frame to frame. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,8 +19,8 @@
 
 namespace vesper::render {
 
-/// Owns the maps on the device: finds on the host which are out of date, and declares what brings them up to date in
-/// the graph of a frame. A map holds what stands still around its lamp, drawn when its lamp moves or the view wants
+/// Owns the maps on the device: finds on the host which are out of date, and declares passes that bring them up to date
+/// in the graph of a frame. A map holds what stands still around its lamp, drawn when its lamp moves or the view wants
 /// another size; and over it, tile by tile, what moves: a placement whose node is animated, said to move by a frame, or
 /// was seen to have moved. A placement does not hide lamps that give less than 1/100 of the light at it while it moves.
 /// The map of a lamp that moves has half the side, and holds what hides the lamp from the view and would get 0.1 lx of
@@ -38,45 +37,57 @@ public:
 
     /// Finds what is out of date for a frame. `budget`: of tiles of shared::kRegion texels square that are drawn, maps
     /// that hold nothing yet apart; a whole map counts as its tiles, but at least as 128, and a quarter of the budget
-    /// is for these alone. What gives the picture most comes first, the rest is counted as carried. Host work only.
+    /// is for these alone. What gives the picture most comes first, the rest is counted as deferred. Host work only.
     /// Throws Error where the maps of all lamps do not fit.
     void plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses, const gpu_scene::View& view,
               uint64_t budget);
-    /// Declares what plan() found, with its arguments; declared again, nothing is left to draw. Returns the maps of the
-    /// lamps of the list.
+    /// Declares the work that plan() found, with its arguments; declared again, nothing is left to draw. Returns the
+    /// maps of the lamps of the list.
     FrameShadowMaps declare(const FrameContext& frame, const gpu_scene::LampList& list,
                             const gpu_scene::SceneFrame& poses);
     /// A frame that was declared has failed: all maps are drawn anew.
     void forget();
     /// Gives maps of a finished frame to the cache. Returns why the cache keeps no more, once.
-    std::string keep(const ShadowCache& kept, const graph::Executor& executor) const;
+    std::string keep(const ShadowCache& drawn, const graph::Executor& executor) const;
 
-    const ShadowReport& report() const { return report_; }          ///< of the last plan()
-    ShadowCache take_cached() { return std::exchange(kept_, {}); }  ///< of the last declare()
-    uint64_t bytes() const { return arena_.bytes(); }               ///< of device memory
+    const ShadowReport& report() const { return report_; }            ///< of the last plan()
+    ShadowCache take_cached() { return std::exchange(cached_, {}); }  ///< of the last declare()
+    uint64_t bytes() const { return arena_.bytes(); }                 ///< of device memory
 
 private:
-    struct TileKey {
+    /// The content of a lamp's map.
+    struct Map {
+        bool drawn = false;    // it holds what stands still
+        bool whole = false;    // it is drawn as that of a lamp that moves
+        bool culled = false;   // it holds casters of one view alone
+        uint64_t version = 0;  // of what moves, in maps that are drawn as a whole
+    };
+    /// Whether maps that are drawn as a whole hold the casters of one view alone. Frames at the same poses from other
+    /// places are known only after the first: a moment is drawn for one view if the moment before had one.
+    enum class ViewCulling {
+        Off,      // this moment has several views
+        Pending,  // one until now, the moment before had several
+        On        // one until now, as the moment before
+    };
+    struct TileId {
         uint32_t lamp;
         bool second;    // hemisphere
         uint32_t x, y;  // corner, texels
-        auto operator<=>(const TileKey&) const = default;
+        auto operator<=>(const TileId&) const = default;
     };
-    /// What is drawn over a tile.
-    struct Cover {
+    /// A tile over which moving placements are drawn.
+    struct DynamicTile {
         std::vector<std::pair<uint32_t, uint64_t>> placements;  // and their versions
-        double worth = 0;
-        uint32_t saved = 0;  // first texel of what it hides
+        double priority = 0;
+        uint32_t saved = 0;  // first texel of the still content
+        bool save = false;   // which is not saved yet
     };
-    struct TileToDraw {
-        TileKey key;
-        Cover cover;
-        bool save;
-    };
+    using Tiles = std::map<TileId, DynamicTile>;
 
     /// The maps in the graph of a frame.
     struct Declared {
         const FrameContext& frame;
+        const gpu_scene::LampList& list;
         const gpu_scene::SceneFrame& poses;
         graph::Resource distances;
         ShadowMapScratch scratch;
@@ -85,48 +96,44 @@ private:
     void declare_moves(const Declared& to);
     void declare_maps(Declared& to);
     void declare_tiles(Declared& to);
-    void find_kept(const gpu_scene::SceneFrame& poses);
+    void find_cached(const gpu_scene::SceneFrame& poses);
     ShadowMapToDraw map_of(uint32_t lamp, const gpu_scene::SceneFrame& poses) const;
-    void look_from(const gpu_scene::View& view, const gpu_scene::SceneFrame& poses);
-    void select_casters(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses, bool current);
+    IsCaster casters_of(uint32_t lamp, const Declared& to) const;
+    void update_view(const gpu_scene::View& view, const gpu_scene::SceneFrame& poses);
     void forget_still(const std::vector<uint32_t>& placements);
-    bool is_whole(uint32_t lamp) const { return whole_[lamp] || moving_.moves(lamps_[lamp].node); }
-    bool is_out_of_date(uint32_t lamp) const {
-        return drawn_version_[lamp] != moving_.version() || (for_view_[lamp] && !one_view_);
+    bool moves(uint32_t lamp) const { return moving_.moves(lamps_[lamp].node); }
+    bool is_whole(uint32_t lamp) const { return maps_[lamp].whole || moves(lamp); }
+    bool is_out_of_date(const Map& map) const {
+        return map.version != moving_.version() || (map.culled && culling_ != ViewCulling::On);
     }
-    void drop_tiles(uint32_t lamp);
+    bool culls() const { return current_ && culling_ == ViewCulling::On; }
+    void release_tiles(uint32_t lamp);
     void plan_new_maps(const gpu_scene::LampList& list, uint64_t& budget);
-    void plan_moved_maps(const gpu_scene::LampList& list, uint64_t budget, bool budgeted);
-    std::map<TileKey, Cover> covers(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses,
-                                    const gpu_scene::View& view) const;
-    void plan_tiles(std::map<TileKey, Cover> wanted, const gpu_scene::LampList& list, uint64_t& budget);
+    void plan_moved_maps(const gpu_scene::LampList& list, uint64_t budget);
+    Tiles dynamic_tiles(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses,
+                        const gpu_scene::View& view) const;
+    void plan_tiles(Tiles wanted, const gpu_scene::LampList& list, uint64_t& budget);
 
     const gpu_scene::GpuScene& resident_;
     const std::vector<gpu_scene::PlacedLamp>& lamps_;
     const std::vector<std::vector<uint32_t>>& fixtures_;
-    ShadowAtlas places_;
+    ShadowAtlas atlas_;
     MovingPlacements moving_;
     gpu::Arena arena_;
     gpu::OwnedBuffer distances_;
-    std::vector<bool> drawn_;              // of lamps: the map holds what stands still
-    std::vector<bool> whole_;              // of lamps: the map is drawn as that of one that moves
-    std::vector<uint64_t> drawn_version_;  // of what moves, in maps of lamps that move
-    std::vector<bool> for_view_;           // of lamps: the map holds what hides it from the view alone
-    gpu_scene::View view_;                 // of the last plan()
-    bool drawn_for_view_ = false;          // what is to be drawn
-    bool one_view_ = false;                // what is drawn is for this one alone
-    bool more_views_ = true;               // of the same moment
-    bool current_ = true;                  // no map is ever out of date
-    std::vector<std::function<bool(const gpu_scene::WorldSphere&)>> matters_;  // of lamps, see ShadowMapToDraw
-    std::map<TileKey, Cover> covered_;                                         // tiles that hold more
-    std::vector<uint32_t> maps_to_draw_;                                       // lamps
-    std::vector<TileToDraw> tiles_to_draw_;
-    std::vector<ShadowAtlas::Move> moves_;  // to be made before
-    std::map<TileKey, uint32_t> waiting_;   // frames for which tiles have been carried over
-    std::map<uint32_t, uint32_t> waiting_maps_;
+    std::vector<Map> maps_;  // of lamps
+    gpu_scene::View view_;   // of the last plan()
+    ViewCulling culling_ = ViewCulling::Off;
+    bool current_ = true;                 // no map is ever out of date
+    Tiles tiles_;                         // that hold moving placements
+    std::vector<uint32_t> maps_to_draw_;  // lamps
+    std::vector<std::pair<TileId, DynamicTile>> tiles_to_draw_;
+    std::vector<graph::Region> moves_;           // of texels, to be made before, bytes
+    std::map<TileId, uint32_t> deferred_tiles_;  // and for how many frames
+    std::map<uint32_t, uint32_t> deferred_maps_;
     ShadowReport report_;
     Cache* cache_ = nullptr;
-    ShadowCache kept_;
+    ShadowCache cached_;
     std::optional<Digest::Value> surroundings_;  // of maps that hold what stands still, see shadow_surroundings()
     const gpu::Device& device_;
     std::vector<uint32_t> everything_;  // placements

@@ -1,4 +1,4 @@
-// What was done to shadow maps before a frame. SPDX-License-Identifier: MIT
+// Counts of the shadow maps that a frame draws. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@ namespace vesper::render {
 
 constexpr uint64_t kNoShadowBudget = ~uint64_t{0};
 
-/// What was done to maps before a frame.
+/// The shadow maps of a frame.
 struct ShadowReport {
     uint32_t lamps = 0;     ///< with a map
     uint32_t maps = 0;      ///< drawn anew

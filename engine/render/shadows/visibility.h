@@ -1,4 +1,4 @@
-// What blocks of pixels see of lamps. SPDX-License-Identifier: MIT
+// The visibility of lamps from blocks of pixels. SPDX-License-Identifier: MIT
 #pragma once
 
 #include "render/passes/blocks.h"
@@ -12,12 +12,12 @@ struct FrameShadowMaps {
     graph::Resource distances{};  ///< r16f
 };
 
-/// Takes the lamps that nothing of a block sees off its list, and tells what its pixels see of those that some of it
-/// does not (shared::kMixedBit, Blocks::shares). Sixteen pixels of a block, the probes, speak for all where lamps give
-/// them at most the share `shadow_error` of the mean light of all lamps: these count with the mean of what the probes
-/// see, and each is wrong by less than that share of it. Where more than shared::kSharePlaces lamps give more, the
-/// share is twice as large, and so on. On surfaces with a specular lobe and on roads a lamp is taken to give eight
-/// times its light; a narrow highlight that is brighter is right on average over the block. Without maps nothing
+/// Takes lamps that no pixel of a block sees off its list, and gives the shares that its pixels see of lamps that some
+/// of them do not (shared::kMixedBit, Blocks::shares). Sixteen pixels of a block, the probes, speak for all where lamps
+/// give them at most the share `shadow_error` of the mean light of all lamps: these count with the mean share that the
+/// probes see, and each is wrong by less than that share of the light. Where more than shared::kSharePlaces lamps give
+/// more, the share is twice as large, and so on. On surfaces with a specular lobe and on roads a lamp is taken to give
+/// eight times its light; a narrow highlight that is brighter is right on average over the block. Without maps nothing
 /// changes.
 Blocks add_visibility(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, Blocks blocks,
                       const FrameShadowMaps& maps, float shadow_error);

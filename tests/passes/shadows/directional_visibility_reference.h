@@ -1,4 +1,4 @@
-// What a point sees of a directional lamp, by its map. SPDX-License-Identifier: MIT
+// The visibility of a directional lamp from a point, by its clipmap. SPDX-License-Identifier: MIT
 // Percentage-closer soft shadows (Fernando 2005): the mean distance of what hides the lamp within the widest penumbra
 // gives the disc that is looked at. Depths are compared with the plane of the surface (Isidoro 2006).
 #pragma once
@@ -24,7 +24,7 @@ inline glm::dvec2 point_of_disc(int k) {
     return std::sqrt((k + 0.5) / 32) * glm::dvec2(std::cos(golden), std::sin(golden));
 }
 
-/// The share of the disc that is seen, and how many of the looks rounding may turn.
+/// The share of the disc that is seen, and how many of the lookups rounding may turn.
 struct DirectionalShare {
     double share = 1;
     int uncertain = 0;  ///< of 32, and more where the search for what hides the lamp is uncertain

@@ -1,4 +1,4 @@
-// What pixels see of directional lamps, on the device. SPDX-License-Identifier: MIT
+// Visibility of directional lamps from pixels, on the device. SPDX-License-Identifier: MIT
 #include "passes/shadows/directional_visibility_reference.h"
 
 #include <cmath>
@@ -182,7 +182,7 @@ TEST(DirectionalVisibility, SharesAreThoseOfTheReference) {
     const std::vector<uint32_t> got = rig.got<uint32_t>(words);
     const std::vector<glm::vec4> pixels = rig.got<glm::vec4>(scene);
     // Vulkan promises cosines within 2^-11 only. On a device that keeps to no more in other things either one of the
-    // looks rarely lands in the next texel.
+    // lookups rarely lands in the next texel.
     const bool rough = snaps_coarsely(rig.device());
     size_t compared = 0, partly = 0, exact = 0, astray = 0;
     for (size_t i = 0; i < s.surface.size(); ++i) {
@@ -206,7 +206,7 @@ TEST(DirectionalVisibility, SharesAreThoseOfTheReference) {
                 reference::directional_share(lamps[k], eye, eye + seen_from_eye, normal);
             if (cosine <= 0 || want.uncertain > 8) continue;
             ++compared, partly += want.share > 0 && want.share < 1 ? 1 : 0;
-            // Where a row or a block of pixels finds all or nothing, some of the 32 looks may still differ.
+            // Where a row or a block of pixels finds all or nothing, some of the 32 lookups may still differ.
             const double missed = share == 0 || share == 1 ? 8 : 0.1;
             const double off = std::abs(share - want.share), allowed = (want.uncertain + missed) / 32;
             EXPECT_LE(off, allowed + (rough ? 1.0 / 32 : 0)) << i << " lamp " << k;
@@ -346,7 +346,7 @@ TEST(DirectionalVisibility, ReachesFromAFarEye) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// What has moved, the eye, a body or the lamp, is never out of date; what has not is not drawn again.
+// Clipmaps are never out of date, whether the eye, a body or the lamp has moved; if nothing has, none is drawn again.
 TEST(DirectionalVisibility, IsNeverOutOfDate) {
     PassRig rig;
     OccluderScene s = ground();

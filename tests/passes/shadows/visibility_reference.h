@@ -7,14 +7,14 @@
 
 namespace vesper::reference {
 
-/// A look at a point, and whether rounding may turn it.
-struct MapLook {
+/// Whether a point is seen, and whether rounding may turn that.
+struct MapLookup {
     bool seen = true;
     bool certain = true;
 };
 
 /// `point` and `normal` in the frame of the map, m, z >= 0 for the first hemisphere. Points outside of it are seen.
-inline MapLook look(const HemisphereMap& map, double zoom, glm::dvec3 point, glm::dvec3 normal, bool flat = false) {
+inline MapLookup lookup(const HemisphereMap& map, double zoom, glm::dvec3 point, glm::dvec3 normal, bool flat = false) {
     const double norm = flat ? std::abs(point.z) : std::abs(point.x) + std::abs(point.y) + std::abs(point.z);
     const glm::dvec2 at = map_texel(point, map.side, zoom, flat);
     if (point.z < 0 || at.x < 0 || at.y < 0 || at.x > map.side || at.y > map.side) return {};

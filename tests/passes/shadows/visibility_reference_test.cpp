@@ -1,4 +1,4 @@
-// Looks at shadow maps: closed forms. SPDX-License-Identifier: MIT
+// Lookups in shadow maps: closed forms. SPDX-License-Identifier: MIT
 #include "passes/shadows/visibility_reference.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ TEST(VisibilityReference, APlaneNeverHidesItself) {
                     const glm::dvec3 way = reference::map_direction({x, y}, 64, zoom);
                     if (glm::dot(normal, way) < 0.02) continue;
                     const glm::dvec3 point = way * (4 / glm::dot(normal, way));
-                    EXPECT_TRUE(reference::look(map, zoom, point, normal).seen) << x << " " << y;
+                    EXPECT_TRUE(reference::lookup(map, zoom, point, normal).seen) << x << " " << y;
                 }
         }
     }
@@ -46,10 +46,10 @@ TEST(VisibilityReference, WhatIsBehindAPlaneIsDark) {
     const reference::HemisphereMap map = map_of({{normal, 4}}, 128, 1);
     // Behind by more than the bias: 0.016 m, half a texel of 1/128 and a thousandth, of 4 m.
     const glm::dvec3 behind = normal * 4.1, before = normal * 3.9, just_behind = normal * 4.01;
-    EXPECT_FALSE(reference::look(map, 1, behind, normal).seen);
-    EXPECT_TRUE(reference::look(map, 1, before, normal).seen);
-    EXPECT_TRUE(reference::look(map, 1, just_behind, normal).seen);
-    EXPECT_TRUE(reference::look(map, 1, -behind, normal).seen) << "the map does not reach there";
+    EXPECT_FALSE(reference::lookup(map, 1, behind, normal).seen);
+    EXPECT_TRUE(reference::lookup(map, 1, before, normal).seen);
+    EXPECT_TRUE(reference::lookup(map, 1, just_behind, normal).seen);
+    EXPECT_TRUE(reference::lookup(map, 1, -behind, normal).seen) << "the map does not reach there";
 }
 
 // A half plane before a wall: the shadow's edge is straight and within half a texel of where it should be.
@@ -72,7 +72,7 @@ TEST(VisibilityReference, EdgesAreWithinHalfATexel) {
             for (const glm::dvec2 d : {glm::dvec2(0.55, 0), {-0.55, 0}, {0, 0.55}, {0, -0.55}})
                 sides |= hides(reference::map_direction(texel + d, kSide, 1)) ? 1 : 2;
             if (sides == 3) continue;
-            EXPECT_EQ(reference::look(map, 1, point, {0, 0, 1}).seen, sides == 2) << x << " " << y;
+            EXPECT_EQ(reference::lookup(map, 1, point, {0, 0, 1}).seen, sides == 2) << x << " " << y;
         }
 }
 

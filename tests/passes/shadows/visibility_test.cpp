@@ -1,4 +1,4 @@
-// What pixels see of lamps, on the device: closed forms, and rays through the whole night street.
+// Visibility of lamps from pixels, on the device: closed forms, and rays through the whole night street.
 // SPDX-License-Identifier: MIT
 #include <cmath>
 #include <filesystem>
@@ -106,7 +106,7 @@ TEST(Visibility, ShadowsBeginAtTheFootOfAWall) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// Maps of noise: every look of a pixel at a lamp is that of the reference.
+// Maps of noise: every lookup of a pixel is that of the reference.
 TEST(Visibility, PixelsLookAtTheTexelsOfTheReference) {
     PassRig rig;
     constexpr uint32_t kSide = 64;
@@ -166,11 +166,11 @@ TEST(Visibility, PixelsLookAtTheTexelsOfTheReference) {
                        facing = turned.rotation * normal;
             const bool second = in_map.z < 0;
             if (second && hemispheres == 2) in_map.z = -in_map.z, facing.z = -facing.z;
-            const reference::MapLook look =
-                reference::look(maps[second && hemispheres == 2 ? 1 : 0], zoom, in_map, facing, flat);
-            if (!look.certain) continue;
-            (look.seen ? lit : dark) += 1;
-            EXPECT_EQ(pixels[i].x > 0, look.seen) << i % view.extent.width << " " << i / view.extent.width;
+            const reference::MapLookup found =
+                reference::lookup(maps[second && hemispheres == 2 ? 1 : 0], zoom, in_map, facing, flat);
+            if (!found.certain) continue;
+            (found.seen ? lit : dark) += 1;
+            EXPECT_EQ(pixels[i].x > 0, found.seen) << i % view.extent.width << " " << i / view.extent.width;
         }
         EXPECT_GT(dark, 300u);
         EXPECT_GT(lit, 500u);
@@ -357,7 +357,7 @@ TEST(Visibility, ALampThatMovesIsHiddenFromEachView) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// What hides a lamp that is dimmed hides it when it shines again, though nothing has moved.
+// Casters that hide a dimmed lamp hide it when it shines again, though nothing has moved.
 TEST(Visibility, ALampThatMovesIsHiddenHoweverItIsDimmed) {
     PassRig rig;
     Traffic street;
@@ -373,7 +373,7 @@ TEST(Visibility, ALampThatMovesIsHiddenHoweverItIsDimmed) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// What a budget does not reach stays as it was, is counted, and is drawn later.
+// Maps and tiles that a budget does not reach stay as they were, are counted, and are drawn later.
 TEST(Visibility, WhatTheBudgetDoesNotReachIsCarriedOver) {
     PassRig rig;
     Traffic street;
@@ -398,7 +398,7 @@ TEST(Visibility, WhatTheBudgetDoesNotReachIsCarriedOver) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// What a part of a picture shows, in pixels from its top left corner.
+// The view of a part of a picture, in pixels from its top left corner.
 gpu_scene::View part_of(gpu_scene::View view, glm::dvec2 corner, VkExtent2D extent) {
     const glm::vec2 size(float(view.extent.width), float(view.extent.height));
     const glm::vec2 per_pixel = (view.tangent_high - view.tangent_low) / size;

@@ -111,7 +111,7 @@ void announce_light_picture(const InspectArguments& a) {
 
 Inspection inspect_light_picture(const InspectArguments& a) {
     const VkExtent2D extent = apps::parse_size(a.size.empty() ? "640x400" : a.size);
-    const transport::TraceSettings settings{.paths = a.paths > 0 ? a.paths : kPathsOfPicture, .lamp_looks = kLampLooks};
+    const transport::TraceSettings settings{.paths = a.paths > 0 ? a.paths : kPathsOfPicture, .lamp_rays = kLampRays};
     const scene::Scene scene = scene::read_scene(a.file).scene;
     const gpu_scene::SceneFrame poses{scene::world_transforms(scene, 0), {}, {}, {}, {}};
     const gpu_scene::View view = gpu_scene::camera_view(scene, poses, a.camera, extent);

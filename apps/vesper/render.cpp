@@ -78,7 +78,7 @@ void check_paths(RenderArguments& a) {
         throw Error("--frames times --samples is more than 2,147,483,647");
     if (a.settings.display_average && (a.settings.samples == 1 || std::ranges::none_of(a.outputs, is_png)))
         throw Error("--display-average has a meaning only beside --samples of 2 and more, and -o OUT.png");
-    a.tracing.paths = a.paths, a.tracing.lamp_looks = kLampLooks;
+    a.tracing.paths = a.paths, a.tracing.lamp_rays = kLampRays;
     if (command.count("--reflections") > 0) a.tracing.most_reflections = a.settings.reflections;
     a.tracing.threshold = HUGE_VAL;  // light of lamps directly is the device's
 }

@@ -9,8 +9,8 @@
 
 namespace vesper::commands {
 
-/// TraceSettings::lamp_looks for pictures: in the same time more paths give less noise than more looks.
-constexpr uint32_t kLampLooks = 2;
+/// TraceSettings::lamp_rays for pictures: in the same time more paths give less noise than more shadow rays.
+constexpr uint32_t kLampRays = 2;
 
 /// What one pixel sees, and its light; without a surface its normal and the light are 0.
 struct TracedPicture {

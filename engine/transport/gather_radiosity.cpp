@@ -219,7 +219,7 @@ struct Gathering {
                 round.met[i * settings.rays + k + places * r] =
                     send(start, directions.at(r), share, meshes, round.sky[i], region.places);
             shares.clear();
-            lamps.sample(start.point, start.normal, cell.places[k].node, settings.lamp_looks, random, shares);
+            lamps.sample(start.point, start.normal, cell.places[k].node, settings.lamp_rays, random, shares);
             for (const LampLight::Share& s : shares) add_to(of_lamps, s.node | Radiosity::kLamp, share * s.lux);
         }
         const size_t before = region.sources.size();

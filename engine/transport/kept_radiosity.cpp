@@ -104,7 +104,7 @@ Digest::Value radiosity_key(const scene::Scene& scene, std::span<const glm::dmat
     digest.add_value(kRadiosityVersion);
     digest.add_list(std::string_view(VESPER_VERSION));
     digest.add_value(settings.cell_size), digest.add_value(settings.most_cells);
-    digest.add_value(settings.rays), digest.add_value(settings.looks), digest.add_value(settings.lamp_looks);
+    digest.add_value(settings.rays), digest.add_value(settings.looks), digest.add_value(settings.lamp_rays);
     add_materials(digest, scene), add_lamps(digest, scene), add_meshes(digest, scene);
     for (const scene::Node& node : scene.nodes) {
         digest.add_value(node.mesh), digest.add_value(node.lamp), digest.add_value(node.parent);

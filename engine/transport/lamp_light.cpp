@@ -82,7 +82,7 @@ glm::dvec3 LampLight::illuminance(glm::dvec3 point, glm::dvec3 normal, double th
     return sum;
 }
 
-void LampLight::sample(glm::dvec3 point, glm::dvec3 normal, uint32_t node, uint32_t looks, Random& random,
+void LampLight::sample(glm::dvec3 point, glm::dvec3 normal, uint32_t node, uint32_t rays, Random& random,
                        std::vector<Share>& shares) const {
     // The numbers of even steps through the sum of all weights that fall into each.
     const auto systematic = [&random](std::span<const double> weights, double sum, uint32_t steps, auto take) {
@@ -105,18 +105,18 @@ void LampLight::sample(glm::dvec3 point, glm::dvec3 normal, uint32_t node, uint3
         const double bound = bounds_[i].largest * way.bound();
         if (bound > 0 && lights(i, node, way)) all += most[i] = bound;
     }
-    const uint32_t first_looks = 4 * looks;
+    const uint32_t candidates = 4 * rays;
     std::vector<size_t> some;
     std::vector<double> lux;
     double sum = 0;
-    systematic(most, all, first_looks, [&](size_t i, uint32_t times) {
-        const double given = unshadowed(i, way_to(bounds_[i], point, normal)) * times * all / (first_looks * most[i]);
+    systematic(most, all, candidates, [&](size_t i, uint32_t times) {
+        const double given = unshadowed(i, way_to(bounds_[i], point, normal)) * times * all / (candidates * most[i]);
         if (given > 0) some.push_back(i), lux.push_back(given), sum += given;
     });
-    systematic(lux, sum, looks, [&](size_t candidate, uint32_t times) {
-        const size_t i = some[candidate];
+    systematic(lux, sum, rays, [&](size_t chosen, uint32_t times) {
+        const size_t i = some[chosen];
         if (blocked(i, way_to(bounds_[i], point, normal), point, normal)) return;
-        shares.push_back({lamps_[i].node, times * sum / looks * glm::dvec3(lamps_[i].lamp->colour)});
+        shares.push_back({lamps_[i].node, times * sum / rays * glm::dvec3(lamps_[i].lamp->colour)});
     });
 }
 

@@ -27,9 +27,9 @@ public:
         uint32_t node;  ///< that has the lamp
         glm::dvec3 lux;
     };
-    /// An estimate of the same by `looks` shadow rays at most, without a threshold: right on average, and of any number
+    /// An estimate of the same by `rays` shadow rays at most, without a threshold: right on average, and of any number
     /// of lamps in about the same time (resampled importance: Talbot, Cline and Egbert 2005).
-    void sample(glm::dvec3 point, glm::dvec3 normal, uint32_t node, uint32_t looks, Random& random,
+    void sample(glm::dvec3 point, glm::dvec3 normal, uint32_t node, uint32_t rays, Random& random,
                 std::vector<Share>& shares) const;
 
 private:

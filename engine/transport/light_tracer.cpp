@@ -103,9 +103,9 @@ glm::dvec3 LightTracer::sky(glm::dvec3 direction) const {
 // lx, on a place that reflects it.
 glm::dvec3 LightTracer::light_of_lamps(const SurfacePoint& surface, uint32_t node, const TraceSettings& settings,
                                        Random& random) const {
-    if (settings.lamp_looks == 0) return lamps_.illuminance(surface.position, surface.normal, settings.threshold, node);
+    if (settings.lamp_rays == 0) return lamps_.illuminance(surface.position, surface.normal, settings.threshold, node);
     std::vector<LampLight::Share> shares;
-    lamps_.sample(surface.position, surface.normal, node, settings.lamp_looks, random, shares);
+    lamps_.sample(surface.position, surface.normal, node, settings.lamp_rays, random, shares);
     glm::dvec3 sum(0);
     for (const LampLight::Share& share : shares) sum += share.lux;
     return sum;

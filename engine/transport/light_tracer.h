@@ -35,8 +35,9 @@ struct TraceSettings {
     uint32_t paths = 16'384;
     uint32_t most_reflections = 32;  ///< light that is reflected more often counts as absorbed
     double threshold = 1e-3;         ///< illuminance below which a lamp counts as dark, lx
-    uint32_t lamp_looks = 0;  ///< at lamps from each place that reflects, by chance and without threshold; 0: at all
-    uint64_t seed = 1;        ///< the same gives the same result
+    uint32_t lamp_rays = 0;  ///< shadow rays to lamps from each place that reflects, by chance and without threshold;
+                             ///< 0: one to each lamp
+    uint64_t seed = 1;       ///< the same gives the same result
 };
 
 /// Light in a scene whose surfaces are matt (SurfacePoint): from a point paths go in directions distributed as cosines,

@@ -99,7 +99,7 @@ struct RadiositySettings {
     double cell_size = 1;           ///< m, at least
     uint32_t rays = 32;             ///< from each cell
     uint32_t looks = 64;            ///< of each cell at emitters
-    uint32_t lamp_looks = 16;       ///< at lamps, of each of four places
+    uint32_t lamp_rays = 16;        ///< shadow rays to lamps, from each of four places
     uint64_t most_cells = 600'000;  ///< roughly: cells are larger where there would be more
 };
 

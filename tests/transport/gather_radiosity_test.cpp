@@ -132,7 +132,7 @@ TEST(GatherRadiosity, WhatMovesGivesGetsAndHidesNothing) {
     EXPECT_NE(without.numbers, gathered(scene).numbers);
 }
 
-// A strong lamp on a car: none of the looks at lamps is for it.
+// A strong lamp on a car: no shadow ray goes to it.
 TEST(GatherRadiosity, AMovingLampTakesNoLooksFromOthers) {
     scene::Scene scene = yard();
     const Radiosity without = gathered(scene);

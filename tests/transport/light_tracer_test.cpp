@@ -322,7 +322,7 @@ TEST(LightTracer, TheErrorOfTheSumIsThatOfWholePaths) {
     EXPECT_NEAR(spread, stated, 0.3 * stated) << "the first directions are spread evenly: a little less";
 }
 
-// Forty lamps among walls: looks at some by chance give what all of them do.
+// Forty lamps among walls: shadow rays to some by chance give the light of all.
 TEST(LightTracer, LooksAtSomeLampsAreRightOnAverage) {
     scene::Scene scene;
     const uint32_t grey = add_material(scene, 0.5f);
@@ -330,13 +330,13 @@ TEST(LightTracer, LooksAtSomeLampsAreRightOnAverage) {
     add_box(scene, grey, {1, 2, 1}, {3, 2, 1});
     for (int i = 0; i < 40; ++i) add_lamp(scene, float(10 + 5 * i), {i % 8 * 4.0 - 14, 3, i / 8 * 6.0 - 12});
     const Illuminance all = traced(scene, {1, 1, 0.5}, {1, 0, 0}, {.paths = 4096, .threshold = 0});
-    for (const uint32_t looks : {1u, 3u}) {
-        const Illuminance some = traced(scene, {1, 1, 0.5}, {1, 0, 0}, {.lamp_looks = looks});
+    for (const uint32_t rays : {1u, 3u}) {
+        const Illuminance some = traced(scene, {1, 1, 0.5}, {1, 0, 0}, {.lamp_rays = rays});
         EXPECT_EQ(lux(some, Origin::Lamps), lux(all, Origin::Lamps));
         for (const Origin origin : {Origin::Once, Origin::More}) {
             const double error = std::hypot(some.standard_error[size_t(origin)], all.standard_error[size_t(origin)]);
-            EXPECT_NEAR(lux(some, origin), lux(all, origin), 4 * error) << looks;
-            EXPECT_LT(error, 0.03 * lux(all, origin)) << looks;
+            EXPECT_NEAR(lux(some, origin), lux(all, origin), 4 * error) << rays;
+            EXPECT_LT(error, 0.03 * lux(all, origin)) << rays;
         }
     }
 }

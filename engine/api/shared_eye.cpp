@@ -1,6 +1,6 @@
 // One eye before several screens. SPDX-License-Identifier: MIT
-#include "api/handles.h"
 #include "render/shared_eye.h"
+#include "api/handles.h"
 
 struct VesperSharedEye {
     static constexpr const char* kNone = "no shared eye";
@@ -55,8 +55,7 @@ VesperResult vesper_shared_eye_look(VesperSharedEye* eye, uint32_t index, Vesper
         require(&renderer->device == &eye->device, "the renderer and the shared eye are of two devices");
         tone_of(*eye, settings);
         seen.is_new = false;
-        seen.outside =
-            render_frame(*renderer, settings, view, 0, {.display = false, .light = &seen.light}).outside;
+        seen.outside = render_frame(*renderer, settings, view, 0, {.display = false, .light = &seen.light}).outside;
         seen.is_new = true;
     });
 }

@@ -17,6 +17,7 @@ constexpr uint64_t kUnlimited = ~uint64_t{0};
 #define VESPER_LIGHT_SETTINGS(X) \
     X(bool, shadows, "", 0, 1, true, true, true, "Lamps light only surfaces that they see; off: they shine through everything") \
     X(uint64_t, shadow_budget, "tiles", 0, kUnlimited, kUnlimited, kUnlimited, kUnlimited, "Tiles (64 x 64 texels) of shadow maps that are drawn for a frame where lamps or bodies move; others are out of date in it") \
+    X(double, shadow_resolution, "", 0.25, 4, 0.5, 1, 1, "Side of shadow maps of lamps, as a factor; where maps would be too large for memory they stay smaller") \
     X(float, shadow_error, "", 0, 1, 0.02, 0.005, 0, "Share of the light of 8x8 pixels: shadows of lamps that give less are means over these pixels") \
     X(float, threshold, "lx", 1e-9, 1e3, 0.01, 0.001, 1e-9, "Illuminance below which a lamp counts as dark: on matt surfaces, or on a plane facing it") \
     X(float, merge_error, "", 0, 1, 0.01, 0.001, 0, "Relative error of a lamp whose light is taken as smooth over 8x8 pixels; 0: no lamp is") \
@@ -25,7 +26,7 @@ constexpr uint64_t kUnlimited = ~uint64_t{0};
     X(uint32_t, reflections, "", 0, 100, 100, 100, 100, "Reflections of indirect light, at most") \
     X(double, reflection_error, "", 0, 1, 0.05, 0.002, 0, "Share of the indirect light: reflections end where the rest would add less") \
     X(bool, moving_reflections, "", 0, 1, false, false, false, "Road and walls reflect light of lamps that move, such as headlamps, once: an estimate") \
-    X(bool, anti_aliasing, "", 0, 1, true, true, true, "Pixels at edges show the mean luminance of the surfaces that fill them; off: the luminance of one") \
+    X(bool, anti_aliasing, "", 0, 1, false, true, true, "Pixels at edges show the mean luminance of the surfaces that fill them; off: the luminance of one") \
     X(uint32_t, samples, "", 1, 65536, 1, 1, 1, "Points of each pixel whose luminance is averaged, before one glare and one eye; 64 make a reference") \
     X(bool, display_average, "", 0, 1, false, false, false, "With samples, codes are the mean of the displayed light of each sample; off: the displayed mean luminance") \
     X(bool, paper_lambert, "", 0, 1, false, false, false, "L = E R, as the paper has it; off: L = E R / pi") \

@@ -52,6 +52,10 @@ struct Renderer::State {
     State(gpu::Device& d, const scene::Scene& s) : device(d), scene(std::make_unique<ResidentScene>(d, s)), frames(d) {}
 
     Prepared prepare(const Request& of) {
+        if (scene->maps && scene->shadow_resolution != of.settings.shadow_resolution) {
+            frames.wait();  // frames under way use the maps that go
+            scene->maps.reset();
+        }
         return render::prepare(*scene, device, map_cache.get(), of.settings, of.view, of.poses);
     }
     SceneLight declare(graph::FrameGraph& graph, const Request& of, const Prepared& prepared, glm::dvec2 place) {

@@ -25,7 +25,7 @@ struct Lit {
     gpu_scene::IntensityTables tables;
     render::ShadowMaps maps;
     render::Clipmaps directional;
-    uint64_t budget = render::kNoShadowBudget;
+    uint64_t budget = render::kUnlimited;
 
     Lit(PassRig& r, const scene::Scene& s)
         : rig(r),

@@ -175,7 +175,7 @@ private:
     std::optional<uint64_t> rendered_;  // steps at the last frame
     shared::EyeState eye_{};
     double eye_step_ = 0;
-    uint64_t shadow_budget_ = render::kNoShadowBudget;
+    uint64_t shadow_budget_ = render::kUnlimited;
     std::vector<scene::Obstacle> obstacles_;
     bool obstacle_pixels_ = false;
     std::shared_ptr<Cache> map_cache_;

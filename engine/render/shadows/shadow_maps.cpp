@@ -24,11 +24,11 @@ constexpr double kLeastShare = 1.0 / 100;  // of the light at a moving placement
 }  // namespace
 
 ShadowMaps::ShadowMaps(const gpu::Device& device, const gpu_scene::GpuScene& resident,
-                       const std::vector<gpu_scene::PlacedLamp>& lamps, const ShadowMapPlan& plan)
+                       const std::vector<gpu_scene::PlacedLamp>& lamps, const ShadowMapPlan& plan, double resolution)
     : resident_(resident),
       lamps_(lamps),
       fixtures_(plan.fixtures),
-      atlas_(plan.layouts, plan.scale),
+      atlas_(plan.layouts, plan.scale + std::log2(resolution)),
       moving_(resident, plan.animated),
       arena_(device),
       maps_(lamps.size()),
@@ -43,7 +43,7 @@ void ShadowMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneFra
     report_ = {};
     maps_to_draw_.clear();
     update_view(view, poses);
-    const uint64_t most_texels = budget == kNoShadowBudget ? budget : budget / 2 * ShadowAtlas::kTileTexels;
+    const uint64_t most_texels = budget == kUnlimited ? budget : budget / 2 * ShadowAtlas::kTileTexels;
     std::vector<bool> moving;
     for (uint32_t lamp = 0; lamp < lamps_.size(); ++lamp) moving.push_back(moves(lamp));
     ShadowAtlas::Change change = atlas_.fit(list, most_texels, moving);
@@ -57,7 +57,7 @@ void ShadowMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneFra
     uint64_t for_tiles = budget - budget / 4;
     budget -= for_tiles;
     plan_tiles(dynamic_tiles(list, poses, view), list, for_tiles);
-    current_ = most_texels == kNoShadowBudget;
+    current_ = most_texels == kUnlimited;
     plan_moved_maps(list, budget + for_tiles);
     find_cached(poses);
     report_.maps = uint32_t(maps_to_draw_.size());

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/cache.h"
+#include "render/light_settings.h"
 #include "render/shadows/draw_shadow_maps.h"
 #include "render/shadows/moving_placements.h"
 #include "render/shadows/shadow_atlas.h"
@@ -28,8 +29,9 @@ namespace vesper::render {
 /// once. Not thread-safe.
 class ShadowMaps {
 public:
+    /// Refers to all of these. `resolution`: of the sides that the plan chooses, as a factor.
     ShadowMaps(const gpu::Device& device, const gpu_scene::GpuScene& resident,
-               const std::vector<gpu_scene::PlacedLamp>& lamps, const ShadowMapPlan& plan);
+               const std::vector<gpu_scene::PlacedLamp>& lamps, const ShadowMapPlan& plan, double resolution = 1);
 
     /// Takes maps of lamps that stand still from a cache where it has them, and gives it those that are drawn; null:
     /// draws all. The cache must outlive its use here.

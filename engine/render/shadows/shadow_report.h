@@ -6,8 +6,6 @@
 
 namespace vesper::render {
 
-constexpr uint64_t kNoShadowBudget = ~uint64_t{0};
-
 /// The shadow maps of a frame.
 struct ShadowReport {
     uint32_t lamps = 0;     ///< with a map

@@ -19,7 +19,7 @@ bool holds(const gpu_scene::View& view, glm::dvec3 lamp, glm::dvec3 point) {
 }
 
 // A view from the origin along -z, 90 degrees wide and high.
-TEST(LightPaths, EndAtTheView) {
+TEST(Casters, EndAtTheView) {
     const gpu_scene::View view = gpu_scene::View::symmetric({64, 64}, float(kPi / 2), glm::dmat4(1));
     const glm::dvec3 before(0, 0, -10), behind(0, 0, 10), aside(20, 0, -5);
     EXPECT_TRUE(holds(view, before, {0, 0, -50}));
@@ -40,7 +40,7 @@ TEST(LightPaths, EndAtTheView) {
 }
 
 // Every straight way between a lamp and something that is seen.
-TEST(LightPaths, HoldAllWaysFromLamps) {
+TEST(Casters, HoldAllWaysFromLamps) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> unit(-1, 1);
     const auto somewhere = [&](double size) { return size * glm::dvec3(unit(random), unit(random), unit(random)); };
@@ -69,7 +69,7 @@ TEST(LightPaths, HoldAllWaysFromLamps) {
 }
 
 // Of a spot of 30 degrees to either side, and of a cosine.
-TEST(LightPaths, TellTheLargestIntensityTowardsASphere) {
+TEST(Casters, TellTheLargestIntensityTowardsASphere) {
     gpu_scene::LampList list;
     const float a = 1 / (1 - std::cos(float(kPi / 6)));
     list.lamps = {{.intensity = 100, .axis = {0, 0, -1}, .lobe_a = a, .lobe_b = 1 - a},

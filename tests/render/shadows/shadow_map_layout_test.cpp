@@ -17,7 +17,7 @@ namespace {
 
 using render::ShadowMapLayout;
 
-TEST(LampMaps, AMapLooksAlongItsLamp) {
+TEST(ShadowMapLayout, AMapLooksAlongItsLamp) {
     const glm::dmat4 node = glm::translate(glm::dmat4(1), glm::dvec3(1e6, 2, -5e6)) *
                             glm::mat4_cast(glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3)))) *
                             glm::scale(glm::dmat4(1), glm::dvec3(2, -3, 0.5));  // mirrored
@@ -33,7 +33,7 @@ TEST(LampMaps, AMapLooksAlongItsLamp) {
     EXPECT_NEAR(glm::determinant(render::map_frame(glm::dmat4(0)).rotation), 1, 1e-12);
 }
 
-TEST(LampMaps, TheShadersTurnIsThatOfTheFrame) {
+TEST(ShadowMapLayout, TheShadersTurnIsThatOfTheFrame) {
     const glm::dmat4 node = glm::mat4_cast(glm::angleAxis(2.5, glm::normalize(glm::dvec3(-1, 0.3, 0.4))));
     const render::MapFrame frame = render::map_frame(node);
     gpu_scene::View view;
@@ -53,7 +53,7 @@ TEST(LampMaps, TheShadersTurnIsThatOfTheFrame) {
 }
 
 // Every direction to a sphere falls into one of its tiles; and far from it there are few.
-TEST(LampMaps, TilesHoldAllOfASphere) {
+TEST(ShadowMapLayout, TilesHoldAllOfASphere) {
     Noise noise(3);
     size_t held = 0, tiles = 0, all = 0;
     for (int trial = 0; trial < 300; ++trial) {
@@ -86,7 +86,7 @@ TEST(LampMaps, TilesHoldAllOfASphere) {
     EXPECT_LT(tiles, all / 2);
 }
 
-TEST(LampMaps, SidesFallWithDistanceAndFillTheMemory) {
+TEST(ShadowMapLayout, SidesFallWithDistanceAndFillTheMemory) {
     std::vector<ShadowMapLayout> layouts(
         200, {.side = 0, .hemispheres = 1, .zoom = 1, .range = 1000, .radius = 0, .first = 0});
     layouts[7].hemispheres = 2;

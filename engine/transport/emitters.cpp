@@ -94,26 +94,46 @@ void Emitters::make_groups() {
             group.flat &= !e.double_sided && glm::dot(e.outwards, all[0].outwards) > 1 - 1e-9 &&
                           std::abs(glm::dot(all[0].outwards, e.corners[0] - all[0].corners[0])) < 1e-6 * group.radius;
     }
+    make_group_lanes();
 }
 
-EmitterChoice::EmitterChoice(const Emitters& emitters, glm::dvec3 point, glm::dvec3 normal, std::span<const float> seen)
-    : emitters_(emitters) {
+void Emitters::make_group_lanes() {
+    constexpr double kLeastRadius = 1e-6, kMostPower = 1e20;  // m, cd: within the range of floats
+    group_lanes_.resize(lanes_for(groups_.size()), GroupLanes{.plane = all_of(-1), .radius = all_of(1)});
+    for (size_t g = 0; g < groups_.size(); ++g) {
+        const Group& group = groups_[g];
+        GroupLanes& lanes = group_lanes_[g / kLanes];
+        const size_t i = g % kLanes;
+        lanes.centre.set(i, glm::vec3(group.centre - origin()));
+        lanes.radius[i] = float(std::max(group.radius, kLeastRadius));
+        lanes.power[i] = float(std::min(group.power, kMostPower));
+        if (!group.flat) continue;
+        const Emitter& first = list_[group.first];
+        lanes.outwards.set(i, glm::vec3(first.outwards)), lanes.flat[i] = 1;
+        lanes.plane[i] = float(glm::dot(first.outwards, first.corners[0] - origin()));
+    }
+}
+
+EmitterChoice::EmitterChoice(const Emitters& emitters, const Patch& patch, std::span<const float> seen)
+    : emitters_(emitters), ends_(emitters.groups().size()) {
+    const Lanes3 from = all_of(glm::vec3(patch.middle - emitters.origin())), up = all_of(glm::vec3(patch.normal)),
+                 half = all_of(glm::vec3(patch.half));
+    const auto across = float(patch.across()), thick = float(patch.thick()), turned = float(patch.turned);
+    const Lanes zero{};
     double sum = 0;
-    ends_.reserve(emitters.groups().size());
-    for (const Emitters::Group& group : emitters.groups()) {
-        const glm::dvec3 to = group.centre - point;
-        const double distance = glm::length(to), above = glm::dot(to, normal) + group.radius;
-        const double facing =
-            -glm::dot(emitters.list()[group.first].outwards, emitters.list()[group.first].corners[0] - point);
-        if (above > 0 && (!group.flat || facing > 0)) {
-            // Of a flat one the cosine counts, from close by not fully; what is near gives no more than its luminance.
-            const double near = std::max(distance - group.radius, 0.0);
-            const double leaving =
-                group.flat ? std::min((facing + 0.5 * group.radius) / (near + group.radius), 1.0) : 1;
-            sum += (seen.empty() ? 1 : double(seen[ends_.size()])) * group.power *
-                   std::min(above / (near + group.radius), 1.0) * leaving / (near * near + group.radius * group.radius);
-        }
-        ends_.push_back(sum);
+    for (size_t first = 0; first < ends_.size(); first += kLanes) {
+        const Emitters::GroupLanes& group = emitters.group_lanes()[first / kLanes];
+        const Lanes3 to = group.centre - from;
+        const Lanes distance2 = dot(to, to) + 1e-20f, distance = distance2 * inverse_root(distance2);
+        const Lanes above = dot(to, up) + group.radius + thick + turned * distance;
+        const Lanes before = dot(group.outwards, from) - group.plane + dot(half, abs(group.outwards));
+        // Of a flat one the cosine counts, from close by not fully; what is near gives no more than its luminance.
+        const Lanes radius = group.radius + across, near = max(distance - radius, zero), about = near + radius;
+        const Lanes leaving = group.flat * min(before + 0.5f * radius, about) + (1 - group.flat) * about;
+        const Lanes lux = group.power * min(above, about) * leaving / (about * about * (near * near + radius * radius));
+        const Lanes counts = above > zero ? (before > zero ? lux : zero) : zero;
+        for (size_t g = first; g < std::min(first + kLanes, ends_.size()); ++g)
+            ends_[g] = sum += double(counts[g - first]) * (seen.empty() ? 1 : double(seen[g]));
     }
 }
 

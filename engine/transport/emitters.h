@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "transport/lanes.h"
+#include "transport/patch.h"
 #include "transport/surfaces.h"
 
 namespace vesper::transport {
@@ -31,12 +33,20 @@ public:
         bool flat;          ///< one plane, and seen from its front only: `outwards` of the first is that of all
     };
 
+    /// kLanes groups that follow each other. Places are from origin(), m.
+    struct GroupLanes {
+        Lanes3 centre, outwards;                   ///< outwards: 0 where it is not flat
+        Lanes plane{}, flat{}, radius{}, power{};  ///< plane: of flat ones, its distance along `outwards`; else -1
+    };
+
     /// Keeps nothing of the scene. Throws Error if more than kMost triangles emit.
     static constexpr size_t kMost = size_t{1} << 22;
     Emitters(const scene::Scene& scene, std::span<const glm::dmat4> world, const Surfaces& surfaces);
 
     std::span<const Emitter> list() const { return list_; }  ///< ascending by node, primitive and triangle
     std::span<const Group> groups() const { return groups_; }
+    std::span<const GroupLanes> group_lanes() const { return group_lanes_; }
+    glm::dvec3 origin() const { return groups_.empty() ? glm::dvec3(0) : groups_[0].centre; }
     size_t group_of(size_t emitter) const { return group_of_[emitter]; }
     /// Of all emitters up to and with each: luminance times area, cd.
     std::span<const double> powers_up_to() const { return powers_up_to_; }
@@ -45,9 +55,11 @@ public:
 
 private:
     void make_groups();
+    void make_group_lanes();
 
     std::vector<Emitter> list_;
     std::vector<Group> groups_;
+    std::vector<GroupLanes> group_lanes_;
     std::vector<uint32_t> group_of_;
     std::vector<double> powers_up_to_;
 };
@@ -55,12 +67,12 @@ private:
 /// The least cosine at an emitter that counts: it is seen from its edge.
 constexpr double kLeastLeaving = 1e-9;
 
-/// How often each emitter is looked at from a point: groups in proportion to about the illuminance that they give if
+/// How often each emitter is looked at from a patch: groups in proportion to about the illuminance that they give if
 /// they are seen, their emitters by power.
 class EmitterChoice {
 public:
     /// Both keep a reference to the emitters. `seen`: factors above 0 on how often each group is chosen; empty: 1.
-    EmitterChoice(const Emitters& emitters, glm::dvec3 point, glm::dvec3 normal, std::span<const float> seen = {});
+    EmitterChoice(const Emitters& emitters, const Patch& patch, std::span<const float> seen = {});
     /// For points anywhere: in proportion to the light that each emits.
     explicit EmitterChoice(const Emitters& emitters);
 

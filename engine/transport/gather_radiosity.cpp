@@ -13,9 +13,11 @@
 #include "transport/cell_places.h"
 #include "transport/emitters.h"
 #include "transport/lamp_light.h"
+#include "transport/patch.h"
 #include "transport/radiosity.h"
 #include "transport/reach.h"
 #include "transport/sampling.h"
+#include "transport/sight.h"
 #include "transport/surfaces.h"
 
 namespace vesper::transport {
@@ -24,11 +26,10 @@ namespace {
 constexpr double kPlacesShare = 0.08;  // of the time
 constexpr double kAtEmitter = 1e-3;    // m
 constexpr uint32_t kMostRounds = 4;
-constexpr double kRegion = 8;            // cubes: cells in one see about the same emitters
-constexpr uint32_t kFirstLooks = 1'024;  // of a region, to learn which it sees; no more than its cells have
-constexpr float kUnknown = 0.25f;        // of a look, before any: so that no group is taken to be hidden
-constexpr double kMostOverfull = 1.5;    // times settings.most_cells
-constexpr double kKeptSources = 0.999;   // of the light of a cell
+constexpr double kRegion = 16;          // cubes: cells in one see about the same emitters
+constexpr uint32_t kFewer = 4;          // times fewer rays and looks of cells that only rays find
+constexpr double kMostOverfull = 1.5;   // times settings.most_cells
+constexpr double kKeptSources = 0.999;  // of the light of a cell
 
 using Light = std::vector<std::pair<uint32_t, glm::dvec3>>;  // by source, lx
 
@@ -104,45 +105,12 @@ struct Gathering {
         for (auto& [key, cells] : found) round.regions.push_back({.cells = std::move(cells)});
     }
 
+    // Before a place of a cell: looks and rays from there.
     struct Start {
-        glm::dvec3 point, normal;  // before the surface
+        glm::dvec3 point, normal;
         const EmitterChoice& choice;
         uint32_t looks, rays;
     };
-    Start start_of(const CellPlaces::Place& place, uint32_t number, const EmitterChoice& choice) const {
-        const glm::dvec3 point = grid.middle(number) + glm::dvec3(place.point);
-        const glm::dvec3 normal = glm::normalize(glm::dvec3(place.normal));
-        return {point + skin_at(rays, point) * normal, normal, choice, 1, 0};
-    }
-    EmitterChoice choice_at(const CellPlaces::Place& place, uint32_t number, std::span<const float> seen) const {
-        return {emitters, grid.middle(number) + glm::dvec3(place.point), glm::normalize(glm::dvec3(place.normal)),
-                seen};
-    }
-
-    // Of each group of emitters, about the part of looks that see it from a region.
-    std::vector<float> seen_from(const Round& round, const Round::Region& region) const {
-        std::vector<float> looks(emitters.groups().size(), kUnknown), seen(emitters.groups().size(), kUnknown);
-        if (looks.empty()) return {};
-        Random random(round.numbers[region.cells[0]]);
-        constexpr uint32_t kFromEach = 32;
-        const size_t first = std::min(size_t(kFirstLooks), settings.looks * region.cells.size());
-        for (size_t i = 0; i < std::max(first / kFromEach, size_t(1)); ++i) {
-            const uint32_t c = region.cells[random.next_bits() % region.cells.size()];
-            const CellPlaces& cell = round.cells[c];
-            const CellPlaces::Place& place = cell.places[random.next_bits() % cell.count()];
-            const EmitterChoice choice = choice_at(place, round.numbers[c], {});
-            if (!choice.any()) continue;
-            const Start start = start_of(place, round.numbers[c], choice);
-            for (uint32_t k = 0; k < kFromEach; ++k) {
-                const double group = random.next(), u = random.next();
-                const auto [number, light] = look(start, {group, u});
-                const size_t of = emitters.group_of(number);
-                looks[of] += 1, seen[of] += light != glm::dvec3(0) ? 1.0f : 0.0f;
-            }
-        }
-        for (size_t g = 0; g < seen.size(); ++g) seen[g] /= looks[g];
-        return seen;
-    }
 
     // Of the direction to a place on an emitter: the density of looks and rays together, 1/sr.
     double density(const Start& start, size_t number, glm::dvec3 to, double cosine) const {
@@ -193,35 +161,52 @@ struct Gathering {
         return *cell;
     }
 
-    void gather(Round& round, Round::Region& region) const {
-        const std::vector<float> seen = seen_from(round, region);
-        for (const uint32_t i : region.cells) gather(round, i, seen, region);
+    void gather(Round& round, Round::Region& region, uint32_t fewer) const {
+        Sight sight(emitters.groups().size());
+        for (const uint32_t i : region.cells) {
+            gather(round, i, fewer, sight, region);
+            sight.end_cell();
+        }
     }
 
-    void gather(Round& round, size_t i, std::span<const float> seen, Round::Region& region) const {
+    void gather(Round& round, size_t i, uint32_t fewer, Sight& sight, Round::Region& region) const {
         const CellPlaces& cell = round.cells[i];
-        const uint32_t number = round.numbers[i], places = cell.count();
+        const uint32_t number = round.numbers[i], count = cell.count();
+        std::vector<SurfacePlace> places;
+        for (uint32_t k = 0; k < count; ++k)
+            places.push_back({grid.middle(number) + glm::dvec3(cell.places[k].point),
+                              glm::normalize(glm::dvec3(cell.places[k].normal)), cell.places[k].node});
+        const EmitterChoice choice(emitters, Patch::around(places), sight.shares());
+        // Of each place; parts of a lattice that follow each other fill the square evenly, each and together.
+        const uint32_t looks = choice.any() ? std::max(settings.looks / fewer / count, 1u) : 0,
+                       rays_sent = std::max(settings.rays / fewer, std::min(settings.rays, count)),
+                       lamp_rays = std::max(settings.lamp_rays / fewer, 1u);
         Random random(number);
+        const Lattice of_looks(random), directions(random);
         Light meshes, of_lamps;
-        std::vector<LampLight::Share> shares;
-        const double share = 1.0 / places;
-        for (uint32_t k = 0; k < places; ++k) {
-            const EmitterChoice choice = choice_at(cell.places[k], number, seen);
-            Start start = start_of(cell.places[k], number, choice);
-            start.looks = choice.any() ? settings.looks / places : 0;
-            start.rays = (settings.rays + places - 1 - k) / places;
-            const Lattice looks(random), directions(random);
-            for (uint32_t l = 0; l < start.looks; ++l) {
-                const auto [emitter, light] = look(start, looks.at(l));
-                if (light != glm::dvec3(0)) add_to(meshes, emitters.list()[emitter].node, share * light);
+        const double share = 1.0 / count;
+        for (uint32_t k = 0; k < count; ++k) {
+            SurfacePlace& place = places[k];
+            const uint32_t first_ray = rays_sent * k / count, end_ray = rays_sent * (k + 1) / count;
+            const Start start{place.point + skin_at(rays, place.point) * place.normal, place.normal, choice, looks,
+                              end_ray - first_ray};
+            for (uint32_t l = looks * k; l < looks * (k + 1); ++l) {
+                const auto [emitter, light] = look(start, of_looks.at(l));
+                const bool lit = light != glm::dvec3(0);
+                sight.add(emitters.group_of(emitter), lit);
+                if (lit) add_to(meshes, emitters.list()[emitter].node, share * light);
             }
-            for (uint32_t r = 0; r < start.rays; ++r)
-                round.met[i * settings.rays + k + places * r] =
+            for (uint32_t r = first_ray; r < end_ray; ++r)
+                round.met[i * settings.rays + r] =
                     send(start, directions.at(r), share, meshes, round.sky[i], region.places);
-            shares.clear();
-            lamps.sample(start.point, start.normal, cell.places[k].node, settings.lamp_rays, random, shares);
-            for (const LampLight::Share& s : shares) add_to(of_lamps, s.node | Radiosity::kLamp, share * s.lux);
+            place.point = start.point;
         }
+        // Where rays are few each stands for some.
+        for (uint32_t r = rays_sent; r < settings.rays; ++r)
+            round.met[i * settings.rays + r] = round.met[i * settings.rays + r % rays_sent];
+        std::vector<LampLight::Share> shares;
+        lamps.sample(places, lamp_rays, random, shares);
+        for (const LampLight::Share& s : shares) add_to(of_lamps, s.node | Radiosity::kLamp, s.lux);
         const size_t before = region.sources.size();
         keep_strongest(of_lamps, region.sources), keep_strongest(meshes, region.sources);
         region.counts.push_back(uint32_t(region.sources.size() - before));
@@ -258,7 +243,8 @@ struct Gathering {
             // What rays of a round find takes about a fifth of the time of that.
             const double begins = 1 - std::pow(0.2, double(rounds.size() - 1)), width = 0.8 * (1 - begins);
             const bool done = in_parallel(
-                round.regions.size(), 1, [&](size_t number, size_t) { gather(round, round.regions[number]); },
+                round.regions.size(), 1,
+                [&](size_t number, size_t) { gather(round, round.regions[number], rounds.size() > 1 ? kFewer : 1); },
                 [&](size_t so_far) {
                     const double of_rays = begins + width * double(so_far) / double(round.regions.size());
                     return !progress || progress(kPlacesShare + (1 - kPlacesShare) * of_rays);

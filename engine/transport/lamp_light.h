@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "rays/ray_caster.h"
+#include "transport/lanes.h"
+#include "transport/patch.h"
 #include "transport/sampling.h"
 
 namespace vesper::transport {
@@ -27,9 +29,10 @@ public:
         uint32_t node;  ///< that has the lamp
         glm::dvec3 lux;
     };
-    /// An estimate of the same by `rays` shadow rays at most, without a threshold: right on average, and of any number
-    /// of lamps in about the same time (resampled importance: Talbot, Cline and Egbert 2005).
-    void sample(glm::dvec3 point, glm::dvec3 normal, uint32_t node, uint32_t rays, Random& random,
+    /// An estimate of the same in the mean over places beside each other, by `shadow_rays` at most of each,
+    /// without a threshold: right on average, and of any number of lamps in about the same time (resampled importance:
+    /// Talbot, Cline and Egbert 2005).
+    void sample(std::span<const SurfacePlace> places, uint32_t shadow_rays, Random& random,
                 std::vector<Share>& shares) const;
 
 private:
@@ -42,9 +45,25 @@ private:
     };
     // What all lamps are asked for at each point, apart from the rest.
     struct Bound {
-        glm::dvec3 place;  // of directional lamps the way to it, m
-        double largest;    // intensity, cd
-        bool directional;
+        glm::dvec3 place;        // of directional lamps the way to it, m
+        glm::dvec3 back;         // where its axis does not point, unit length
+        glm::dvec2 ramp;         // scene::cone_ramp()
+        double largest;          // intensity, cd
+        bool directional, cone;  // cone: its intensity is that of the ramp
+    };
+    // Four lamps; directional ones have no intensity here.
+    struct BoundLanes {
+        Lanes3 place, back;  // place: from the middle of the rays, m
+        Lanes slope{}, offset{}, largest{};
+    };
+    // About how much each lamp gives some places at most, lx.
+    struct Most {
+        std::vector<float> lux;    // of each
+        std::vector<double> ends;  // sums up to and with each kLanes of them
+    };
+    struct Candidate {
+        size_t lamp;
+        double weight;
     };
 
     struct Way;
@@ -52,12 +71,16 @@ private:
     double unshadowed(size_t lamp, const Way& way) const;
     bool blocked(size_t lamp, const Way& way, glm::dvec3 point, glm::dvec3 normal) const;
     bool lights(size_t lamp, uint32_t node, const Way& way) const;
+    Most most_at(std::span<const SurfacePlace> places) const;
+    std::vector<Candidate> choose(const Most& most, uint32_t steps, Random& random) const;
 
     const scene::Scene& scene_;
     const rays::RayCaster& rays_;
     std::vector<Placed> lamps_;
-    std::vector<Bound> bounds_;     // of each
-    std::vector<bool> in_fixture_;  // nodes: of any lamp
+    std::vector<Bound> bounds_;  // of each
+    std::vector<BoundLanes> bound_lanes_;
+    std::vector<size_t> directional_;  // lamps
+    std::vector<bool> in_fixture_;     // nodes: of any lamp
 };
 
 }  // namespace vesper::transport

@@ -105,7 +105,8 @@ glm::dvec3 LightTracer::light_of_lamps(const SurfacePoint& surface, uint32_t nod
                                        Random& random) const {
     if (settings.lamp_rays == 0) return lamps_.illuminance(surface.position, surface.normal, settings.threshold, node);
     std::vector<LampLight::Share> shares;
-    lamps_.sample(surface.position, surface.normal, node, settings.lamp_rays, random, shares);
+    const SurfacePlace place{surface.position, surface.normal, node};
+    lamps_.sample({&place, 1}, settings.lamp_rays, random, shares);
     glm::dvec3 sum(0);
     for (const LampLight::Share& share : shares) sum += share.lux;
     return sum;
@@ -114,7 +115,7 @@ glm::dvec3 LightTracer::light_of_lamps(const SurfacePoint& surface, uint32_t nod
 Illuminance LightTracer::at(glm::dvec3 point, glm::dvec3 normal, const TraceSettings& settings) const {
     Random random(settings.seed);
     const Lattice first_directions(random);
-    const EmitterChoice choice(emitters_, point, normal);
+    const EmitterChoice choice(emitters_, {.middle = point, .normal = normal});
     Sums sums;
     for (uint32_t path = 0; path < settings.paths; ++path) {
         check_time();

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/scene_files.h"
 #include "support/complaints.h"
+#include "support/temp_folder.h"
 #include "window/input_devices.h"
 #include "window/panel_layout.h"
 

@@ -7,6 +7,7 @@
 #include "io/hdr_image.h"
 #include "render/renderer.h"
 #include "render/seen_surfaces.h"
+#include "scene/scene_files.h"
 #include "support/gathered.h"
 #include "support/program.h"
 #include "support/rooms.h"

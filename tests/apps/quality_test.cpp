@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "io/hdr_image.h"
 #include "places.h"
+#include "scene/scene_files.h"
 #include "session/settings.h"
 #include "support/program.h"
 

@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "ranks/ranks.h"
+#include "scene/scene_files.h"
 #include "support/program.h"
 
 namespace vesper::test {

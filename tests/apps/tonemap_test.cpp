@@ -6,6 +6,7 @@
 #include "analysis/relative_picture.h"
 #include "io/read_file.h"
 #include "print.h"
+#include "support/complaints.h"
 #include "support/exr_files.h"
 #include "support/program.h"
 

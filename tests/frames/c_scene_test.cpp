@@ -14,8 +14,9 @@
 #include "photometry/distribution.h"
 #include "photometry/ies.h"
 #include "places.h"
-#include "scene/scene_files.h"
 #include "support/c_scene.h"
+#include "support/complaints.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 namespace {

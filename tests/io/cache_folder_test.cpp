@@ -11,8 +11,10 @@
 #include <csignal>
 #include <thread>
 
+#include <gtest/gtest.h>
+
 #include "base/error.h"
-#include "scene/scene_files.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 namespace {

@@ -3,11 +3,13 @@
 
 #include <filesystem>
 
+#include <gtest/gtest.h>
+
 #include "io/image_file.h"
 #include "io/jpeg_files.h"
 #include "io/read_file.h"
-#include "scene/scene_files.h"
 #include "support/shared_data.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 namespace {

@@ -4,7 +4,8 @@
 #include "io/growing_file.h"
 #include "io/new_file.h"
 #include "io/read_file.h"
-#include "scene/scene_files.h"
+#include "support/complaints.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 namespace {

@@ -1,7 +1,8 @@
 // Files that grow beside their place. SPDX-License-Identifier: MIT
 #include "io/growing_file.h"
 
-#include "scene/scene_files.h"
+#include "support/complaints.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 namespace {

@@ -22,9 +22,10 @@
 
 #include "io/new_file.h"
 #include "io/read_file.h"
-#include "scene/scene_files.h"
+#include "support/complaints.h"
 #include "support/exr_files.h"
 #include "support/hdr_files.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 namespace {

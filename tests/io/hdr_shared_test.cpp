@@ -6,8 +6,9 @@
 #include <regex>
 
 #include "io/hdr_image.h"
-#include "scene/scene_files.h"
+#include "support/complaints.h"
 #include "support/shared_data.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 namespace {

@@ -11,7 +11,8 @@
 #include "io/jpeg_files.h"
 #include "io/png_files.h"
 #include "io/read_file.h"
-#include "scene/scene_files.h"
+#include "support/complaints.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 namespace {

@@ -13,7 +13,8 @@
 #include "io/growing_file.h"
 #include "io/read_file.h"
 #include "io/temporary.h"
-#include "scene/scene_files.h"
+#include "support/complaints.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 namespace {

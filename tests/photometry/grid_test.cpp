@@ -13,7 +13,8 @@
 #include "photometry/distributions.h"
 #include "photometry/eulumdat.h"
 #include "photometry/ies.h"
-#include "scene/scene_files.h"
+#include "support/complaints.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 namespace {

@@ -3,7 +3,8 @@
 #include "photometry/ies.h"
 
 #include "photometry/distributions.h"
-#include "scene/scene_files.h"
+#include "support/complaints.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 namespace {

@@ -5,7 +5,8 @@
 #include "photometry/eulumdat.h"
 #include "photometry/grid.h"
 #include "photometry/ies.h"
-#include "scene/scene_files.h"
+#include "support/complaints.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 namespace {

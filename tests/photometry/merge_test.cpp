@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <string>
 
+#include <gtest/gtest.h>
+
 #include "photometry/brackets.h"
-#include "scene/scene_files.h"
 #include "support/shared_data.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 namespace {

@@ -8,7 +8,8 @@
 #include <string_view>
 
 #include "photometry/distributions.h"
-#include "scene/scene_files.h"
+#include "support/complaints.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 namespace {

@@ -2,7 +2,8 @@
 #include "photometry/response.h"
 
 #include "photometry/brackets.h"
-#include "scene/scene_files.h"
+#include "support/complaints.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 namespace {

@@ -12,6 +12,7 @@
 #include "io/image_file.h"
 #include "places.h"
 #include "roads/road_texts.h"
+#include "scene/scene_files.h"
 #include "support/program.h"
 
 namespace vesper::test {

@@ -8,6 +8,7 @@
 
 #include "io/hdr_image.h"
 #include "places.h"
+#include "scene/scene_files.h"
 #include "support/program.h"
 
 namespace vesper::test {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "io/hdr_image.h"
+#include "scene/scene_files.h"
 #include "support/program.h"
 
 namespace vesper::test {

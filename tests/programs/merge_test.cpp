@@ -8,7 +8,8 @@
 #include "io/new_file.h"
 #include "photometry/brackets.h"
 #include "places.h"
-#include "scene/scene_files.h"
+#include "support/complaints.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 namespace {

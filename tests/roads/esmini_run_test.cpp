@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "roads/esmini_run.h"
-#include "scene/scene_files.h"
 #include "support/complaints.h"
 #include "support/shared_data.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 

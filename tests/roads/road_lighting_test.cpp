@@ -7,7 +7,8 @@
 #include <numbers>
 
 #include "places.h"
-#include "scene/scene_files.h"
+#include "support/complaints.h"
+#include "support/temp_folder.h"
 #include "vision/glare.h"
 
 namespace vesper::test {

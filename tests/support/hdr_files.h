@@ -13,7 +13,8 @@
 #include "io/hdr_image.h"
 #include "io/new_file.h"
 #include "io/read_file.h"
-#include "scene/scene_files.h"
+#include "support/complaints.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/scene_files.h"
 #include "support/program.h"
 
 namespace vesper::test {

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include <gtest/gtest.h>
+
 #include "places.h"
-#include "scene/scene_files.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test {
 

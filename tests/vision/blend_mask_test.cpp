@@ -5,8 +5,8 @@
 
 #include "io/image_file.h"
 #include "io/png_files.h"
-#include "scene/scene_files.h"
 #include "support/complaints.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test::blend_mask_test {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/scene_files.h"
 #include "support/complaints.h"
+#include "support/temp_folder.h"
 
 namespace vesper::test::warp_mesh_test {
 namespace {

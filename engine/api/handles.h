@@ -16,6 +16,7 @@
 #include "render/settings.h"
 #include "render/tone_mapper.h"
 #include "scene/display_file.h"
+#include "scene/scene.h"
 
 struct VesperDevice {
     explicit VesperDevice(const vesper::gpu::DeviceOptions& options) : device(options), name(device.name()) {}

@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/error.h"
+#include "scene/scene.h"
 
 namespace vesper::gpu_scene {
 namespace {

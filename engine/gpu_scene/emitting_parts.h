@@ -4,7 +4,11 @@
 #include <array>
 #include <vector>
 
-#include "scene/scene.h"
+#include <glm/glm.hpp>
+
+namespace vesper::scene {
+struct Scene;
+}
 
 namespace vesper::gpu_scene {
 

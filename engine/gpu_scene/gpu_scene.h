@@ -8,8 +8,12 @@
 #include "gpu/memory.h"
 #include "gpu_scene/textures.h"
 #include "gpu_scene/view.h"
-#include "scene/scene.h"
+#include "scene/material.h"
 #include "scene/tunnel.h"
+
+namespace vesper::scene {
+struct Scene;
+}
 
 namespace vesper::gpu_scene {
 

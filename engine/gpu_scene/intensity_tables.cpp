@@ -8,6 +8,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "base/error.h"
+#include "scene/scene.h"
 #include "shared/tables.h"
 
 namespace vesper::gpu_scene {

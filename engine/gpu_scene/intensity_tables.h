@@ -4,9 +4,14 @@
 #include <cstdint>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 #include "photometry/distribution.h"
 #include "photometry/reflection_table.h"
-#include "scene/scene.h"
+
+namespace vesper::scene {
+struct Scene;
+}
 
 namespace vesper::gpu_scene {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene/lamp.h"
+#include "scene/scene.h"
 
 namespace vesper::gpu_scene {
 namespace {

@@ -6,8 +6,12 @@
 #include "gpu_scene/gpu_scene.h"
 #include "gpu_scene/intensity_tables.h"
 #include "gpu_scene/view.h"
-#include "scene/scene.h"
+#include "scene/lamp.h"
 #include "shared/lamp.h"
+
+namespace vesper::scene {
+struct Scene;
+}
 
 namespace vesper::gpu_scene {
 

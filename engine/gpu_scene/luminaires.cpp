@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "gpu_scene/silhouette.h"
 #include "scene/lamp.h"
+#include "scene/scene.h"
 
 namespace vesper::gpu_scene {
 namespace {

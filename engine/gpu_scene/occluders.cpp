@@ -3,6 +3,8 @@
 #include <map>
 #include <vector>
 
+#include "scene/scene.h"
+
 namespace vesper::gpu_scene {
 namespace {
 

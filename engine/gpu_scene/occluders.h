@@ -2,7 +2,10 @@
 #pragma once
 
 #include "base/digest.h"
-#include "scene/scene.h"
+
+namespace vesper::scene {
+struct Scene;
+}
 
 namespace vesper::gpu_scene {
 

@@ -10,6 +10,7 @@
 #include "base/budget.h"
 #include "gpu/commands.h"
 #include "scene/reflectance.h"
+#include "scene/scene.h"
 
 namespace vesper::gpu_scene {
 namespace {

@@ -7,7 +7,11 @@
 #include <vector>
 
 #include "gpu/memory.h"
-#include "scene/scene.h"
+#include "scene/material.h"
+
+namespace vesper::scene {
+struct Scene;
+}
 
 namespace vesper::gpu_scene {
 

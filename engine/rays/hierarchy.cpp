@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/budget.h"
+#include "scene/bounds.h"
 
 namespace vesper::rays {
 namespace {

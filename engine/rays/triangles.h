@@ -6,7 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "scene/scene.h"
+#include <glm/glm.hpp>
+
+namespace vesper::scene {
+struct Scene;
+}
 
 namespace vesper::rays {
 

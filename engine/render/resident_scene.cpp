@@ -2,6 +2,7 @@
 
 #include "gpu_scene/retro.h"
 #include "gpu_scene/sky.h"
+#include "scene/scene.h"
 
 namespace vesper::render {
 

@@ -1,12 +1,15 @@
 // Things of a scene that a driver should see. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "scene/scene.h"
+#include "scene/bounds.h"
 
 namespace vesper::scene {
+
+struct Scene;
 
 /// A named node with surfaces at or below it.
 struct Obstacle {

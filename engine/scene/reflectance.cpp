@@ -6,6 +6,7 @@
 
 #include "base/srgb.h"
 #include "scene/colour.h"
+#include "scene/scene.h"
 
 namespace vesper::scene {
 

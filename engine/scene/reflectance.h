@@ -5,9 +5,14 @@
 #include <cmath>
 #include <vector>
 
-#include "scene/scene.h"
+#include <glm/glm.hpp>
+
+#include "base/image.h"
+#include "scene/material.h"
 
 namespace vesper::scene {
+
+struct Scene;
 
 /// The linear value of each 8-bit code: sRGB, or Eq. 1 of Petit, Bremond and Vienne.
 std::array<double, 256> linear_codes(const Transfer& transfer);

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/one_line.h"
+#include "scene/scene.h"
 
 namespace vesper::scene {
 

@@ -4,9 +4,12 @@
 #include <optional>
 #include <string>
 
-#include "scene/scene.h"
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 namespace vesper::scene {
+
+struct Scene;
 
 /// The rotation that these numbers stand for, whatever their length; nothing where they have none.
 std::optional<glm::quat> unit_rotation(glm::vec4 xyzw);

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,57 +18,12 @@
 #include "photometry/luminance_picture.h"
 #include "photometry/reflection_table.h"
 #include "photometry/retroreflection.h"
+#include "scene/bounds.h"
+#include "scene/index.h"
+#include "scene/lamp.h"
+#include "scene/material.h"
 
 namespace vesper::scene {
-
-constexpr uint32_t kNone = ~0u;  ///< "no such element" wherever an index is kept
-
-/// An axis-aligned box, m. Empty (low > high) until a point is added.
-struct Bounds {
-    glm::vec3 low{std::numeric_limits<float>::infinity()};
-    glm::vec3 high{-std::numeric_limits<float>::infinity()};
-
-    void add(glm::vec3 point) { low = glm::min(low, point), high = glm::max(high, point); }
-    bool empty() const { return !(low.x <= high.x); }
-};
-
-/// How the 8-bit code T of a colour texture becomes a linear value in [0, 1].
-struct Transfer {
-    enum class Kind : uint8_t { Srgb, Gamma };
-    Kind kind = Kind::Srgb;
-    float gamma = 2.2f;  ///< Kind::Gamma: value = T^gamma (Petit, Bremond and Vienne, Eq. 1: gamma = 2.2)
-};
-
-enum class Wrap : uint8_t { Repeat, Mirror, Clamp };
-
-/// One use of an image by a material. Its UV set and KHR_texture_transform are baked into the vertices at loading.
-struct TextureUse {
-    uint32_t image = kNone;
-    Wrap wrap_u = Wrap::Repeat, wrap_v = Wrap::Repeat;
-    bool nearest = false;  ///< magnify without interpolation
-
-    bool operator==(const TextureUse&) const = default;
-};
-
-/// A surface. The diffuse reflectance is base_colour * (1 - metallic); roughness 1 is a pure Lambert surface.
-struct Material {
-    enum class Alpha : uint8_t { Opaque, Mask };
-    std::string name;
-    glm::vec4 base_colour{1};           ///< linear reflectance and opacity, [0, 1]; times base_colour_texture
-    TextureUse base_colour_texture;     ///< codes through Scene::transfer
-    float metallic = 0, roughness = 1;  ///< [0, 1]; times blue and green of metallic_roughness_texture
-    TextureUse metallic_roughness_texture;
-    glm::vec3 emission{0};        ///< emitted RGB luminance, cd/m^2; times emission_texture
-    TextureUse emission_texture;  ///< codes through sRGB
-    TextureUse emission_picture;  ///< instead of emission_texture: image is an index into Scene::luminance_pictures
-    Alpha alpha = Alpha::Opaque;
-    float alpha_cutoff = 0.5f;
-    bool clear = false;  ///< glass (in glTF alpha mode BLEND, or KHR_materials_transmission above 0): rays of `rays/`
-                         ///< pass; pictures draw it by `alpha`
-    bool double_sided = false;
-    uint32_t reflection_table = kNone;  ///< index into Scene::reflection_tables
-    uint32_t retroreflector = kNone;    ///< index into Scene::retroreflectors; such a surface is no metal
-};
 
 struct Vertex {
     glm::vec3 position{0};      ///< m, in the mesh's frame
@@ -95,28 +49,6 @@ struct Mesh {
 /// Most lamps of a frame, on each device. Lavapipe ends the loops of an invocation silently after 65,535 turns, and a
 /// lamp takes three in a retroreflective pixel.
 inline constexpr uint32_t kMaxLamps = 21'000;
-
-/// Of the disc of a directional light in the sky, degrees.
-inline constexpr double kMostAngularDiameter = 10;
-
-/// A lamp's distribution of luminous intensity about its axis (local -Z).
-struct Lamp {
-    enum class Kind : uint8_t { Point, Spot, CosinePower, Directional, Measured };
-    std::string name;
-    Kind kind = Kind::Point;
-    float intensity = 0;        ///< on the axis, cd; Directional: illuminance on a surface facing it, lx; Measured:
-                                ///< factor on the candela of the distribution (flux scale, maintenance factor, dimming)
-    glm::vec3 colour{1};        ///< linear Rec. 709 of luminance 1: (0.212639, 0.715169, 0.072192) . colour == 1
-    float inner_cone = 0;       ///< Spot: half angle of full intensity, rad
-    float outer_cone = 0.785f;  ///< Spot: half angle of no intensity, rad; squared ramp between, as KHR_lights_punctual
-    float exponent = 1;         ///< CosinePower: I(a) = intensity * cos(a)^exponent, 0 behind
-    float angular_diameter = 0.00925f;    ///< Directional: of its disc in the sky, rad, for penumbrae; the default is
-                                          ///< that of the sun and the moon, 0.53 degrees
-    uint32_t distribution = kNone;        ///< Measured: index into Scene::distributions
-    photometry::LuminousOpening opening;  ///< seen directly: at the lamp, facing its axis (Point: facing the eye); m,
-                                          ///< independent of the node's scale. Length along its X, width along its Y.
-                                          ///< Not drawn if the area is 0
-};
 
 struct Camera {
     std::string name;              ///< of the camera, else of its node

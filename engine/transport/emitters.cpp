@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/luminance.h"
 #include "base/one_line.h"
+#include "scene/scene.h"
 
 namespace vesper::transport {
 namespace {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rays/ray_caster.h"
+#include "scene/lamp.h"
 #include "transport/lanes.h"
 #include "transport/patch.h"
 #include "transport/sampling.h"

@@ -7,6 +7,7 @@
 
 #include "base/luminance.h"
 #include "scene/lamp.h"
+#include "scene/scene.h"
 #include "transport/cell_grid.h"
 #include "transport/radiosity.h"
 #include "transport/reach.h"

@@ -7,6 +7,7 @@
 
 #include "base/budget.h"
 #include "base/luminance.h"
+#include "scene/scene.h"
 #include "transport/reach.h"
 #include "transport/sampling.h"
 

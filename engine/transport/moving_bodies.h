@@ -5,8 +5,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/scene.h"
+#include <glm/glm.hpp>
+
 #include "transport/cell_grid.h"
+
+namespace vesper::scene {
+struct Scene;
+}
 
 namespace vesper::transport {
 

@@ -8,10 +8,15 @@
 #include <span>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 #include "photometry/environment.h"
-#include "scene/scene.h"
 #include "transport/cell_grid.h"
 #include "transport/moving_bodies.h"
+
+namespace vesper::scene {
+struct Scene;
+}
 
 namespace vesper::transport {
 

@@ -8,6 +8,7 @@
 
 #include "places.h"
 #include "render/renderer.h"
+#include "scene/scene.h"
 
 namespace vesper::test {
 namespace {

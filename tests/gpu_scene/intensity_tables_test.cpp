@@ -1,5 +1,6 @@
 // Tables of measured intensities and of roads against the tables they were made from. SPDX-License-Identifier: MIT
 #include "gpu_scene/intensity_tables.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

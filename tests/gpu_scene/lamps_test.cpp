@@ -1,5 +1,6 @@
 // Lamps of a scene as the shaders get them. SPDX-License-Identifier: MIT
 #include "gpu_scene/lamps.h"
+#include "scene/scene.h"
 
 #include <algorithm>
 #include <cmath>

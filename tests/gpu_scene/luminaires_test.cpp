@@ -1,5 +1,6 @@
 // Openings of lamps in the image: what the host works out for the pass. SPDX-License-Identifier: MIT
 #include "gpu_scene/luminaires.h"
+#include "scene/scene.h"
 
 #include <map>
 #include <random>

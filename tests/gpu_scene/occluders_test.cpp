@@ -1,6 +1,7 @@
 // The digest of what hides lamps: another one for whatever changes a texel of a map, the same for all else.
 // SPDX-License-Identifier: MIT
 #include "gpu_scene/occluders.h"
+#include "scene/scene.h"
 
 #include <functional>
 

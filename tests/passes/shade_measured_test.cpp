@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "places.h"
+#include "scene/scene.h"
 #include "support/lamps.h"
 #include "support/noise.h"
 #include "support/shading.h"

@@ -1,4 +1,5 @@
 // Shading of retroreflective surfaces, against the reference. SPDX-License-Identifier: MIT
+#include "scene/scene.h"
 #include "support/lamps.h"
 #include "support/noise.h"
 #include "support/shading.h"

@@ -8,6 +8,7 @@
 
 #include "base/budget.h"
 #include "base/error.h"
+#include "scene/bounds.h"
 
 namespace vesper::test::hierarchy_test {
 namespace {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/luminance.h"
+#include "scene/scene.h"
 #include "transport/radiosity.h"
 
 namespace vesper::test {

@@ -9,6 +9,7 @@
 #include "render/passes/shade.h"
 #include "render/shadows/clipmaps.h"
 #include "render/shadows/shadow_maps.h"
+#include "scene/scene.h"
 #include "support/lamps.h"
 #include "support/shading.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "scene/scene.h"
 #include "shaders/cluster/active_clusters.comp.inc"
 #include "shaders/cluster/cluster.comp.inc"
 #include "shared/shade.h"

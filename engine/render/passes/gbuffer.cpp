@@ -8,6 +8,7 @@
 
 #include "gpu_scene/gpu_scene.h"
 #include "gpu_scene/small_emitters.h"
+#include "scene/scene.h"
 #include "shaders/gbuffer/gbuffer.frag.inc"
 #include "shaders/gbuffer/gbuffer.vert.inc"
 #include "shared/edges.h"

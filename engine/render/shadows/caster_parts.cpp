@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "render/shadows/shadow_map_layout.h"
+#include "scene/scene.h"
 
 namespace vesper::render {
 

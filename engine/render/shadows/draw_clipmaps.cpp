@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "render/shadows/caster_parts.h"
+#include "scene/scene.h"
 #include "shaders/shadows/casters.frag.inc"
 #include "shaders/shadows/clipmap.vert.inc"
 #include "shaders/shadows/store_clipmaps.comp.inc"

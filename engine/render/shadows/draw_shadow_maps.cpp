@@ -9,6 +9,7 @@
 
 #include "render/shadows/caster_parts.h"
 #include "render/shadows/caster_triangles.h"
+#include "scene/scene.h"
 #include "shaders/shadows/casters.frag.inc"
 #include "shaders/shadows/casters.vert.inc"
 #include "shaders/shadows/store_shadow_maps.comp.inc"

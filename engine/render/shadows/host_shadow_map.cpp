@@ -11,6 +11,7 @@
 #include "gpu/kernel_cache.h"
 #include "graph/executor.h"
 #include "render/shadows/draw_shadow_maps.h"
+#include "scene/scene.h"
 
 namespace vesper::render {
 namespace {

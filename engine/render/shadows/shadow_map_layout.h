@@ -5,10 +5,15 @@
 #include <span>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 #include "gpu_scene/gpu_scene.h"
 #include "gpu_scene/lamps.h"
-#include "scene/scene.h"
 #include "shared/shadow_map.h"
+
+namespace vesper::scene {
+struct Scene;
+}
 
 namespace vesper::render {
 

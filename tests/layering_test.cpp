@@ -38,12 +38,13 @@ const std::map<std::string, std::set<std::string>> kMayInclude{
     {"gpu", {"base"}},
     {"window", {"base", "gpu", "graph", "glsl"}},
     {"graph", {"base", "gpu"}},
+    {"eye", {"base", "vision", "gpu", "glsl"}},
     {"gpu_scene", {"base", "photometry", "vision", "scene", "rays", "transport", "gpu", "glsl"}},
-    {"render", {"base", "photometry", "vision", "scene", "transport", "gpu", "graph", "gpu_scene", "glsl"}},
-    {"analysis", {"base", "io", "photometry", "vision", "gpu", "graph", "gpu_scene", "render"}},
+    {"render", {"base", "photometry", "vision", "scene", "transport", "gpu", "graph", "eye", "gpu_scene", "glsl"}},
+    {"analysis", {"base", "io", "photometry", "vision", "gpu", "graph", "eye", "gpu_scene", "render"}},
     {"api",
-     {"base", "io", "photometry", "vision", "scene", "transport", "gpu", "graph", "gpu_scene", "render", "analysis",
-      "glsl"}},
+     {"base", "io", "photometry", "vision", "scene", "transport", "gpu", "graph", "eye", "gpu_scene", "render",
+      "analysis", "glsl"}},
 };
 
 std::string text_of(const fs::path& file) {

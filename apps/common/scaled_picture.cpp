@@ -11,8 +11,7 @@ uint32_t scaled(uint32_t side, double scale) { return uint32_t(std::max(1.0, std
 
 ScaledPicture::ScaledPicture(VkExtent2D asked, double scale)
     : asked_(asked), rendered_{scaled(asked.width, scale), scaled(asked.height, scale)}, scale_(scale) {
-    if (scale < 1)
-        enlargement_ = std::make_shared<const gpu_scene::Projection>(gpu_scene::projection_of(rendered_, asked));
+    if (scale < 1) enlargement_ = std::make_shared<const eye::Projection>(eye::projection_of(rendered_, asked));
 }
 
 gpu_scene::View ScaledPicture::rendered(gpu_scene::View asked) const {

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "gpu_scene/projection.h"
+#include "eye/projection.h"
 #include "gpu_scene/view.h"
 
 namespace vesper::apps {
@@ -18,14 +18,14 @@ public:
     VkExtent2D rendered() const { return rendered_; }  ///< px
     /// The same view with the pixels that are rendered.
     gpu_scene::View rendered(gpu_scene::View asked) const;
-    const gpu_scene::Projection* enlargement() const { return enlargement_.get(); }  ///< null: none
+    const eye::Projection* enlargement() const { return enlargement_.get(); }  ///< null: none
     /// Says on standard error that pictures are enlarged.
     void print_note() const;
 
 private:
     VkExtent2D asked_, rendered_;
     double scale_;
-    std::shared_ptr<const gpu_scene::Projection> enlargement_;
+    std::shared_ptr<const eye::Projection> enlargement_;
 };
 /// Of a side of a picture, px; at least 1.
 uint32_t scaled(uint32_t side, double scale);

@@ -52,7 +52,7 @@ Comparison compare(const CompareArguments& a, const ComparedPicture& first, cons
     gpu::Device device({.select = a.device});
     render::ToneMapper mapper(device);
     const vision::ScatteringEye scatters{a.age, a.iris};
-    std::optional<gpu_scene::ScatterSettings> eye;
+    std::optional<eye::ScatterSettings> eye;
     if (a.glare == "cie") eye = {.eye = scatters};
     analysis::ContrastEye sees{.age = a.age};
     if (a.glare != "none") sees.scatters = scatters;

@@ -110,7 +110,7 @@ vision::GlareReport read_glare(const roads::LoadedLayout& layout, const roads::L
     const render::Frame frame = renderer.render(road_settings(), view, {scene::world_transforms(scene, 0)}, 0,
                                                 {.display = false, .scene = true});
     std::vector<vision::DazzlingLight> beside;
-    for (const gpu_scene::OffscreenLamp& lamp : frame.outside)
+    for (const eye::OffscreenLamp& lamp : frame.outside)
         if (lamp.direction.y < double(view.tangent_high.y) * -lamp.direction.z)
             beside.push_back({lamp.direction, luminance(lamp.illuminance)});
     const vision::ImageAngles image = gpu_scene::angles_of(view);

@@ -57,7 +57,7 @@ public:
 
     std::vector<float> retina(const render::HostPicture& picture) const {
         return render::retinal_luminance(study_.mapper, picture,
-                                         gpu_scene::ScatterSettings{.eye = study_.settings.scatter.eye});
+                                         eye::ScatterSettings{.eye = study_.settings.scatter.eye});
     }
     /// Without a map where a picture is too small for one.
     analysis::SaliencyMap saliency(const render::HostPicture& picture) const {

@@ -125,7 +125,7 @@ struct TonemappedPicture {
 
 /// `held`: see PictureRequest.
 TonemappedPicture show(const TonemapArguments& arguments, const render::ToneChainSettings& settings,
-                       const std::vector<gpu_scene::OffscreenLamp>& lamps, render::ToneMapper& mapper, const Job& job,
+                       const std::vector<eye::OffscreenLamp>& lamps, render::ToneMapper& mapper, const Job& job,
                        bool wants_codes, double held) {
     const io::HdrImage image = io::read_hdr_image(job.input, {}, arguments.layer);
     TonemappedPicture shown;
@@ -241,7 +241,7 @@ void run(const TonemapArguments& arguments) {
     const render::ToneChainSettings settings = apps::tone_settings(arguments.tone);
     apps::check_target(arguments.glare, settings);
     const Plan plan = plan_of(arguments);
-    const std::vector<gpu_scene::OffscreenLamp> lamps = apps::read_lamps(arguments.glare.lamps);
+    const std::vector<eye::OffscreenLamp> lamps = apps::read_lamps(arguments.glare.lamps);
     for (const std::string& output : arguments.outputs)
         if (output.ends_with('/') && !fs::is_directory(output))
             throw Error("-o " + one_line(output) + ": there is no such folder");

@@ -11,12 +11,12 @@ namespace {
 
 struct Scattering {
     VesperGlare glare;
-    gpu_scene::ScatterSettings::Model model;
+    eye::ScatterSettings::Model model;
 };
-constexpr Scattering kScatterings[] = {{VESPER_GLARE_CIE, gpu_scene::ScatterSettings::Model::Cie},
-                                       {VESPER_GLARE_TEMPORAL, gpu_scene::ScatterSettings::Model::Temporal},
-                                       {VESPER_GLARE_SPENCER, gpu_scene::ScatterSettings::Model::Spencer},
-                                       {VESPER_GLARE_WARD, gpu_scene::ScatterSettings::Model::Ward}};
+constexpr Scattering kScatterings[] = {{VESPER_GLARE_CIE, eye::ScatterSettings::Model::Cie},
+                                       {VESPER_GLARE_TEMPORAL, eye::ScatterSettings::Model::Temporal},
+                                       {VESPER_GLARE_SPENCER, eye::ScatterSettings::Model::Spencer},
+                                       {VESPER_GLARE_WARD, eye::ScatterSettings::Model::Ward}};
 constexpr uint32_t kAdaptTo[] = {shared::kAdaptAverage, shared::kAdaptGaze, shared::kAdaptGazeMean,
                                  shared::kAdaptTexel};  // from VESPER_ADAPT_AVERAGE on
 constexpr uint32_t kGamuts[] = {shared::kGamutLuminance, shared::kGamutChromaticity,

@@ -7,7 +7,7 @@ struct VesperSharedEye {
     VesperSharedEye(vesper::gpu::Device& of, uint32_t count) : device(of), engine(of, count), views(count) {}
     struct View {
         vesper::render::StoredPicture light, retina;
-        std::vector<vesper::gpu_scene::OffscreenLamp> outside;
+        std::vector<vesper::eye::OffscreenLamp> outside;
         bool is_new = false;  // since the last adaptation
     };
     vesper::gpu::Device& device;

@@ -69,7 +69,7 @@ SeenPair see(VesperVision* by, const VesperObserver* observer, const VesperPictu
     const double density = density_of(a);
     require(std::abs(density_of(b) - density) <= 1e-3 * density, "pictures that are compared cover one angle");
     const vision::ScatteringEye eye{double(o.age), double(o.pigmentation)};
-    std::optional<gpu_scene::ScatterSettings> scatter;
+    std::optional<eye::ScatterSettings> scatter;
     if (!o.scattered) scatter = {.eye = eye};
     return {a.extent,
             density,

@@ -1,6 +1,7 @@
 #include "gpu/memory.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace vesper::gpu {
 namespace {
@@ -146,6 +147,20 @@ std::pair<VkDeviceMemory, uint64_t> Arena::place(const VkMemoryRequirements& nee
     blocks_.push_back({allocate(*device_, bytes, type), type, needs.size, bytes});
     bytes_ += bytes;
     return {blocks_.back().memory.get(), 0};
+}
+
+OwnedBuffer upload_buffer(const Device& device, Arena& arena, std::span<const std::byte> bytes,
+                          VkBufferUsageFlags usage) {
+    OwnedBuffer buffer = make_buffer(device, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    arena.bind(buffer.get());
+    const HostBuffer staging(device, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, HostBuffer::Direction::ToDevice);
+    std::memcpy(staging.data(), bytes.data(), bytes.size());
+    staging.flush();
+    device.run_once([&](VkCommandBuffer commands) {
+        const VkBufferCopy region{.size = bytes.size()};
+        vkCmdCopyBuffer(commands, staging.buffer(), buffer.get(), 1, &region);
+    });
+    return buffer;
 }
 
 }  // namespace vesper::gpu

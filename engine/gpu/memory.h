@@ -111,4 +111,11 @@ private:
     uint64_t bytes_ = 0;
 };
 
+/// Of a buffer that kernels read as texels, either way (glsl/texels.glsl).
+inline constexpr VkBufferUsageFlags kTexelUsage =
+    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+/// Copies bytes into a new device-local buffer, by way of a host buffer, and waits.
+OwnedBuffer upload_buffer(const Device& device, Arena& arena, std::span<const std::byte> bytes,
+                          VkBufferUsageFlags usage);
+
 }  // namespace vesper::gpu

@@ -106,21 +106,6 @@ WorldSphere world_sphere_of(const GpuScene::Part& part, const glm::dmat4& to_wor
     return {centre, double(sphere_of(part, glm::mat4(glm::dmat4(glm::dmat3(to_world)))).radius)};
 }
 
-gpu::OwnedBuffer upload_buffer(const gpu::Device& device, gpu::Arena& arena, std::span<const std::byte> bytes,
-                               VkBufferUsageFlags usage) {
-    gpu::OwnedBuffer buffer = gpu::make_buffer(device, bytes.size(), usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-    arena.bind(buffer.get());
-    const gpu::HostBuffer staging(device, bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                                  gpu::HostBuffer::Direction::ToDevice);
-    std::memcpy(staging.data(), bytes.data(), bytes.size());
-    staging.flush();
-    device.run_once([&](VkCommandBuffer commands) {
-        const VkBufferCopy region{.size = bytes.size()};
-        vkCmdCopyBuffer(commands, staging.buffer(), buffer.get(), 1, &region);
-    });
-    return buffer;
-}
-
 GpuScene::GpuScene(const gpu::Device& device, const scene::Scene& scene, PictureFormat pictures)
     : arena_(device), textures_(device, arena_, pictures), occluders_(occluder_digest(scene)) {
     const Budget budget("preparing " + (scene.name.empty() ? "the scene" : one_line(scene.name)));
@@ -152,9 +137,11 @@ void GpuScene::upload_geometry(const gpu::Device& device, const scene::Scene& sc
     }
     if (indices.empty()) return;
     vertex_count_ = vertices.size(), index_count_ = indices.size();
-    vertices_ = upload_buffer(device, arena_, bytes_of(vertices), kTexelUsage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-    facets_ = upload_buffer(device, arena_, bytes_of(of_triangles), kTexelUsage);
-    indices_ = upload_buffer(device, arena_, bytes_of(indices), kTexelUsage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    vertices_ =
+        gpu::upload_buffer(device, arena_, bytes_of(vertices), gpu::kTexelUsage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+    facets_ = gpu::upload_buffer(device, arena_, bytes_of(of_triangles), gpu::kTexelUsage);
+    indices_ =
+        gpu::upload_buffer(device, arena_, bytes_of(indices), gpu::kTexelUsage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
 }
 
 void GpuScene::place(const scene::Scene& scene) {

@@ -105,11 +105,4 @@ struct WorldSphere {
 };
 WorldSphere world_sphere_of(const GpuScene::Part& part, const glm::dmat4& to_world);
 
-/// Of a buffer that kernels read as texels, either way (glsl/texels.glsl).
-inline constexpr VkBufferUsageFlags kTexelUsage =
-    VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-/// Copies bytes into a new device-local buffer, by way of a host buffer, and waits.
-gpu::OwnedBuffer upload_buffer(const gpu::Device& device, gpu::Arena& arena, std::span<const std::byte> bytes,
-                               VkBufferUsageFlags usage);
-
 }  // namespace vesper::gpu_scene

@@ -14,8 +14,9 @@ void FrameQueue::prepare(const ToneChainSettings& settings) {
 ChainInputs FrameQueue::inputs(const ToneChainSettings& settings, const gpu_scene::View& view, float seconds) {
     ChainInputs inputs{.seconds = seconds, .eye = eye_};
     if (settings.glare != Glare::Scatter) return inputs;
-    if (!scatter_.has(settings.scatter, view)) wait();  // frames under way use the fit that the new one replaces
-    inputs.scatter.fit = &scatter_.at(settings.scatter, view);
+    const vision::ImageAngles image = gpu_scene::angles_of(view);
+    if (!scatter_.has(settings.scatter, image)) wait();  // frames under way use the fit that the new one replaces
+    inputs.scatter.fit = &scatter_.at(settings.scatter, image);
     if (!settings.scatter.has_corona()) return inputs;
     const double life = double(eye_.value.seconds) + double(eye_.value.seconds_lost) + double(seconds);
     inputs.corona = &corona_.at(settings.scatter, double(eye_.value.pupil), life);

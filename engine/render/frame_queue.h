@@ -6,8 +6,8 @@
 #include <string>
 
 #include "base/stopwatch.h"
-#include "gpu_scene/eye_corona.h"
-#include "gpu_scene/eye_scatter.h"
+#include "eye/corona.h"
+#include "eye/scatter.h"
 #include "graph/executor.h"
 #include "render/eye_state.h"
 #include "render/frame_context.h"
@@ -82,8 +82,8 @@ private:
 
     gpu::KernelCache kernels_;
     gpu::GraphicsPipelineCache pipelines_;
-    gpu_scene::ScatterCache scatter_;
-    gpu_scene::CoronaCache corona_;
+    eye::ScatterCache scatter_;
+    eye::CoronaCache corona_;
     EyeState eye_;
     graph::FrameGraph graph_;      // of the last frame
     graph::Executor executor_;     // waits for its frames, which use the members above

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "eye/scatter.h"
 #include "gpu/memory.h"
-#include "gpu_scene/eye_scatter.h"
 #include "gpu_scene/view.h"
 #include "graph/frame_graph.h"
 #include "vision/light_elsewhere.h"
@@ -19,7 +19,7 @@ struct HostPicture {
     uint32_t channels = 3;          ///< 3 or 4
     float scale = 1;                ///< cd/m^2 per unit
     double vertical_fov = 0.7;      ///< rad, in (0, pi): what angle the picture covers in height
-    std::vector<gpu_scene::OffscreenLamp> outside =
+    std::vector<eye::OffscreenLamp> outside =
         {};  ///< lamps that scatter light into it; the picture is seen along -z, y up
     const vision::ImageAngles* angles =
         nullptr;  ///< of its edges, in place of vertical_fov, where the eye's axis is not in its middle

@@ -8,13 +8,13 @@ IndirectLight::IndirectLight(const gpu::Device& device, std::shared_ptr<const tr
         const gpu_scene::IrradianceCells dark =
             gpu_scene::irradiance_cells(*radiosity_, std::vector<glm::vec3>(radiosity_->cells()));
         bytes_ = std::as_bytes(std::span(dark.texels)).size(), log2_places_ = dark.log2_places;
-        texels_ = gpu::make_buffer(device, bytes_, gpu_scene::kTexelUsage | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+        texels_ = gpu::make_buffer(device, bytes_, gpu::kTexelUsage | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
         arena_.bind(texels_.get());
     }
     if (radiosity_->bodies.hidden.empty()) return;
     const std::vector<uint32_t> volumes = gpu_scene::volume_texels(radiosity_->bodies);
     const auto bytes = std::as_bytes(std::span(volumes));
-    volumes_ = gpu_scene::upload_buffer(device, arena_, bytes, gpu_scene::kTexelUsage);
+    volumes_ = gpu::upload_buffer(device, arena_, bytes, gpu::kTexelUsage);
     volume_bytes_ = bytes.size();
 }
 

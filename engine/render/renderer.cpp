@@ -64,8 +64,7 @@ struct Renderer::State {
     void keep_maps(Pending& of, ShadowReport& report);
     void keep_pending_maps();
     void add_samples(const Request& of, const Prepared& prepared, std::span<const glm::dvec2> places, Pending& pending);
-    void average_display(const Request& of, const ChainInputs& chain, const gpu_scene::Projection* projection,
-                         Frame& frame);
+    void average_display(const Request& of, const ChainInputs& chain, const eye::Projection* projection, Frame& frame);
     void add_obstacles(const FrameContext& frame, const Request& of, const SceneLight& light, const ToneChain& chain,
                        Pending& pending) const;
     void submit(const Request& of, float seconds, const Outputs& outputs, const graph::SubmitSemaphores& semaphores);
@@ -196,8 +195,8 @@ void Renderer::State::add_samples(const Request& of, const Prepared& prepared, s
 }
 
 // Samples once more, with the curve that their mean led to.
-void Renderer::State::average_display(const Request& of, const ChainInputs& of_mean,
-                                      const gpu_scene::Projection* projection, Frame& frame) {
+void Renderer::State::average_display(const Request& of, const ChainInputs& of_mean, const eye::Projection* projection,
+                                      Frame& frame) {
     ChainInputs chain = of_mean;
     chain.curve = frame.curve;
     DisplayAverage average(of.settings.display, size_t(frame.shown_extent.width) * frame.shown_extent.height);

@@ -34,7 +34,7 @@ struct Frame : ToneMapped {
     float far = 0;                          ///< m: the far limit of the clusters
     std::vector<gpu_scene::GlareSource>
         glare_sources;  ///< lamps before the eye, as if nothing stood between; none with Operator::Ldr
-    std::vector<gpu_scene::OffscreenLamp>
+    std::vector<eye::OffscreenLamp>
         outside;  ///< light from beside the picture: of those, and of RenderSettings::offscreen_lamps
     std::vector<SeenObstacle> obstacles;   ///< those of the settings; none with Operator::Ldr, Outputs::retina and
                                            ///< Outputs::statistics

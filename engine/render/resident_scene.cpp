@@ -33,7 +33,7 @@ SceneData::SceneData(const gpu::Device& device, const scene::Scene& scene)
 
 SceneTexels SceneData::upload(const gpu::Device& device, const std::vector<glm::vec4>& texels) {
     const auto bytes = std::as_bytes(std::span(texels));
-    return {gpu_scene::upload_buffer(device, texel_arena, bytes, gpu_scene::kTexelUsage), bytes.size()};
+    return {gpu::upload_buffer(device, texel_arena, bytes, gpu::kTexelUsage), bytes.size()};
 }
 
 void ResidentScene::forget() {

@@ -10,7 +10,7 @@
 namespace vesper::render {
 
 std::vector<float> retinal_luminance(ToneMapper& mapper, const HostPicture& picture,
-                                     const std::optional<gpu_scene::ScatterSettings>& eye) {
+                                     const std::optional<eye::ScatterSettings>& eye) {
     ToneMapped seen;
     std::vector<float> lit;
     std::span<const float> values = picture.values;

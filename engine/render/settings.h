@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "gpu_scene/eye_scatter.h"
+#include "eye/scatter.h"
 #include "render/light_settings.h"
 #include "render/tone_chain.h"
 #include "scene/obstacles.h"
@@ -16,7 +16,7 @@
 namespace vesper::render {
 
 struct RenderSettings : ToneChainSettings, LightSettings {
-    std::vector<gpu_scene::OffscreenLamp>
+    std::vector<eye::OffscreenLamp>
         offscreen_lamps;  ///< on other screens: scattered in the eye, not drawn; directions in the view frame
     float ldr_reference_distance = 6.5f;  ///< m: where an LDR lamp of 1.0 gives 1.0; the paper's lamp height
     bool unit_lamps = false;  ///< lamps and luminaires of 1.0 instead of their candela, emission of at most 1.0

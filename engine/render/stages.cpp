@@ -55,13 +55,13 @@ CompositeSettings light_of(const OperatorInfo& op, const ToneChainSettings& sett
 }
 
 // The texels of needles and halo; none without them.
-std::span<const glm::vec4> pattern_of(const gpu_scene::Corona* corona) {
+std::span<const glm::vec4> pattern_of(const eye::Corona* corona) {
     return corona ? std::span<const glm::vec4>(corona->texels) : std::span<const glm::vec4>();
 }
 
 // Of the picture, or of a projector that shows it.
 Resource add_codes(const FrameContext& frame, const CompositeInputs& in, const CompositeSettings& codes,
-                   const gpu_scene::Projection* projection) {
+                   const eye::Projection* projection) {
     if (!projection) return add_composite(frame, in, codes);
     return add_projection(frame, add_shown_light(frame, in, codes), *projection, {codes.display, codes.blue_first});
 }
@@ -74,7 +74,7 @@ shared::ToneParameters parameters_of(const ToneChainSettings& settings, const Fo
 }  // namespace
 
 Resource add_retina(const FrameContext& frame, Resource light, const ScatterInputs& scatter,
-                    const gpu_scene::Corona* corona) {
+                    const eye::Corona* corona) {
     const Resource retina = add_eye_scatter(frame, light, scatter);
     return add_corona(frame, light, retina, pattern_of(corona));
 }

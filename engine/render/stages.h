@@ -6,8 +6,8 @@
 
 #include <optional>
 
-#include "gpu_scene/eye_corona.h"
-#include "gpu_scene/projection.h"
+#include "eye/corona.h"
+#include "eye/projection.h"
 #include "render/passes/adapt.h"
 #include "render/passes/bloom.h"
 #include "render/passes/eye_scatter.h"
@@ -25,13 +25,13 @@ struct ToneChainSettings {
     vision::Display display;
     Glare glare = Glare::None;
     BloomSettings bloom;
-    gpu_scene::ScatterSettings scatter;  ///< of Glare::Scatter: light scattered in the eye, in cd/m^2
+    eye::ScatterSettings scatter;  ///< of Glare::Scatter: light scattered in the eye, in cd/m^2
 };
 
 /// Retina: the light, rgba32f, cd/m^2 RGB, as the eye scatters it: with needles and halo of bright lamps where there is
 /// a corona, which needs a fit of the scatter. Without either returns `light`.
 graph::Resource add_retina(const FrameContext& frame, graph::Resource light, const ScatterInputs& scatter,
-                           const gpu_scene::Corona* corona);
+                           const eye::Corona* corona);
 
 /// Statistics: what an eye adapts to.
 struct Statistics {
@@ -55,7 +55,7 @@ struct ShowOutputs {
     std::optional<graph::ExternalImage> image = {};
     /// If not null: all codes are of the picture of a projector, with its extent. It is read while the frame is
     /// declared. Its rendered picture must be of the frame's extent.
-    const gpu_scene::Projection* projection = nullptr;
+    const eye::Projection* projection = nullptr;
 };
 struct Shown {
     graph::Resource codes;          ///< a word a pixel

@@ -27,7 +27,7 @@ struct Outputs {
     std::optional<graph::ExternalImage> shown = {};
     /// If not null: all codes, those of `shown` too, are of the picture of a projector, with its extent. It is read
     /// while the frame is declared. Its rendered picture must be of the frame's extent.
-    const gpu_scene::Projection* projection = nullptr;
+    const eye::Projection* projection = nullptr;
 };
 
 /// Readbacks of the chain. Those that were not asked for are none.
@@ -44,7 +44,7 @@ struct ChainInputs {
     float seconds = 0;  ///< since the last frame
     EyeState eye = {};
     ScatterInputs scatter = {};                   ///< without a fit no light is scattered in the eye
-    const gpu_scene::Corona* corona = nullptr;    ///< needles and halo of lamps; needs a fit of the scatter
+    const eye::Corona* corona = nullptr;          ///< needles and halo of lamps; needs a fit of the scatter
     std::optional<shared::ToneCurve> curve = {};  ///< in place of what the eye adapts to
 };
 

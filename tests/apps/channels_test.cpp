@@ -264,7 +264,7 @@ TEST(Channels, GlareOfOtherScreensIsWhatTheyShow) {
         return glm::transpose(glm::dmat3(view.world_to_view)) *
                reference::direction_of(gpu_scene::angles_of(view), pixels);
     };
-    const vision::EyeScatter psf = gpu_scene::eye_scatter({});
+    const vision::EyeScatter psf = eye::eye_scatter({});
     const vision::ImageAngles left = gpu_scene::angles_of(drive::channel_view(channels.screens[0], driver));
     for (const size_t channel : {1u, 2u})
         for (const glm::ivec2 at : {glm::ivec2(0, 48), {1, 3}, {30, 70}, {40, 95}}) {
@@ -294,7 +294,7 @@ TEST(Channels, LampsOfOtherScreensCountOnce) {
         rig.wall.render(rig.renderer, channels, kScattering, driver, rig.frame, 0, {.display = true, .retina = true});
     const glm::dvec3 lamp(-19 * std::tan(32 * kRadiansPerDegree), 0, -19);
     const double distance = glm::length(lamp), lux = 20000 / (distance * distance);
-    const vision::EyeScatter psf = gpu_scene::eye_scatter({});
+    const vision::EyeScatter psf = eye::eye_scatter({});
     const vision::ImageAngles middle = gpu_scene::angles_of(drive::channel_view(channels.screens[1], driver));
     for (const glm::ivec2 at : {glm::ivec2(0, 60), {60, 60}, {119, 10}}) {
         const double theta = reference::degrees_apart(lamp, reference::direction_of(middle, glm::dvec2(at) + 0.5));
@@ -325,7 +325,7 @@ TEST(Channels, OneScreenIsAView) {
 TEST(Channels, NeedlesMoveWithTheOneEye) {
     Rig rig(wall_scene(0.02f, 20000, scene::Lamp::Kind::Spot));
     render::RenderSettings settings = kScattering;
-    settings.scatter.model = gpu_scene::ScatterSettings::Model::Temporal;
+    settings.scatter.model = eye::ScatterSettings::Model::Temporal;
     const auto left = [&](float seconds) {
         return rig.wall
             .render(rig.renderer, three(), settings, View::symmetric({1, 1}, 1, glm::mat4(1)), rig.frame, seconds,
@@ -419,8 +419,7 @@ TEST(Channels, AreShownByTheirDisplaysAndProjectors) {
     const vision::WarpMesh over =
         vision::parse_warp_mesh({reinterpret_cast<const uint8_t*>(text.data()), text.size()}, "m");
     const VkExtent2D extent = own.screens[0].extent;
-    own.screens[0].projection =
-        std::make_shared<const gpu_scene::Projection>(gpu_scene::projection_of(extent, extent, &over));
+    own.screens[0].projection = std::make_shared<const eye::Projection>(eye::projection_of(extent, extent, &over));
     const auto shown = [&](const Channels& channels, const vision::Display& display) {
         render::RenderSettings settings;
         settings.display = display;

@@ -44,7 +44,7 @@ constexpr Limits kLimits[]{
 struct Picture {
     VkExtent2D extent;
     std::vector<float> pixels;  // RGBA, cd/m^2
-    std::vector<gpu_scene::OffscreenLamp> outside;
+    std::vector<eye::OffscreenLamp> outside;
     double vertical_fov;  // rad
 };
 

@@ -151,15 +151,15 @@ TEST_F(CInterface, EverySettingArrives) {
         {"cie", [](auto& s) { s.glare = VESPER_GLARE_CIE, s.pigmentation = 1.2f; },
          [](auto& e) { e.glare = render::Glare::Scatter, e.scatter.eye.pigmentation = double(1.2f); }},
         {"ward's veil", [](auto& s) { s.glare = VESPER_GLARE_WARD; },
-         [](auto& e) { e.glare = render::Glare::Scatter, e.scatter.model = gpu_scene::ScatterSettings::Model::Ward; }},
+         [](auto& e) { e.glare = render::Glare::Scatter, e.scatter.model = eye::ScatterSettings::Model::Ward; }},
         {"spencer", [](auto& s) { s.glare = VESPER_GLARE_SPENCER, s.pupil = VESPER_PUPIL_SCOTOPIC; },
          [](auto& e) {
-             e.glare = render::Glare::Scatter, e.scatter.model = gpu_scene::ScatterSettings::Model::Spencer,
+             e.glare = render::Glare::Scatter, e.scatter.model = eye::ScatterSettings::Model::Spencer,
              e.scatter.state = vision::SpencerState::Scotopic;
          }},
         {"temporal", [](auto& s) { s.glare = VESPER_GLARE_TEMPORAL, s.eye_seed = 5, s.lashes = 1; },
          [](auto& e) {
-             e.glare = render::Glare::Scatter, e.scatter.model = gpu_scene::ScatterSettings::Model::Temporal,
+             e.glare = render::Glare::Scatter, e.scatter.model = eye::ScatterSettings::Model::Temporal,
              e.scatter.aperture = {5, true};
          }},
         {"paper's glare", [](auto& s) { s.glare = VESPER_GLARE_LDR; }, [](auto& e) { e.glare = render::Glare::Ldr; }},

@@ -75,7 +75,7 @@ struct Retinae {
 };
 
 Retinae retinae(const std::vector<float>& a, const std::vector<float>& b, float scale,
-                const std::optional<gpu_scene::ScatterSettings>& eye) {
+                const std::optional<eye::ScatterSettings>& eye) {
     gpu::Device own;
     render::ToneMapper engine(own);
     const auto one = [&](const std::vector<float>& rgb) {
@@ -99,7 +99,7 @@ TEST_F(CVision, ScatteredPicturesAreThoseOnTheRetina) {
     const std::vector<float> before = map;
     EXPECT_GT(differences.largest, 0.1);
     EXPECT_LT(differences.largest, 0.999);
-    const Retinae on = retinae(a, b, 1, gpu_scene::ScatterSettings{.eye = {23, 0.5}});
+    const Retinae on = retinae(a, b, 1, eye::ScatterSettings{.eye = {23, 0.5}});
     const auto grey = [](const std::vector<float>& luminances) {
         std::vector<float> rgb;
         for (const float l : luminances) rgb.insert(rgb.end(), 3, l);
@@ -126,7 +126,7 @@ TEST_F(CVision, DifferencesAreThoseOfTheEngine) {
          std::initializer_list<const VesperObserver*>{nullptr, &old, &scattered, &dark}) {
         ASSERT_EQ(compare(first, second, observer), VESPER_OK) << error.message;
         const double age = observer ? 70 : 23, iris = observer ? double(observer->pigmentation) : 0.5;
-        std::optional<gpu_scene::ScatterSettings> eye;
+        std::optional<eye::ScatterSettings> eye;
         if (observer != &scattered) eye = {.eye = {age, iris}};
         const Retinae on = retinae(a, b, 0.5f, eye);
         const auto want = analysis::visible_differences({kWidth, kHeight, kPerDegree, on.first, on.second},
@@ -174,8 +174,8 @@ TEST_F(CVision, FidelityIsThatOfTheEngine) {
         ASSERT_EQ(vesper_contrast_fidelity(vision, &observer, forward ? &a : &b, forward ? &b : &a, &maps, &error),
                   VESPER_OK)
             << error.message;
-        const Retinae on = retinae(forward ? scene : flat, forward ? flat : scene, 1,
-                                   gpu_scene::ScatterSettings{.eye = {70, double(1.2f)}});
+        const Retinae on =
+            retinae(forward ? scene : flat, forward ? flat : scene, 1, eye::ScatterSettings{.eye = {70, double(1.2f)}});
         const auto want = analysis::contrast_fidelity({kWidth, kHeight, kPerDegree, on.first, on.second},
                                                       {.age = 70, .scatters = vision::ScatteringEye{70, double(1.2f)}});
         EXPECT_EQ(seen, want.seen);

@@ -14,7 +14,7 @@
 namespace vesper::test::projection_chain_test {
 namespace {
 
-using gpu_scene::Projection, gpu_scene::projection_of, render::ToneMapped;
+using eye::Projection, eye::projection_of, render::ToneMapped;
 
 class ProjectionChain : public testing::Test {
 protected:
@@ -108,7 +108,7 @@ TEST_F(ProjectionChain, WhatIsNotDrawnIsDarkest) {
     const VkExtent2D extent{37, 23};
     const std::vector<glm::vec4> bright(size_t{37} * 23, glm::vec4(100, 100, 100, 1));
     Projection holes = projection_of(extent, extent);
-    for (size_t i = 0; i < holes.pixels.size(); i += 3) holes.pixels[i].factor = gpu_scene::kNotDrawn;
+    for (size_t i = 0; i < holes.pixels.size(); i += 3) holes.pixels[i].factor = eye::kNotDrawn;
     for (const render::ToneChainSettings& settings : ways()) {
         const ToneMapped plain = map(bright, extent, nullptr, settings), got = map(bright, extent, &holes, settings);
         const ToneMapped black = map(std::vector<glm::vec4>(bright.size(), glm::vec4(0, 0, 0, 1)), extent, nullptr,

@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "analysis/display_fit.h"
-#include "gpu_scene/projection.h"
+#include "eye/projection.h"
 #include "io/exif.h"
 #include "io/hdr_image.h"
 #include "io/image_file.h"
@@ -63,7 +63,7 @@ void hear_datagrams(Bytes bytes) {
 
 void draw_mesh(Bytes bytes) {
     const vision::WarpMesh mesh = vision::parse_warp_mesh(bytes, "x.data");
-    gpu_scene::projection_of({64, 36}, {48, 27}, &mesh);
+    eye::projection_of({64, 36}, {48, 27}, &mesh);
 }
 
 // The rules of a file, applied to a scene that has something for most of them.

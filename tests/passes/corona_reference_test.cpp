@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gpu_scene/eye_corona.h"
+#include "eye/corona.h"
 
 namespace vesper::test::corona_reference_test {
 namespace {
@@ -46,11 +46,11 @@ TEST(CoronaReference, WhatLeavesTheListHasNothingLeft) {
 
 // Summed over a ring about the lamp, and over the whole reach: as much light as before.
 TEST(CoronaReference, AddsNoLight) {
-    gpu_scene::CoronaCache cache;
-    for (const auto model : {gpu_scene::ScatterSettings::Model::Temporal, gpu_scene::ScatterSettings::Model::Spencer}) {
-        const gpu_scene::ScatterSettings settings{.model = model, .state = vision::SpencerState::Scotopic};
+    eye::CoronaCache cache;
+    for (const auto model : {eye::ScatterSettings::Model::Temporal, eye::ScatterSettings::Model::Spencer}) {
+        const eye::ScatterSettings settings{.model = model, .state = vision::SpencerState::Scotopic};
         const auto texels = cache.at(settings, 1, 0.5).texels;
-        const vision::EyeScatter smooth = gpu_scene::eye_scatter(settings);
+        const vision::EyeScatter smooth = eye::eye_scatter(settings);
         const reference::CoronaLight lamp{glm::normalize(dvec3(0.3, -0.2, -1)), dvec3(1), 1e-4};
         const dvec3 right = glm::normalize(glm::cross(lamp.direction, dvec3(0, 1, 0))),
                     up = glm::cross(right, lamp.direction);
@@ -67,7 +67,7 @@ TEST(CoronaReference, AddsNoLight) {
             }
             sum /= double(kParts);
             // 1e-4 of the veil: sums of single precision.
-            if (model == gpu_scene::ScatterSettings::Model::Temporal) {
+            if (model == eye::ScatterSettings::Model::Temporal) {
                 EXPECT_NEAR((0.212639 * sum.r + 0.715169 * sum.g + 0.072192 * sum.b) /
                                 smooth(vision::GlarePattern::angle(ring + 0.5)),
                             0, 1e-4)

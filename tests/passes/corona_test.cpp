@@ -1,7 +1,7 @@
 // Needles and halo on the device against their reference. SPDX-License-Identifier: MIT
 #include "passes/corona_reference.h"
 
-#include "gpu_scene/eye_corona.h"
+#include "eye/corona.h"
 #include "render/passes/corona.h"
 #include "support/compare.h"
 #include "support/texels.h"
@@ -24,8 +24,8 @@ View wide(VkExtent2D extent) {
 }
 
 const std::vector<vec4>& pattern() {
-    static gpu_scene::CoronaCache cache;
-    return cache.at({.model = gpu_scene::ScatterSettings::Model::Temporal}, 1, 0.3).texels;
+    static eye::CoronaCache cache;
+    return cache.at({.model = eye::ScatterSettings::Model::Temporal}, 1, 0.3).texels;
 }
 
 std::vector<vec4> seen(PassRig& rig, const View& view, const std::vector<vec4>& scene, const std::vector<vec4>& veiled,

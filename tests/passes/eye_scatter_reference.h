@@ -9,7 +9,7 @@
 
 #include <glm/glm.hpp>
 
-#include "gpu_scene/eye_scatter.h"
+#include "eye/scatter.h"
 #include "vision/light_elsewhere.h"
 #include "vision/scatter_fit.h"
 
@@ -89,14 +89,14 @@ inline int parts_for(ivec2 to, ivec2 from) {
 
 /// Seen at one pixel: every pixel, and lamps outside. Exact, and slow.
 inline dvec3 exact_at(const vision::EyeScatter& psf, const vision::ImageAngles& image, const Plane& scene,
-                      const std::vector<gpu_scene::OffscreenLamp>& lamps, ivec2 to) {
+                      const std::vector<eye::OffscreenLamp>& lamps, ivec2 to) {
     dvec3 sum(0);
     for (int y = 0; y < scene.size.y; ++y)
         for (int x = 0; x < scene.size.x; ++x)
             if (scene.at({x, y}) != dvec3(0))
                 sum += scene.at({x, y}) * exact_response(psf, image, to, {x, y}, parts_for(to, {x, y}));
     const dvec3 axis = direction_of(image, dvec2(to) + 0.5);
-    for (const gpu_scene::OffscreenLamp& lamp : lamps) {
+    for (const eye::OffscreenLamp& lamp : lamps) {
         if (lamp.direction.z < 0) sum += psf(degrees_apart(axis, lamp.direction)) * lamp.illuminance;
     }
     return sum;

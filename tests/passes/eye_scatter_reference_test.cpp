@@ -23,7 +23,7 @@ ImageAngles driver(int width, int height) {
 constexpr ivec2 kStrip(4, 32);
 
 EyeScatter eye(double age) {
-    return gpu_scene::eye_scatter({gpu_scene::ScatterSettings::Model::Cie, {age, 0.5}, vision::SpencerState::Photopic});
+    return eye::eye_scatter({eye::ScatterSettings::Model::Cie, {age, 0.5}, vision::SpencerState::Photopic});
 }
 
 // 1: nothing is lost. A picture of 172 degrees has all of the hemisphere but 0.2 % of the light.
@@ -181,10 +181,9 @@ TEST(ScatterFit, LowAndNarrowPicturesCostNoMore) {
 
 TEST(ScatterFit, SpencerWardAndSmallPictures) {
     const EyeScatter spencer =
-        gpu_scene::eye_scatter({gpu_scene::ScatterSettings::Model::Spencer, {}, vision::SpencerState::Photopic});
+        eye::eye_scatter({eye::ScatterSettings::Model::Spencer, {}, vision::SpencerState::Photopic});
     expect_response(spencer, fit_scatter(spencer, driver(420, 262), kStrip), {300, 100}, 1e-3);
-    const EyeScatter ward =
-        gpu_scene::eye_scatter({gpu_scene::ScatterSettings::Model::Ward, {}, vision::SpencerState::Photopic});
+    const EyeScatter ward = eye::eye_scatter({eye::ScatterSettings::Model::Ward, {}, vision::SpencerState::Photopic});
     expect_response(ward, fit_scatter(ward, driver(420, 262), kStrip), {300, 100}, 1e-3);
     const EyeScatter psf = eye(35);
     expect_response(psf, fit_scatter(psf, driver(37, 22), kStrip), {18, 11}, 1e-3);

@@ -17,8 +17,8 @@ constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::nume
 
 gpu_scene::View view_of(VkExtent2D extent) { return gpu_scene::View::symmetric(extent, 0.6435f, glm::mat4(1)); }
 
-std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, const gpu_scene::GpuScatter& fit,
-                            const std::vector<gpu_scene::OffscreenLamp>& lamps,
+std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, const eye::GpuScatter& fit,
+                            const std::vector<eye::OffscreenLamp>& lamps,
                             const vision::OffscreenLight* beyond = nullptr) {
     graph::FrameGraph graph;
     const VkExtent2D extent{uint32_t(fit.image().width), uint32_t(fit.image().height)};
@@ -30,7 +30,7 @@ std::vector<glm::vec4> seen(PassRig& rig, const std::vector<glm::vec4>& pixels, 
 }
 
 /// Beside the picture, above it, just outside a corner, far away, and behind.
-std::vector<gpu_scene::OffscreenLamp> some_lamps(const vision::ImageAngles& image) {
+std::vector<eye::OffscreenLamp> some_lamps(const vision::ImageAngles& image) {
     const auto towards = [&](dvec2 pixels) { return reference::direction_of(image, pixels); };
     const double w = image.width, h = image.height;
     return {{towards({-2.5, h / 3}), {3, 2, 1}},
@@ -69,13 +69,12 @@ vision::OffscreenLight some_light(const vision::ImageAngles& image, uint32_t see
 
 void expect_reference(PassRig& rig, VkExtent2D extent, std::vector<glm::vec4> pixels, bool lamps, bool others = false) {
     SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
-    const gpu_scene::ScatterSettings settings;
+    const eye::ScatterSettings settings;
     const vision::ImageAngles image = gpu_scene::angles_of(view_of(extent));
-    const gpu_scene::GpuScatter resident(rig.device(), settings, image);
+    const eye::GpuScatter resident(rig.device(), settings, image);
     const vision::ScatterFit fit =
-        vision::fit_scatter(gpu_scene::eye_scatter(settings), image, gpu_scene::scatter_down_strip(rig.device()));
-    const std::vector<gpu_scene::OffscreenLamp> outside =
-        lamps ? some_lamps(image) : std::vector<gpu_scene::OffscreenLamp>{};
+        vision::fit_scatter(eye::eye_scatter(settings), image, eye::scatter_down_strip(rig.device()));
+    const std::vector<eye::OffscreenLamp> outside = lamps ? some_lamps(image) : std::vector<eye::OffscreenLamp>{};
 
     reference::Plane scene({image.width, image.height});
     for (size_t i = 0; i < pixels.size(); ++i) scene.texels[i] = dvec3(pixels[i]);
@@ -138,7 +137,7 @@ TEST(EyeScatter, AHeadlampDoesNotDrownTheDark) {
 TEST(EyeScatter, RunsAreAlikeToTheLastBit) {
     PassRig rig;
     const VkExtent2D extent{131, 67};
-    const gpu_scene::GpuScatter fit(rig.device(), {}, gpu_scene::angles_of(view_of(extent)));
+    const eye::GpuScatter fit(rig.device(), {}, gpu_scene::angles_of(view_of(extent)));
     const auto pixels = night_pixels(extent, 8);
     EXPECT_EQ(seen(rig, pixels, fit, some_lamps(fit.image())), seen(rig, pixels, fit, some_lamps(fit.image())));
 }
@@ -148,13 +147,13 @@ TEST(EyeScatter, LampsOutsideGoOnWhereThoseInsideEnd) {
     PassRig rig;
     const VkExtent2D extent{300, 190};
     const vision::ImageAngles image = gpu_scene::angles_of(view_of(extent));
-    const gpu_scene::GpuScatter fit(rig.device(), {}, image);
-    const vision::EyeScatter psf = gpu_scene::eye_scatter({});
+    const eye::GpuScatter fit(rig.device(), {}, image);
+    const vision::EyeScatter psf = eye::eye_scatter({});
     const std::vector<glm::vec4> dark(size_t(extent.width) * extent.height, glm::vec4(0));
     for (double beyond : {-30.5, -3.5, 1.5, 6.5, 12.5, 25.5, 60.5, 111.5, 300.5, 900.5}) {
         const dvec3 direction = reference::direction_of(image, {-beyond, 80.5});
         std::vector<glm::vec4> pixels = dark;
-        std::vector<gpu_scene::OffscreenLamp> lamps;
+        std::vector<eye::OffscreenLamp> lamps;
         if (beyond < 0)
             pixels[size_t(80 * 300 - beyond)] = glm::vec4(float(1 / reference::solid_angle(image, direction)));
         else

@@ -12,7 +12,7 @@
 namespace vesper::test::projection_test {
 namespace {
 
-using gpu_scene::Projection;
+using eye::Projection;
 
 // Beyond half a code that rounding takes, of white: the products of float weights are right to some 3e-7 of the light,
 // of which a code of 10 bits near black is no larger part.
@@ -39,7 +39,7 @@ Projection projection_for(VkExtent2D picture, VkExtent2D extent, uint32_t seed) 
     for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
         glm::vec2 at = (1.2f * glm::vec2(unit(random), unit(random)) - 0.1f) * size;
         if (i % 5 == 0) at = glm::floor(at) + 0.5f;
-        made.pixels.push_back({at, i % 7 == 0 ? 1 : i % 7 == 1 ? 0 : i % 7 == 2 ? gpu_scene::kNotDrawn : unit(random)});
+        made.pixels.push_back({at, i % 7 == 0 ? 1 : i % 7 == 1 ? 0 : i % 7 == 2 ? eye::kNotDrawn : unit(random)});
     }
     return made;
 }
@@ -103,7 +103,7 @@ TEST(ProjectionPass, MiddlesOfPixelsAreExact) {
     const VkExtent2D extent{65, 3};
     const auto light = light_of(extent, 5);
     const vision::Display display{.bits = 10};
-    const auto words = words_of(rig, light, gpu_scene::projection_of(extent, extent), {display});
+    const auto words = words_of(rig, light, eye::projection_of(extent, extent), {display});
     const vision::DisplayCurve curve(display);
     for (size_t i = 0; i < words.size(); ++i)
         for (uint32_t c = 0; c < 3; ++c) {
@@ -124,13 +124,13 @@ TEST(ProjectionPass, OfAnotherPictureIsRefused) {
     const auto complaint = [&](const Projection& projection) {
         return complaint_of([&] { render::add_projection(frame, light, projection, {}); });
     };
-    EXPECT_TRUE(contains(complaint(gpu_scene::projection_of({2, 3}, {5, 5})),
+    EXPECT_TRUE(contains(complaint(eye::projection_of({2, 3}, {5, 5})),
                          "a projection of a picture of 2 x 3 px cannot show one of 3 x 2 px"));
-    Projection broken = gpu_scene::projection_of({3, 2}, {5, 5});
+    Projection broken = eye::projection_of({3, 2}, {5, 5});
     broken.pixels.pop_back();
     EXPECT_TRUE(contains(complaint(broken), "a projection to 5 x 5 px does not have 24 pixels"));
     EXPECT_TRUE(contains(complaint({{3, 2}, {0, 0}, {}}), "does not have 0 pixels"));
-    EXPECT_EQ(complaint(gpu_scene::projection_of({3, 2}, {5, 5})), "");
+    EXPECT_EQ(complaint(eye::projection_of({3, 2}, {5, 5})), "");
 }
 
 }  // namespace

@@ -26,14 +26,14 @@ constexpr VkExtent2D kSizes[]{{16, 8}, {33, 21}, {64, 40}, {1, 1}, {7, 50}};
 
 struct Eye {
     Glare glare;
-    gpu_scene::ScatterSettings::Model model;
+    eye::ScatterSettings::Model model;
 };
 constexpr Eye kEyes[]{{Glare::None, {}},
                       {Glare::Ldr, {}},
-                      {Glare::Scatter, gpu_scene::ScatterSettings::Model::Cie},
-                      {Glare::Scatter, gpu_scene::ScatterSettings::Model::Ward},
-                      {Glare::Scatter, gpu_scene::ScatterSettings::Model::Spencer},
-                      {Glare::Scatter, gpu_scene::ScatterSettings::Model::Temporal}};
+                      {Glare::Scatter, eye::ScatterSettings::Model::Cie},
+                      {Glare::Scatter, eye::ScatterSettings::Model::Ward},
+                      {Glare::Scatter, eye::ScatterSettings::Model::Spencer},
+                      {Glare::Scatter, eye::ScatterSettings::Model::Temporal}};
 
 constexpr uint64_t kQuickEyes = 3,
                    kSlowRounds = 10;  // the others take half a second a size, and are seen in every tenth round

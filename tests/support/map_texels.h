@@ -16,8 +16,8 @@ template <class Declare>
 std::vector<float> drawn_texels(PassRig& rig, uint32_t texels, const Declare& declare) {
     gpu::Arena arena(rig.device());
     const std::vector<uint32_t> nothing(texels / 2, 0x12341234);
-    const auto buffer = gpu_scene::upload_buffer(rig.device(), arena, std::as_bytes(std::span(nothing)),
-                                                 gpu_scene::kTexelUsage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    const auto buffer = gpu::upload_buffer(rig.device(), arena, std::as_bytes(std::span(nothing)),
+                                           gpu::kTexelUsage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     graph::FrameGraph graph;
     const graph::Resource words = graph.persistent("distances", buffer, texels * 2);
     declare(rig.frame(graph, VkExtent2D{1, 1}), words);

@@ -143,7 +143,7 @@ Lamp patch(double yaw, double pitch, double radius) {
 /// splines of light from beyond add, 1 %.
 void expect_everywhere(const std::vector<EyePicture>& pictures, const Lamp& light, double rms = 0.02,
                        double largest = 0.06, int samples = 3) {
-    const EyeScatter psf = gpu_scene::eye_scatter({});
+    const EyeScatter psf = eye::eye_scatter({});
     std::vector<Plane> scenes;
     for (const EyePicture& p : pictures) scenes.push_back(picture_of(p, light, samples));
     std::mt19937 random(4);
@@ -209,7 +209,7 @@ void add_lamp(const EyePicture& p, dvec3 direction, Plane& plane) {
 // twice: what it veils far away changes smoothly. 3 % is what the pyramid has of a pixel; a share with a step at the
 // edge of a picture is wrong by half of the lamp.
 TEST(LightElsewhere, ALampCrossesASeam) {
-    const EyeScatter psf = gpu_scene::eye_scatter({});
+    const EyeScatter psf = eye::eye_scatter({});
     for (const ivec2 others : {ivec2(150, 94), ivec2(75, 47)}) {
         const std::vector<EyePicture> pictures{screen(others, -24, 24, -15.6, 15.6, 48),
                                                screen({150, 94}, -24, 24, -15.6, 15.6, 0),
@@ -247,7 +247,7 @@ TEST(LightElsewhere, ALampCrossesASeam) {
 // What is far is taken together: those of 1280 x 800 take 15 and 18 MB of the host, one by one their pixels would take
 // 10 GB.
 TEST(LightElsewhere, WhatIsFarIsTakenTogether) {
-    const EyeScatter psf = gpu_scene::eye_scatter({});
+    const EyeScatter psf = eye::eye_scatter({});
     const std::vector<EyePicture> pictures = three({1280, 800});
     EXPECT_LT(vision::LightElsewhere(psf, pictures, 1).bytes(), 20u << 20);
     EXPECT_LT(vision::LightElsewhere(psf, pictures, 0).bytes(), 15u << 20);
@@ -282,7 +282,7 @@ TEST(LightElsewhere, OrderDoesNotMatter) {
     const Lamp light = [](dvec3 d) { return 1 + std::sin(9 * d.x + 5 * d.y); };
     std::vector<Plane> scenes;
     for (const EyePicture& p : pictures) scenes.push_back(picture_of(p, light));
-    const EyeScatter psf = gpu_scene::eye_scatter({});
+    const EyeScatter psf = eye::eye_scatter({});
     const Plane one = retina(psf, pictures, scenes, 1),
                 other = retina(psf, turned, {scenes[2], scenes[1], scenes[0]}, 1);
     for (size_t i = 0; i < one.texels.size(); ++i) ASSERT_NEAR(one.texels[i].x / other.texels[i].x, 1, 1e-6) << i;
@@ -291,7 +291,7 @@ TEST(LightElsewhere, OrderDoesNotMatter) {
 // Lamps that no picture shows, near and far: as the function has them.
 TEST(LightElsewhere, UnseenLampsVeil) {
     const std::vector<EyePicture> pictures = three();
-    const EyeScatter psf = gpu_scene::eye_scatter({});
+    const EyeScatter psf = eye::eye_scatter({});
     std::vector<Plane> dark;
     for (const EyePicture& p : pictures) dark.emplace_back(ivec2(p.image.width, p.image.height));
     for (const double pitch : {19.0, 25.0, 40.0, 70.0}) {

@@ -91,8 +91,8 @@ void add_glare_options(Command command, GlareArguments& a) {
     command.help_group();
 }
 
-std::vector<gpu_scene::OffscreenLamp> read_lamps(const std::string& file) {
-    std::vector<gpu_scene::OffscreenLamp> lamps;
+std::vector<eye::OffscreenLamp> read_lamps(const std::string& file) {
+    std::vector<eye::OffscreenLamp> lamps;
     if (file.empty()) return lamps;
     const std::vector<uint8_t> bytes = io::read_file(file, kMostLampBytes);
     photometry::LineReader lines(bytes, one_line(file));
@@ -121,9 +121,9 @@ std::vector<gpu_scene::OffscreenLamp> read_lamps(const std::string& file) {
 
 GlareReport glare_of(const GlareArguments& arguments, const render::ToneChainSettings& settings,
                      const render::ToneMapped& shown, const vision::ImageAngles& image,
-                     const std::vector<gpu_scene::OffscreenLamp>& outside) {
+                     const std::vector<eye::OffscreenLamp>& outside) {
     std::vector<vision::DazzlingLight> lamps;
-    for (const gpu_scene::OffscreenLamp& lamp : outside) lamps.push_back({lamp.direction, luminance(lamp.illuminance)});
+    for (const eye::OffscreenLamp& lamp : outside) lamps.push_back({lamp.direction, luminance(lamp.illuminance)});
     vision::GlareQuestion question{.eye = settings.scatter.eye, .gaze = glm::dvec2(settings.tone.gaze)};
     if (const auto& t = arguments.target; t.size() == 4)
         question.target = vision::MarkedTarget{{t[0], t[1]}, {t[2], t[3]}};
@@ -150,7 +150,7 @@ std::string target_line(const GlareReport& r) {
 }
 
 io::Header describe_glare(const render::ToneChainSettings& settings, const GlareReport& report) {
-    const gpu_scene::ScatterSettings& s = settings.scatter;
+    const eye::ScatterSettings& s = settings.scatter;
     io::Header header{{"vesper:glare", settings.glare == render::Glare::None  ? "none"
                                        : settings.glare == render::Glare::Ldr ? "ldr"
                                                                               : name_of(s.model)},

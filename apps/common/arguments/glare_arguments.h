@@ -6,7 +6,7 @@
 
 #include "arguments/command_line.h"
 
-#include "gpu_scene/eye_scatter.h"
+#include "eye/scatter.h"
 #include "gpu_scene/luminaires.h"
 #include "io/image_file.h"
 #include "render/tone_chain.h"
@@ -24,12 +24,12 @@ void add_glare_options(Command, GlareArguments&);
 /// Lamps on other screens, one a line: azimuth to the right, elevation, degrees from the middle of the view, lx at the
 /// eye, on a plane facing the lamp. Empty lines, lines of # and a heading of words are passed by. Throws Error, naming
 /// file and line.
-std::vector<gpu_scene::OffscreenLamp> read_lamps(const std::string& file);
+std::vector<eye::OffscreenLamp> read_lamps(const std::string& file);
 
 /// What glare hides in a frame, whose `scene` was brought back: a pixel of more than 100 times the log average is a
 /// source.
 vision::GlareReport glare_of(const GlareArguments&, const render::ToneChainSettings&, const render::ToneMapped&,
-                             const vision::ImageAngles&, const std::vector<gpu_scene::OffscreenLamp>& outside);
+                             const vision::ImageAngles&, const std::vector<eye::OffscreenLamp>& outside);
 /// Throws Error where a target is asked of an operator that shows no luminances.
 void check_target(const GlareArguments&, const render::ToneChainSettings&);
 /// How visible the marked target is, in a line.

@@ -17,13 +17,13 @@ using render::Glare;
 struct NamedGlare {
     const char* name;
     Glare glare;
-    gpu_scene::ScatterSettings::Model model = gpu_scene::ScatterSettings::Model::Cie;
+    eye::ScatterSettings::Model model = eye::ScatterSettings::Model::Cie;
 };
 constexpr NamedGlare kGlares[]{{"none", Glare::None},
-                               {"cie", Glare::Scatter, gpu_scene::ScatterSettings::Model::Cie},
-                               {"temporal", Glare::Scatter, gpu_scene::ScatterSettings::Model::Temporal},
-                               {"spencer", Glare::Scatter, gpu_scene::ScatterSettings::Model::Spencer},
-                               {"ward", Glare::Scatter, gpu_scene::ScatterSettings::Model::Ward},
+                               {"cie", Glare::Scatter, eye::ScatterSettings::Model::Cie},
+                               {"temporal", Glare::Scatter, eye::ScatterSettings::Model::Temporal},
+                               {"spencer", Glare::Scatter, eye::ScatterSettings::Model::Spencer},
+                               {"ward", Glare::Scatter, eye::ScatterSettings::Model::Ward},
                                {"ldr", Glare::Ldr}};
 const std::map<std::string, uint32_t> kGamuts{
     {"luminance", shared::kGamutLuminance}, {"chromaticity", shared::kGamutChromaticity}, {"clip", shared::kGamutClip}};
@@ -129,7 +129,7 @@ const std::vector<std::string>& gamut_names() {
     return names;
 }
 
-std::string name_of(gpu_scene::ScatterSettings::Model wanted) {
+std::string name_of(eye::ScatterSettings::Model wanted) {
     return std::find_if(std::begin(kGlares), std::end(kGlares),
                         [&](const NamedGlare& one) { return one.glare == Glare::Scatter && one.model == wanted; })
         ->name;

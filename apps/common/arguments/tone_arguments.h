@@ -29,7 +29,7 @@ render::ToneChainSettings tone_settings(const ToneArguments&);
 
 /// The name an operator has on the command line.
 std::string name_of(render::Operator);
-std::string name_of(gpu_scene::ScatterSettings::Model);
+std::string name_of(eye::ScatterSettings::Model);
 /// What --glare takes.
 const std::vector<std::string>& glare_names();
 /// What --gamut takes.

@@ -13,7 +13,7 @@ constexpr int kGuard = vision::LightElsewhere::kGuard;
 // wholly in them.
 std::vector<vision::UnseenLamp> unseen(const std::vector<std::vector<gpu_scene::GlareSource>>& seen_by,
                                        std::span<const vision::EyePicture> pictures,
-                                       const std::vector<gpu_scene::OffscreenLamp>& others) {
+                                       const std::vector<eye::OffscreenLamp>& others) {
     struct Seen {
         vision::UnseenLamp lamp;
         double inside = 0;
@@ -26,16 +26,15 @@ std::vector<vision::UnseenLamp> unseen(const std::vector<std::vector<gpu_scene::
     std::vector<vision::UnseenLamp> left;
     for (const auto& [node, seen] : lamps)
         if (seen.inside < 1) left.push_back({seen.lamp.direction, (1 - seen.inside) * seen.lamp.illuminance});
-    for (const gpu_scene::OffscreenLamp& lamp : others)
-        left.push_back({glm::normalize(lamp.direction), lamp.illuminance});
+    for (const eye::OffscreenLamp& lamp : others) left.push_back({glm::normalize(lamp.direction), lamp.illuminance});
     return left;
 }
 
 // Of the lamps, what lies beside what is shown; those in the border wholly.
-std::vector<gpu_scene::OffscreenLamp> beside(const render::Frame& frame, const vision::EyePicture& picture,
-                                             const std::vector<gpu_scene::OffscreenLamp>& others) {
-    std::vector<gpu_scene::OffscreenLamp> lamps;
-    for (const gpu_scene::OffscreenLamp& lamp : others)
+std::vector<eye::OffscreenLamp> beside(const render::Frame& frame, const vision::EyePicture& picture,
+                                       const std::vector<eye::OffscreenLamp>& others) {
+    std::vector<eye::OffscreenLamp> lamps;
+    for (const eye::OffscreenLamp& lamp : others)
         lamps.push_back({glm::transpose(picture.turn) * lamp.direction, lamp.illuminance});
     for (const gpu_scene::GlareSource& source : frame.glare_sources) {
         const dvec2 at = picture.image.pixels_at(dvec2(source.direction) / -source.direction.z),
@@ -58,10 +57,10 @@ gpu_scene::View ChannelGlare::guarded(const gpu_scene::View& view) {
 }
 
 // Every process then knows of the nodes of its views whose light others take.
-void ChannelGlare::prepare(const gpu_scene::ScatterSettings& settings, std::vector<vision::EyePicture> pictures) {
+void ChannelGlare::prepare(const eye::ScatterSettings& settings, std::vector<vision::EyePicture> pictures) {
     light_turns_.forget();
     own_.clear(), pictures_.clear();  // before the next ones take their memory
-    const vision::EyeScatter psf = gpu_scene::eye_scatter(settings);
+    const vision::EyeScatter psf = eye::eye_scatter(settings);
     apps::PacketWriter wants;
     for (const size_t view : link_.own(pictures.size())) {
         Own& own = own_.emplace_back(Own{.view = view,

@@ -28,8 +28,8 @@ public:
     };
     /// Light from beside a picture.
     struct Beside {
-        vision::OffscreenLight light;                 ///< of other pictures, and of lamps that no picture shows
-        std::vector<gpu_scene::OffscreenLamp> lamps;  ///< beside what is shown, for reports: they are in `light`
+        vision::OffscreenLight light;           ///< of other pictures, and of lamps that no picture shows
+        std::vector<eye::OffscreenLamp> lamps;  ///< beside what is shown, for reports: they are in `light`
     };
     /// Light of nodes of a guarded view of this process, lx (SharedEye::light_of).
     using LightOf = std::function<std::vector<glm::vec3>(size_t view, std::span<const uint32_t> nodes)>;
@@ -55,14 +55,14 @@ private:
         std::vector<std::vector<gpu_scene::GlareSource>> lamps;     // by view
         std::vector<std::vector<std::vector<glm::vec3>>> by_taker;  // own view, view: of its nodes, lx
     };
-    void prepare(const gpu_scene::ScatterSettings&, std::vector<vision::EyePicture>);
+    void prepare(const eye::ScatterSettings&, std::vector<vision::EyePicture>);
     Light light_of_own(const LightOf&) const;
     std::vector<apps::Bytes> shed_by_own(const std::vector<render::Frame>&, const Light&) const;
     Shed shed_of(const std::vector<apps::Bytes>&) const;
 
     ChannelLink& link_;
     ChannelTurns light_turns_;
-    gpu_scene::ScatterSettings settings_;
+    eye::ScatterSettings settings_;
     std::vector<vision::EyePicture> pictures_;
     std::vector<Own> own_;
 };

@@ -43,8 +43,8 @@ void read_projector(const scene::JsonValue& value, const std::filesystem::path& 
     std::optional<vision::BlendMask> factors;
     if (!warp.empty()) mesh = vision::read_warp_mesh(warp);
     if (!mask.empty()) factors = vision::read_blend_mask(mask);
-    c.projection = std::make_shared<const gpu_scene::Projection>(
-        gpu_scene::projection_of(c.extent, c.extent, mesh ? &*mesh : nullptr, factors ? &*factors : nullptr));
+    c.projection = std::make_shared<const eye::Projection>(
+        eye::projection_of(c.extent, c.extent, mesh ? &*mesh : nullptr, factors ? &*factors : nullptr));
 }
 
 ScreenChannel channel_of(const scene::JsonValue& value) {

@@ -21,9 +21,9 @@ struct ScreenChannel {
     double left = 0, right = 0, bottom = 0,
            top = 0;                          ///< edges of the picture, from the axis, rad; left and bottom negative
     std::optional<vision::Display> display;  ///< that shows it; none: that of the settings
-    std::shared_ptr<const gpu_scene::Projection> projection;  ///< onto a projector's picture of the same size, or null
-    std::optional<int> rank;                                  ///< that shows it (ChannelRanks), 0 or more
-    std::optional<int> monitor;                               ///< that its window fills there, 0 or more
+    std::shared_ptr<const eye::Projection> projection;  ///< onto a projector's picture of the same size, or null
+    std::optional<int> rank;                            ///< that shows it (ChannelRanks), 0 or more
+    std::optional<int> monitor;                         ///< that its window fills there, 0 or more
 };
 
 struct Channels {

@@ -1,6 +1,6 @@
 #include "render/passes/composite.h"
 
-#include "gpu_scene/encoding.h"
+#include "eye/encoding.h"
 #include "shaders/composite/composite.comp.inc"
 #include "shaders/composite/display_light.comp.inc"
 #include "shaders/composite/shown_light.comp.inc"
@@ -75,7 +75,7 @@ graph::Resource add_light(const FrameContext& frame, const CompositeInputs& in, 
 
 graph::Resource add_composite(const FrameContext& frame, const CompositeInputs& in, const CompositeSettings& settings) {
     Shown shown = show(frame, in, settings, kComposite, settings.display.primaries != io::kRec709, settings.blue_first);
-    const gpu_scene::Encoding encoding = gpu_scene::make_encoding(settings.display);
+    const eye::Encoding encoding = eye::make_encoding(settings.display);
     shown.push.encode = encoding.push;
     const graph::Resource cells = frame.graph.upload("code cells", encoding.cells, VK_FORMAT_R32G32B32A32_SFLOAT);
     const graph::Resource image =

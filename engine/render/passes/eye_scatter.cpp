@@ -36,12 +36,12 @@ Resource add_eye_scatter(const FrameContext& frame, Resource scene, const Scatte
     using namespace shared;
     if (!inputs.fit) return scene;
     graph::FrameGraph& graph = frame.graph;
-    const gpu_scene::GpuScatter& fit = *inputs.fit;
-    const glm::ivec2 down = gpu_scene::scatter_down_strip(frame.kernels.device());
+    const eye::GpuScatter& fit = *inputs.fit;
+    const glm::ivec2 down = eye::scatter_down_strip(frame.kernels.device());
     const VkExtent2D up_strip = scatter_up_strip(frame.kernels.device()),
                      down_strip{uint32_t(down.x), uint32_t(down.y)};
     const int top = fit.levels();
-    const auto texels = [&](const char* name, gpu_scene::GpuScatter::Texels t, VkFormat format) {
+    const auto texels = [&](const char* name, eye::GpuScatter::Texels t, VkFormat format) {
         return graph.external(name, t.buffer, t.bytes, format);
     };
     const auto at_least_one = [](std::vector<glm::vec4> list) {

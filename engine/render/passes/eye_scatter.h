@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "gpu_scene/eye_scatter.h"
+#include "eye/scatter.h"
 #include "render/frame_context.h"
 #include "vision/light_elsewhere.h"
 
@@ -11,8 +11,8 @@ namespace vesper::render {
 
 /// Light that scatters into a picture.
 struct ScatterInputs {
-    const gpu_scene::GpuScatter* fit = nullptr;        ///< of the size of the scene; none: no light is scattered
-    std::vector<gpu_scene::OffscreenLamp> lamps;       ///< outside of the picture
+    const eye::GpuScatter* fit = nullptr;              ///< of the size of the scene; none: no light is scattered
+    std::vector<eye::OffscreenLamp> lamps;             ///< outside of the picture
     const vision::OffscreenLight* pictures = nullptr;  ///< of the other pictures of the same eye
 };
 

@@ -1,7 +1,7 @@
 #include "render/passes/projection.h"
 
 #include "base/error.h"
-#include "gpu_scene/encoding.h"
+#include "eye/encoding.h"
 #include "shaders/projection/projection.comp.inc"
 
 namespace vesper::render {
@@ -13,7 +13,7 @@ std::string pixels_text(VkExtent2D extent) {
     return std::to_string(extent.width) + " x " + std::to_string(extent.height) + " px";
 }
 
-void check_projection(const FrameContext& frame, const gpu_scene::Projection& projection) {
+void check_projection(const FrameContext& frame, const eye::Projection& projection) {
     const auto [width, height] = projection.picture;
     if (width != frame.view.extent.width || height != frame.view.extent.height)
         throw Error("a projection of a picture of " + pixels_text(projection.picture) + " cannot show one of " +
@@ -31,12 +31,12 @@ void check_projection(const FrameContext& frame, const gpu_scene::Projection& pr
 
 }  // namespace
 
-graph::Resource add_projection(const FrameContext& frame, graph::Resource light,
-                               const gpu_scene::Projection& projection, const ProjectionSettings& settings) {
+graph::Resource add_projection(const FrameContext& frame, graph::Resource light, const eye::Projection& projection,
+                               const ProjectionSettings& settings) {
     check_projection(frame, projection);
     const auto [width, height] = projection.extent;
     const gpu::Kernel& kernel = frame.kernels.get(kProjection, {settings.blue_first});
-    const gpu_scene::Encoding encoding = gpu_scene::make_encoding(settings.display);
+    const eye::Encoding encoding = eye::make_encoding(settings.display);
     const graph::Resource pixels = frame.graph.upload("projected pixels", projection.pixels);
     const graph::Resource cells =
         frame.graph.upload("projection's code cells", encoding.cells, VK_FORMAT_R32G32B32A32_SFLOAT);

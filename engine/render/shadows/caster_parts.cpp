@@ -13,7 +13,7 @@ namespace vesper::render {
 gpu::OwnedBuffer make_shadow_texels(const gpu::Device& device, gpu::Arena& arena, uint64_t texels) {
     gpu::OwnedBuffer buffer =
         gpu::make_buffer(device, std::max<uint64_t>(texels / 2, 1) * sizeof(uint32_t),
-                         gpu_scene::kTexelUsage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+                         gpu::kTexelUsage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     arena.bind(buffer.get());
     return buffer;
 }

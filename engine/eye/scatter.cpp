@@ -1,14 +1,13 @@
-#include "gpu_scene/eye_scatter.h"
+#include "eye/scatter.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "gpu_scene/gpu_scene.h"
 #include "shared/eye_scatter.h"
 #include "vision/glare_pattern.h"
 
-namespace vesper::gpu_scene {
+namespace vesper::eye {
 namespace {
 
 using glm::dvec2, glm::dvec3;
@@ -60,7 +59,7 @@ GpuScatter::GpuScatter(const gpu::Device& device, const ScatterSettings& setting
     edge_x_ = fit.edge.x, edge_y_ = fit.edge.y;
     const auto upload = [&](const auto& values, gpu::OwnedBuffer& buffer) {
         const auto bytes = std::as_bytes(std::span(values));
-        buffer = upload_buffer(device, arena_, bytes, kTexelUsage);
+        buffer = gpu::upload_buffer(device, arena_, bytes, gpu::kTexelUsage);
         return bytes.size();
     };
     taps_bytes_ = upload(padded_taps(fit), taps_);
@@ -104,8 +103,7 @@ std::vector<glm::vec4> GpuScatter::far_veil(const std::vector<OffscreenLamp>& la
     return veil;
 }
 
-const GpuScatter& ScatterCache::at(const ScatterSettings& settings, const View& view) {
-    const vision::ImageAngles image = angles_of(view);
+const GpuScatter& ScatterCache::at(const ScatterSettings& settings, const vision::ImageAngles& image) {
     const auto known = std::find_if(fits_.begin(), fits_.end(), [&](const GpuScatter& fit) {
         return fit.settings() == settings && fit.image() == image;
     });
@@ -118,10 +116,9 @@ const GpuScatter& ScatterCache::at(const ScatterSettings& settings, const View& 
     return fits_.front();
 }
 
-bool ScatterCache::has(const ScatterSettings& settings, const View& view) const {
-    return std::any_of(fits_.begin(), fits_.end(), [&](const GpuScatter& fit) {
-        return fit.settings() == settings && fit.image() == angles_of(view);
-    });
+bool ScatterCache::has(const ScatterSettings& settings, const vision::ImageAngles& image) const {
+    return std::any_of(fits_.begin(), fits_.end(),
+                       [&](const GpuScatter& fit) { return fit.settings() == settings && fit.image() == image; });
 }
 
-}  // namespace vesper::gpu_scene
+}  // namespace vesper::eye

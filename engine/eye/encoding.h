@@ -8,7 +8,7 @@
 #include "shared/encode.h"
 #include "vision/display.h"
 
-namespace vesper::gpu_scene {
+namespace vesper::eye {
 
 /// Cells of displayed light and how they are found, see shared/encode.h.
 struct Encoding {
@@ -17,4 +17,4 @@ struct Encoding {
 };
 Encoding make_encoding(const vision::Display&);
 
-}  // namespace vesper::gpu_scene
+}  // namespace vesper::eye

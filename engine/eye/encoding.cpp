@@ -1,9 +1,9 @@
-#include "gpu_scene/encoding.h"
+#include "eye/encoding.h"
 
 #include <algorithm>
 #include <bit>
 
-namespace vesper::gpu_scene {
+namespace vesper::eye {
 namespace {
 
 constexpr uint32_t kMantissaBits = 23;
@@ -60,4 +60,4 @@ Encoding make_encoding(const vision::Display& display) {
     return made;
 }
 
-}  // namespace vesper::gpu_scene
+}  // namespace vesper::eye

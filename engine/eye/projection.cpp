@@ -1,4 +1,4 @@
-#include "gpu_scene/projection.h"
+#include "eye/projection.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 
-namespace vesper::gpu_scene {
+namespace vesper::eye {
 namespace {
 
 constexpr double kEdge = 1e-9;              // of a triangle: by so much of it pixels on its edges may be outside
@@ -147,4 +147,4 @@ Projection projection_of(VkExtent2D picture, VkExtent2D projector, const vision:
     return made;
 }
 
-}  // namespace vesper::gpu_scene
+}  // namespace vesper::eye

@@ -1,5 +1,5 @@
 // Codes found in cells against a search through all codes. SPDX-License-Identifier: MIT
-#include "gpu_scene/encoding.h"
+#include "eye/encoding.h"
 
 #include <algorithm>
 #include <bit>
@@ -14,7 +14,7 @@ namespace vesper::test {
 namespace {
 
 /// As shared/encode.h says it.
-uint32_t code_in_cells(const gpu_scene::Encoding& encoding, float light) {
+uint32_t code_in_cells(const eye::Encoding& encoding, float light) {
     const auto& [shift, first, last, bits] = encoding.push;
     const glm::vec4& cell = encoding.cells.at(std::clamp(std::bit_cast<uint32_t>(light) >> shift, first, last) - first);
     return uint32_t(light >= cell.r ? cell.b : cell.g);
@@ -54,7 +54,7 @@ TEST(Encoding, EveryLightHasItsNearestCode) {
     for (const vision::Display& display : displays) {
         SCOPED_TRACE("transfer function " + std::to_string(int(display.eotf)) + ", " + std::to_string(display.bits) +
                      " bits, peak " + std::to_string(display.peak));
-        const gpu_scene::Encoding encoding = gpu_scene::make_encoding(display);
+        const eye::Encoding encoding = eye::make_encoding(display);
         EXPECT_EQ(encoding.push.bits, display.bits);
         const std::vector<double> edges = edges_of(display);
         size_t wrong = 0;

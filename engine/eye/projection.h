@@ -9,7 +9,7 @@
 #include "vision/blend_mask.h"
 #include "vision/warp_mesh.h"
 
-namespace vesper::gpu_scene {
+namespace vesper::eye {
 
 /// A projector's picture as the shader sees it.
 struct Projection {
@@ -30,4 +30,4 @@ constexpr float kNotDrawn = -1;                 ///< factor of pixels that no ce
 Projection projection_of(VkExtent2D picture, VkExtent2D projector, const vision::WarpMesh* mesh = nullptr,
                          const vision::BlendMask* mask = nullptr);
 
-}  // namespace vesper::gpu_scene
+}  // namespace vesper::eye

@@ -1,4 +1,4 @@
-#include "gpu_scene/eye_corona.h"
+#include "eye/corona.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "shared/corona.h"
 #include "shared/tone.h"
 
-namespace vesper::gpu_scene {
+namespace vesper::eye {
 
 static_assert(vision::GlarePattern::kColumns == int(shared::kPatternColumns) &&
               vision::GlarePattern::kRows == int(shared::kPatternRows) &&
@@ -68,4 +68,4 @@ const Corona& CoronaCache::at(const ScatterSettings& settings, double pupil, dou
     return corona_;
 }
 
-}  // namespace vesper::gpu_scene
+}  // namespace vesper::eye

@@ -1,5 +1,5 @@
 // The map of a projector against closed forms. SPDX-License-Identifier: MIT
-#include "gpu_scene/projection.h"
+#include "eye/projection.h"
 
 #include <cmath>
 #include <functional>
@@ -11,7 +11,7 @@
 namespace vesper::test::projection_map_test {
 namespace {
 
-using gpu_scene::Projection, gpu_scene::projection_of, vision::BlendMask, vision::WarpMesh, vision::WarpNode;
+using eye::Projection, eye::projection_of, vision::BlendMask, vision::WarpMesh, vision::WarpNode;
 
 // Places are stored as floats: half a unit in the last place of what is less than 256 px.
 constexpr double kPlace = 256 * 6e-8;

@@ -1,15 +1,14 @@
-// Light scattered in the eye, fitted to a view and kept on the device. SPDX-License-Identifier: MIT
+// Light scattered in the eye, fitted to a picture and kept on the device. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <list>
 #include <vector>
 
 #include "gpu/memory.h"
-#include "gpu_scene/view.h"
 #include "vision/eye_aperture.h"
 #include "vision/scatter_fit.h"
 
-namespace vesper::gpu_scene {
+namespace vesper::eye {
 
 /// Which published function scatters, and in whose eye.
 struct ScatterSettings {
@@ -36,7 +35,7 @@ struct OffscreenLamp {
     glm::dvec3 illuminance{0};       ///< RGB lx, on a plane at the eye that faces the lamp
 };
 
-/// The fit of one function to one view, on the device.
+/// The fit of one function to one picture, on the device.
 class GpuScatter {
 public:
     GpuScatter(const gpu::Device&, const ScatterSettings&, const vision::ImageAngles&);
@@ -77,14 +76,14 @@ private:
     uint64_t taps_bytes_ = 0, top_bytes_ = 0, edge_bytes_ = 0;
 };
 
-/// Keeps the fits of the last views, since most frames have the same.
+/// Keeps the fits of the last pictures, since most frames cover the same.
 class ScatterCache {
 public:
-    /// Of `most` views.
+    /// Of `most` pictures.
     explicit ScatterCache(const gpu::Device& device, size_t most = 1) : device_(&device), most_(most) {}
-    const GpuScatter& at(const ScatterSettings&, const View&);
+    const GpuScatter& at(const ScatterSettings&, const vision::ImageAngles&);
     /// True if at() would return a fit that is kept.
-    bool has(const ScatterSettings&, const View&) const;
+    bool has(const ScatterSettings&, const vision::ImageAngles&) const;
 
 private:
     const gpu::Device* device_;
@@ -92,4 +91,4 @@ private:
     std::list<GpuScatter> fits_;  // the last one first
 };
 
-}  // namespace vesper::gpu_scene
+}  // namespace vesper::eye

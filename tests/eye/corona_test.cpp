@@ -1,6 +1,6 @@
 // The pattern as the device reads it: means keep its light, and the eye of a frame depends on its moment alone.
 // SPDX-License-Identifier: MIT
-#include "gpu_scene/eye_corona.h"
+#include "eye/corona.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,8 +28,8 @@ size_t first_of(uint32_t level) {
 // Texels are light times the square of the angle, so equal rows have equal solid angles: a mean of each level is all of
 // its light.
 TEST(EyeCorona, EveryLevelHasTheSameLight) {
-    gpu_scene::CoronaCache cache;
-    for (const auto model : {gpu_scene::ScatterSettings::Model::Temporal, gpu_scene::ScatterSettings::Model::Spencer}) {
+    eye::CoronaCache cache;
+    for (const auto model : {eye::ScatterSettings::Model::Temporal, eye::ScatterSettings::Model::Spencer}) {
         const auto texels = cache.at({.model = model, .state = vision::SpencerState::Scotopic}, 1, 0).texels;
         ASSERT_EQ(texels.size(), shared::kPatternRows * kStride);
         dvec3 light[shared::kPatternLevels]{};
@@ -49,8 +49,8 @@ TEST(EyeCorona, EveryLevelHasTheSameLight) {
 
 // A lamp that is wide has no rings of its own: what is fine along the radius is blurred as what is fine around.
 TEST(EyeCorona, MeansAreSmoothAlongTheRadius) {
-    gpu_scene::CoronaCache cache;
-    const auto texels = cache.at({.model = gpu_scene::ScatterSettings::Model::Temporal}, 1, 0).texels;
+    eye::CoronaCache cache;
+    const auto texels = cache.at({.model = eye::ScatterSettings::Model::Temporal}, 1, 0).texels;
     constexpr uint32_t kLevel = 4, kWide = 1 << kLevel;
     const auto at = [&](int row, size_t texel) { return luminance(dvec3(texels[size_t(row) * kStride + texel])); };
     double changes = 0,
@@ -68,8 +68,8 @@ TEST(EyeCorona, MeansAreSmoothAlongTheRadius) {
 }
 
 TEST(EyeCorona, TheEyeOfAFrameDependsOnItsMomentAlone) {
-    const gpu_scene::ScatterSettings settings{.model = gpu_scene::ScatterSettings::Model::Temporal};
-    gpu_scene::CoronaCache one, other;
+    const eye::ScatterSettings settings{.model = eye::ScatterSettings::Model::Temporal};
+    eye::CoronaCache one, other;
     const auto texels = one.at(settings, 4.1, 3.5).texels;
     EXPECT_GT(one.at(settings, 4.1, 3.6).milliseconds, 0);
     EXPECT_EQ(one.at(settings, 4.1, 3.6).milliseconds, 0) << "time stands still, and so does the eye";

@@ -6,10 +6,10 @@
 
 #include <glm/glm.hpp>
 
-#include "gpu_scene/eye_scatter.h"
+#include "eye/scatter.h"
 #include "vision/glare_pattern.h"
 
-namespace vesper::gpu_scene {
+namespace vesper::eye {
 
 /// Needles and halo around a lamp in one frame.
 struct Corona {
@@ -38,4 +38,4 @@ private:
     Corona corona_;
 };
 
-}  // namespace vesper::gpu_scene
+}  // namespace vesper::eye

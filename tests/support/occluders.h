@@ -2,6 +2,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <random>
 
 #include <glm/glm.hpp>
 
@@ -63,5 +64,37 @@ private:
 
     scene::Scene scene_;
 };
+
+/// Leaves all around, 4 m away: plates with holes in their texture, of vertices that are from clear to opaque, and of a
+/// material that is not quite opaque.
+inline OccluderScene leaves() {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    OccluderScene s;
+    const auto vector = [&] {
+        const float x = unit(random), y = unit(random), z = unit(random);
+        return glm::vec3(x, y, z);
+    };
+    for (int i = 0; i < 60; ++i) {  // wide enough that no map has two texels of a leaf in one of its own
+        const glm::vec3 middle = 4.0f * glm::normalize(vector()), facing = glm::normalize(middle + vector()),
+                        along = glm::normalize(glm::cross(facing, vector()));
+        const float length = 0.8f + 0.3f * unit(random), width = 0.8f + 0.3f * unit(random);
+        s.plate(middle, length * along, width * glm::cross(facing, along));
+    }
+    s.scene().images = {{"hole", 2, 2, {255, 255, 255, 255, 255, 255, 255, 0, 255, 255, 255, 255, 255, 255, 255, 255}}};
+    scene::Material& m = s.scene().materials[0];
+    m.alpha = scene::Material::Alpha::Mask, m.base_colour.a = 0.8f, m.alpha_cutoff = 0.5f;
+    m.base_colour_texture = {.image = 0, .wrap_u = scene::Wrap::Clamp, .wrap_v = scene::Wrap::Clamp, .nearest = true};
+    for (scene::Mesh& mesh : s.scene().meshes)
+        for (scene::Vertex& vertex : mesh.primitives[0].vertices)
+            vertex.colour[3] = uint16_t(random() % 2 ? 65535 : 16000);
+    return s;
+}
+
+/// Another material, without holes. Returns its number.
+inline uint32_t opaque(OccluderScene& s) {
+    s.scene().materials.emplace_back().double_sided = true;
+    return uint32_t(s.scene().materials.size() - 1);
+}
 
 }  // namespace vesper::test

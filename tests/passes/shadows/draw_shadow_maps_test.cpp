@@ -306,35 +306,12 @@ TEST(ShadowMap, SheetsOfSmallAndLargeTrianglesHaveNoGaps) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-/// Leaves all around: plates with holes in their texture, of vertices that are from clear to opaque, and of a material
-/// that is not quite opaque; behind them a wall.
-OccluderScene leaves() {
-    std::mt19937 random(3);
-    std::uniform_real_distribution<float> unit(-1, 1);
-    OccluderScene s;
-    const auto vector = [&] { return glm::vec3(unit(random), unit(random), unit(random)); };
-    for (int i = 0; i < 60; ++i) {  // wide enough that no map has two texels of a leaf in one of its own
-        const glm::vec3 middle = 4.0f * glm::normalize(vector()), facing = glm::normalize(middle + vector()),
-                        along = glm::normalize(glm::cross(facing, vector()));
-        s.plate(middle, (0.8f + 0.3f * unit(random)) * along, (0.8f + 0.3f * unit(random)) * glm::cross(facing, along));
-    }
-    s.scene().images = {{"hole", 2, 2, {255, 255, 255, 255, 255, 255, 255, 0, 255, 255, 255, 255, 255, 255, 255, 255}}};
-    scene::Material& m = s.scene().materials[0];
-    m.alpha = scene::Material::Alpha::Mask, m.base_colour.a = 0.8f, m.alpha_cutoff = 0.5f;
-    m.base_colour_texture = {.image = 0, .wrap_u = scene::Wrap::Clamp, .wrap_v = scene::Wrap::Clamp, .nearest = true};
-    for (scene::Mesh& mesh : s.scene().meshes)
-        for (scene::Vertex& vertex : mesh.primitives[0].vertices)
-            vertex.colour[3] = uint16_t(random() % 2 ? 65535 : 16000);
-    s.box({0, 0, 0}, glm::vec3(9));
-    s.scene().meshes.back().primitives[0].material = uint32_t(s.scene().materials.size());
-    s.scene().materials.emplace_back().double_sided = true;
-    return s;
-}
-
 // Each map has the leaves that its lamp sees, and none of those of its neighbours in the image.
 TEST(ShadowMap, LeavesHideWhatTheyHideInEveryMapOfAnImage) {
     PassRig rig;
     OccluderScene s = leaves();
+    s.box({0, 0, 0}, glm::vec3(9));
+    s.scene().meshes.back().primitives[0].material = opaque(s);
     const RayCaster rays(s.scene(), scene::world_transforms(s.scene(), 0));
     std::vector<render::ShadowMapToDraw> maps;
     uint32_t first = 0;

@@ -168,8 +168,8 @@ glm::vec3 turned(float angle) { return {std::sin(angle), 0, std::cos(angle)}; }
 // By less or by more than rounding explains, 2 mm.
 TEST(Edges, AStepOfAWallIsOne) {
     PassRig rig;
-    EXPECT_FALSE(shows_an_edge(rig, two_halves(kAhead, kAhead, 1.9e-3f)));
-    EXPECT_TRUE(shows_an_edge(rig, two_halves(kAhead, kAhead, 2.1e-3f)));
+    EXPECT_FALSE(shows_an_edge(rig, two_halves(kAhead, kAhead, 1.96e-3f)));
+    EXPECT_TRUE(shows_an_edge(rig, two_halves(kAhead, kAhead, 2.04e-3f)));
     EXPECT_EQ(rig.complaints(), "");
 }
 
@@ -191,6 +191,16 @@ TEST(Edges, AStepIsOneOnEitherPlane) {
     EXPECT_TRUE(shows_an_edge(rig, two_halves(kAhead, turned(-0.05f), 0.01f)));
     EXPECT_FALSE(shows_an_edge(rig, two_halves(turned(0.05f), kAhead, 0.01f)));
     EXPECT_FALSE(shows_an_edge(rig, two_halves(kAhead, turned(0.05f), 0.01f)));
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// Between two pixels, 0.683 m, a bend of 0.05 explains 34.2 mm, and rounding 2.0 mm.
+TEST(Edges, ABendExplainsAStepAsHighAsItself) {
+    PassRig rig;
+    EXPECT_FALSE(shows_an_edge(rig, two_halves(kAhead, turned(0.05f), 0.0357f)));
+    EXPECT_TRUE(shows_an_edge(rig, two_halves(kAhead, turned(0.05f), 0.0367f)));
+    EXPECT_FALSE(shows_an_edge(rig, two_halves(turned(0.05f), kAhead, 0.0357f)));
+    EXPECT_TRUE(shows_an_edge(rig, two_halves(turned(0.05f), kAhead, 0.0367f)));
     EXPECT_EQ(rig.complaints(), "");
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "window/presenter.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -143,6 +145,26 @@ TEST_F(PresenterTest, HalfTheSizeIsATent) {
     }
 }
 
+TEST_F(PresenterTest, PicturesThatGrowAreLinearBetweenTheMiddlesOfPixels) {
+    const VkExtent2D extent{4, 2}, window{10, 5};
+    const auto words = words_of(extent, 8);
+    const auto shown = drawn(VK_FORMAT_R8G8B8A8_UNORM, window, picture_of(words, extent), Scaling::Fit);
+    const auto at = [&](int x, int y, int c) {
+        return double(channel(words[size_t(std::clamp(y, 0, 1) * 4 + std::clamp(x, 0, 3))], c));
+    };
+    for (int y = 0; y < 5; ++y)
+        for (int x = 0; x < 10; ++x) {
+            const double u = (x + 0.5) * 0.4 - 0.5, v = (y + 0.5) * 0.4 - 0.5, s = u - std::floor(u),
+                         t = v - std::floor(v);
+            const int i = int(std::floor(u)), j = int(std::floor(v));
+            for (int c = 0; c < 3; ++c) {
+                const double want = (1 - t) * ((1 - s) * at(i, j, c) + s * at(i + 1, j, c)) +
+                                    t * ((1 - s) * at(i, j + 1, c) + s * at(i + 1, j + 1, c));
+                EXPECT_NEAR(channel(shown[size_t(y * 10 + x)], c), want, 0.51) << x << "," << y << " channel " << c;
+            }
+        }
+}
+
 TEST_F(PresenterTest, AFlatPictureStaysFlatAtAnySize) {
     const VkExtent2D extent{13, 9};
     const std::vector<uint32_t> words(13 * 9, 0xff5a3c11u);
@@ -174,15 +196,43 @@ TEST_F(PresenterTest, InstrumentsLieOverThePictureWithinTheirClips) {
             EXPECT_EQ(shown[y * 8 + x], x >= 2 && y >= 1 && y < 3 ? 0xff808080u : 0xff000000u) << x << "," << y;
 }
 
+/// A triangle of one colour (red in the lowest bits) over a window of 2 x 2 px.
+window::Overlay all_over(uint32_t colour) {
+    return {.vertices = {{{-2, -2}, {0.5f, 0.5f}, colour},
+                         {{6, -2}, {0.5f, 0.5f}, colour},
+                         {{-2, 6}, {0.5f, 0.5f}, colour}},
+            .indices = {0, 1, 2},
+            .batches = {{0, 3, {{0, 0}, {2, 2}}}}};
+}
+
 TEST_F(PresenterTest, WhiteOfInstrumentsIsGraphicsWhiteInHdr10) {
-    const VkExtent2D extent{2, 2};
-    const window::Overlay overlay{
-        .vertices = {{{-2, -2}, {0.5f, 0.5f}, ~0u}, {{6, -2}, {0.5f, 0.5f}, ~0u}, {{-2, 6}, {0.5f, 0.5f}, ~0u}},
-        .indices = {0, 1, 2},
-        .batches = {{0, 3, {{0, 0}, {2, 2}}}}};
-    const uint32_t word = drawn(VK_FORMAT_A2B10G10R10_UNORM_PACK32, extent, {}, Scaling::Fit, overlay, true)[3];
+    const uint32_t word = drawn(VK_FORMAT_A2B10G10R10_UNORM_PACK32, {2, 2}, {}, Scaling::Fit, all_over(~0u), true)[3];
     for (int c = 0; c < 3; ++c)
         EXPECT_NEAR(int(word >> 10 * c & 1023), 594, 1) << c;  // 203 cd/m^2 are 58 % of PQ (ITU-R BT.2408)
+}
+
+// Codes of IEC 61966-2-1 as light, in the primaries of Rec. 2020 (ITU-R BT.2087), of which white has 203 cd/m^2, as
+// codes of SMPTE ST 2084.
+TEST_F(PresenterTest, ColoursOfInstrumentsKeepTheirLightInHdr10) {
+    const double to_2020[3][3]{
+        {0.627404, 0.329283, 0.043313}, {0.069097, 0.919540, 0.011362}, {0.016391, 0.088013, 0.895595}};
+    for (const std::array<int, 3>& codes : {std::array{220, 90, 6}, {8, 160, 70}, {40, 3, 255}}) {
+        double light[3];
+        for (size_t c = 0; c < 3; ++c) {
+            const double code = codes[c] / 255.0;
+            light[c] = code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+        }
+        const uint32_t colour = 0xff000000u | uint32_t(codes[2]) << 16 | uint32_t(codes[1]) << 8 | uint32_t(codes[0]);
+        const uint32_t word =
+            drawn(VK_FORMAT_A2B10G10R10_UNORM_PACK32, {2, 2}, {}, Scaling::Fit, all_over(colour), true)[3];
+        for (int c = 0; c < 3; ++c) {
+            double sum = 0;
+            for (int k = 0; k < 3; ++k) sum += to_2020[c][k] * light[k];
+            const double y = std::pow(203 * sum / 10000, 2610.0 / 16384),
+                         code = std::pow((3424.0 / 4096 + 2413.0 / 128 * y) / (1 + 2392.0 / 128 * y), 2523.0 / 32);
+            EXPECT_NEAR(int(word >> 10 * c & 1023), 1023 * code, 1) << codes[0] << ", channel " << c;
+        }
+    }
 }
 
 TEST(Placement, IsCentredAndNeverEmpty) {

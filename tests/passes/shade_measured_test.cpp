@@ -107,15 +107,15 @@ Surfaces noise(VkExtent2D extent, uint32_t seed) {
     return p;
 }
 
-/// A matt ground 1.5 m under the eye, sky above: blocks of pixels that lie close together.
-Surfaces ground(VkExtent2D extent) {
+/// Ground 1.5 m under the eye, matt or a road, sky above: blocks of pixels that lie close together.
+Surfaces ground(VkExtent2D extent, bool road = false) {
     const gpu_scene::View view = gpu_scene::View::symmetric(extent, 0.7f, glm::mat4(1));
     Surfaces p{extent, {}, {}, {}};
     for (uint32_t i = 0; i < extent.width * extent.height; ++i) {
         const double ray = double(view.ray_scale().y) * (double(p.pixel(i).y) + 0.5) + double(view.ray_offset().y);
-        p.reflectance.emplace_back(0.5, 0.5, 0.5, 0);
+        p.reflectance.emplace_back(0.5, 0.25, 0.75, road ? -1 : 0);
         p.surface.emplace_back(glm::vec2(reference::octahedral_encode(glm::dvec3(0, 1, 0))),
-                               ray < -0.005 ? float(1.5 / -ray) : 0.0f, 1);
+                               ray < -0.005 ? float(1.5 / -ray) : 0.0f, road ? -0.6f : 1.0f);
         p.emission.emplace_back(0);
     }
     return p;
@@ -168,16 +168,20 @@ TEST(ShadeMeasured, AThousandLampsOnRoadsEqualTheReference) {
 TEST(ShadeMeasured, ShadingWithSumsIsShadingLampByLamp) {
     PassRig rig;
     const render::ShadeSettings settings;
-    for (const VkExtent2D extent : {VkExtent2D{320, 200}, {840, 525}}) {
+    for (const auto& [extent, road] :
+         {std::pair{VkExtent2D{320, 200}, false}, {{320, 200}, true}, {{840, 525}, false}}) {
+        SCOPED_TRACE(road ? "road" : "matt");
         const Street street(extent, 60, extent.width);
-        const Surfaces s = ground(extent);
+        const Surfaces s = ground(extent, road);
         const auto luminance = [&](float tolerance) {
             return shade(rig, s, street.list, {.threshold = 1e-6f}, {.merge_error = tolerance}, street.tables).pixels;
         };
         const std::vector<glm::vec4> merged = luminance(settings.merge_error), one_by_one = luminance(0);
         size_t far_off = 0;
         for (size_t i = 0; i < merged.size(); ++i) {
-            ASSERT_NEAR(merged[i].y, one_by_one[i].y, 3.5f * settings.merge_error * one_by_one[i].y + 1e-7f) << i;
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(merged[i][c], one_by_one[i][c], 3.5f * settings.merge_error * one_by_one[i][c] + 1e-7f)
+                    << i;
             far_off += std::abs(merged[i].y - one_by_one[i].y) > settings.merge_error * one_by_one[i].y + 1e-7f ? 1 : 0;
         }
         EXPECT_LT(far_off, merged.size() / 1000);

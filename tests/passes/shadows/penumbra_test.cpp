@@ -128,6 +128,25 @@ TEST(Penumbra, OfANarrowBarHasNoUmbra) {
     EXPECT_LT(e.largest, 0.25);
 }
 
+// What stops the light after a sixth of its way has the penumbra of what does so after a quarter: discs that pixels
+// look at have three times the lamp's radius at most.
+TEST(Penumbra, IsNoWiderThanThatOfAQuarterOfTheWay) {
+    constexpr double kRadius = 0.2, kEdge = 0.6;  // m; the shadow's, of an edge at 0.1 m
+    Ground ground(kRadius);
+    ground.s.plate({-0.4f, 5, 0}, {0.5f, 0, 0}, {0, 0, -3});
+    size_t lit = 0, dimmed = 0;
+    const Error e = error_of(ground, [&](double x) { return reference::disc_beyond((kEdge - x) / (3 * kRadius)); });
+    ground.shares([&](double x, double, double share) {
+        if (x < kEdge + 3.3 * kRadius) return;
+        ++lit, dimmed += share < 1 - 1e-3 ? 1 : 0;
+    });
+    EXPECT_GT(e.pixels, 1000u);
+    EXPECT_LT(std::abs(e.mean), 0.025);
+    EXPECT_LT(std::abs(e.spread), 0.015);
+    EXPECT_GT(lit, 10000u);
+    EXPECT_EQ(dimmed, 0u);
+}
+
 // A lamp without a size has a hard edge.
 TEST(Penumbra, OfAPointIsNone) {
     Ground ground(0);

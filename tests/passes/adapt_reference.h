@@ -130,8 +130,7 @@ inline Adapted adapt(const AdaptInputs& in) {
     };
     out.eye.adaptation = float(adaptation);
     const double time = double(in.previous.seconds) + double(in.previous.seconds_lost) + double(p.seconds);
-    out.eye.seconds = std::min(float(time), shared::kLongestLife),
-    out.eye.seconds_lost = float(time - double(out.eye.seconds));
+    out.eye.seconds = std::min(float(time), 1e12f), out.eye.seconds_lost = float(time - double(out.eye.seconds));
     const double pupil = in.previous.pupil > 0 ? in.previous.pupil : 4.9, rest = vision::pupil_moon_spencer(adaptation);
     out.eye.pupil = float(rest + (pupil - rest) * std::exp(-double(p.seconds) / 0.5));
     out.eye.cones = memory(out.cones), out.eye.rods = memory(out.rods);

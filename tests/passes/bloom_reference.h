@@ -20,9 +20,11 @@ inline dvec3 glaring(dvec3 shown, double threshold) {
     return std::max({shown.x, shown.y, shown.z}) >= threshold ? shown : dvec3(0);
 }
 
-/// Means of what glares over blocks of kBloomShrink^2 pixels, those that exist.
+constexpr uint32_t kGlareBlock = 4;  // px, of the side of blocks that are blurred as one
+
+/// Means of what glares over such blocks, of those pixels that exist.
 inline LightImage bright(const LightImage& shown, double threshold) {
-    const uint32_t n = shared::kBloomShrink;
+    const uint32_t n = kGlareBlock;
     LightImage out{(shown.width + n - 1) / n, (shown.height + n - 1) / n, {}};
     for (uint32_t y = 0; y < out.height; ++y)
         for (uint32_t x = 0; x < out.width; ++x) {
@@ -38,7 +40,7 @@ inline LightImage bright(const LightImage& shown, double threshold) {
 
 /// Standard deviation of the Gaussian in texels of the small image.
 inline double small_sigma(double sigma_degrees, double degrees_per_pixel) {
-    return sigma_degrees / degrees_per_pixel / shared::kBloomShrink;
+    return sigma_degrees / degrees_per_pixel / kGlareBlock;
 }
 
 /// Weights 0 .. radius of a Gaussian cut at 3 sigma; the two-sided sum is 1.

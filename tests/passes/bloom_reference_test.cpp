@@ -85,7 +85,7 @@ TEST(BloomReference, DirectGlareOfAPointIsTheGaussian) {
 
 /// Largest difference between the definition and the pass's way, relative to the largest glare.
 double approximation_error(const LightImage& shown, double sigma) {
-    const LightImage exact = direct_glare(shown, 0.9, sigma), small = bloom(shown, 0.9, sigma / shared::kBloomShrink);
+    const LightImage exact = direct_glare(shown, 0.9, sigma), small = bloom(shown, 0.9, sigma / kGlareBlock);
     double worst = 0, most = 0;
     for (uint32_t y = 0; y < shown.height; ++y)
         for (uint32_t x = 0; x < shown.width; ++x) {

@@ -235,10 +235,11 @@ dvec3 composite_light(const CompositeFrame<Rgb>& frame, shared::uvec2 pixel, uin
     const glm::dmat3 to_own = from_rec709(display.primaries);
     dvec3 shown = displayed(light, tone, curve, double(display.low()), double(display.high()), to_own);
     if (!frame.bloom.empty()) {
-        const double shrink = shared::kBloomShrink;
-        const uint32_t width = (frame.size.x + shared::kBloomShrink - 1) / shared::kBloomShrink;
-        const uint32_t height = (frame.size.y + shared::kBloomShrink - 1) / shared::kBloomShrink;
-        shown += to_own * (frame.gain * bilinear(frame.bloom, width, height, (dvec2(pixel) + 0.5) / shrink - 0.5));
+        constexpr uint32_t kShrink = 4;  // px of a block of bloom
+        const uint32_t width = (frame.size.x + kShrink - 1) / kShrink;
+        const uint32_t height = (frame.size.y + kShrink - 1) / kShrink;
+        shown +=
+            to_own * (frame.gain * bilinear(frame.bloom, width, height, (dvec2(pixel) + 0.5) / double(kShrink) - 0.5));
     }
     return shown;
 }

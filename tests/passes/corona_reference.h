@@ -10,11 +10,16 @@
 #include <glm/glm.hpp>
 
 #include "gpu_scene/view.h"
-#include "shared/corona.h"
 
 namespace vesper::reference {
 
 using glm::dvec2, glm::dvec3;
+
+constexpr int kSquareSide = 16;      // px: the light of a square is one lamp
+constexpr size_t kMostNeedles = 32;  // lamps that have some
+// The pattern reaches this many degrees; its rows are a factor of exp(2 pi / columns) apart. Each has its columns, then
+// the means of two, of four, down to one.
+constexpr int kColumnsOfPattern = 512, kRowsOfPattern = 448, kDegreesOfPattern = 6;
 
 /// Light from one direction as wide as a box of `width` rad.
 struct CoronaLight {
@@ -32,7 +37,7 @@ inline double corona_pixel(const gpu_scene::View& view, dvec3 ray) {
     return span.x * span.y * std::pow(-ray.z, 3);
 }
 
-/// Of every square that has light, brightest first, kCoronaLamps of them, each without the share that the next one has
+/// Of every square that has light, brightest first, kMostNeedles of them, each without the share that the next one has
 /// of it.
 inline std::vector<CoronaLight> corona_lights(const gpu_scene::View& view, const std::vector<dvec3>& scene) {
     struct Square {
@@ -41,7 +46,7 @@ inline std::vector<CoronaLight> corona_lights(const gpu_scene::View& view, const
         CoronaLight light;
     };
     std::vector<Square> squares;
-    const int width = int(view.extent.width), height = int(view.extent.height), side = int(shared::kCoronaTile);
+    const int width = int(view.extent.width), height = int(view.extent.height), side = kSquareSide;
     for (int top = 0; top < height; top += side)
         for (int left = 0; left < width; left += side) {
             dvec3 light(0);
@@ -67,9 +72,9 @@ inline std::vector<CoronaLight> corona_lights(const gpu_scene::View& view, const
         }
     std::stable_sort(squares.begin(), squares.end(),
                      [](const Square& a, const Square& b) { return a.luminance > b.luminance; });
-    const double cut = squares.size() > shared::kCoronaLamps ? squares[shared::kCoronaLamps].luminance : 0;
+    const double cut = squares.size() > kMostNeedles ? squares[kMostNeedles].luminance : 0;
     std::vector<CoronaLight> lamps;
-    for (size_t i = 0; i < std::min(squares.size(), size_t(shared::kCoronaLamps)); ++i) {
+    for (size_t i = 0; i < std::min(squares.size(), kMostNeedles); ++i) {
         lamps.push_back(squares[i].light);
         lamps.back().illuminance *= 1 - cut / squares[i].luminance;
     }
@@ -78,18 +83,17 @@ inline std::vector<CoronaLight> corona_lights(const gpu_scene::View& view, const
 
 /// What one lamp adds in a direction, a pixel being as wide as a box of `pixel` rad.
 inline dvec3 corona_added(const std::vector<glm::vec4>& pattern, const CoronaLight& lamp, dvec3 ray, double pixel) {
-    const int columns = int(shared::kPatternColumns), rows = int(shared::kPatternRows),
-              last = int(shared::kPatternLevels) - 1;
+    const int columns = kColumnsOfPattern, rows = kRowsOfPattern, last = 9;
     const double step = 2 * std::numbers::pi / columns;
     const double theta = std::atan2(glm::length(glm::cross(ray, lamp.direction)), glm::dot(ray, lamp.direction));
-    const double row = rows + std::log(theta * 180 / std::numbers::pi / double(shared::kPatternReach)) / step;
+    const double row = rows + std::log(theta * 180 / std::numbers::pi / kDegreesOfPattern) / step;
     if (!(row > 0 && row < rows)) return dvec3(0);
     const dvec3 right = glm::normalize(dvec3(1, 0, 0) - lamp.direction * lamp.direction.x),
                 up = glm::cross(right, lamp.direction);
     double turn = std::atan2(glm::dot(ray, up), glm::dot(ray, right)) / (2 * std::numbers::pi);
     if (turn < 0) turn += 1;
     const auto at_level = [&](int level) {
-        size_t first = size_t(row) * shared::kPatternStride;
+        size_t first = size_t(row) * (2 * size_t(columns) - 1);
         for (int l = 0; l < level; ++l) first += size_t(columns >> l);
         const int across = columns >> level, left = int(std::floor(turn * across - 0.5));
         const auto at = [&](int i) { return dvec3(pattern[first + size_t((left + i + across) % across)]); };

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "gpu/memory.h"
+#include "graph/executor.h"
 
 namespace vesper::test {
 namespace {
@@ -100,6 +101,25 @@ window::Picture picture_of(const std::vector<uint32_t>& words, VkExtent2D extent
 
 uint32_t swapped(uint32_t word) { return (word & 0xff00ff00u) | (word & 0xffu) << 16 | (word >> 16 & 0xffu); }
 int channel(uint32_t word, int which) { return int(word >> 8 * which & 0xff); }
+
+// A frame's own image shows what its codes on the host would, to the bit, also where pixels are averaged.
+TEST_F(PresenterTest, ImagesShowWhatTheirCodesShow) {
+    graph::Executor executor(device);
+    for (const uint32_t bits : {8u, 10u}) {
+        const VkExtent2D extent{37, 23}, window{bits == 8 ? 37u : 90u, 61};
+        std::vector<uint32_t> words;
+        for (uint32_t i = 0; i < extent.width * extent.height; ++i)
+            words.push_back(2654435761u * (i + 1) | (bits == 8 ? 0xff000000u : 0xc0000000u));
+        window::PictureImage image(device);
+        graph::FrameGraph frame;
+        frame.copy("show", frame.upload("codes", words), frame.target("shown", image.target(extent, bits)));
+        executor.run(frame);
+        const window::Picture of_host{{reinterpret_cast<const uint8_t*>(words.data()), 4 * words.size()}, extent, bits};
+        const VkFormat format = bits == 8 ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_A2B10G10R10_UNORM_PACK32;
+        for (const Scaling scaling : {Scaling::Fit, Scaling::Whole})
+            EXPECT_EQ(drawn(format, window, image.picture(), scaling), drawn(format, window, of_host, scaling)) << bits;
+    }
+}
 
 TEST_F(PresenterTest, CodesArriveUnchanged) {
     for (const VkExtent2D extent : {VkExtent2D{1, 1}, VkExtent2D{7, 5}, VkExtent2D{64, 17}}) {

@@ -469,8 +469,8 @@ VesperResult vesper_shared_eye_look(VesperSharedEye* eye, uint32_t index, Vesper
  * null. */
 VesperResult vesper_shared_eye_adapt(VesperSharedEye* eye, const VesperToneSettings* settings, uint32_t looked_at,
                                      float seconds, VesperFrameReport* report, VesperError* error);
-/** Shows a view as the eye has adapted, on the display of `settings`: VesperOutputs::codes and ::display_light; the
- * others must be null. */
+/** Shows a view as the eye has adapted, on the display of `settings`. Of `outputs` the codes and the light of the
+ * display may be wanted; the others must be null. */
 VesperResult vesper_shared_eye_show(VesperSharedEye* eye, uint32_t index, const VesperToneSettings* settings,
                                     const VesperOutputs* outputs, VesperError* error);
 /** Resets the eye's state, as at a cut. */

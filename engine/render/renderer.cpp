@@ -16,9 +16,10 @@
 namespace vesper::render {
 namespace {
 
+// `seen`: by an eye; light that is kept is scattered in none, and needs no fit.
 ChainInputs chain_inputs_of(FrameQueue& frames, const Prepared& prepared, const RenderSettings& settings,
-                            const gpu_scene::View& view, float seconds) {
-    ChainInputs chain = frames.inputs(settings, view, seconds);
+                            const gpu_scene::View& view, float seconds, bool seen) {
+    ChainInputs chain = seen ? frames.inputs(settings, view, seconds) : ChainInputs{};
     chain.scatter.lamps = settings.offscreen_lamps;
     for (const gpu_scene::GlareSource& source : prepared.luminaires.glare_sources)
         if (source.inside < 1)
@@ -226,7 +227,7 @@ void Renderer::State::submit(const Request& of, float seconds, const Outputs& ou
     const std::vector<glm::dvec2> places = sample_places(settings.samples);
     const bool sampled = places.size() > 1;
     add_samples(of, prepared, std::span(places).first(places.size() - 1), next);
-    ChainInputs chain = chain_inputs_of(frames, prepared, settings, view, seconds);
+    ChainInputs chain = chain_inputs_of(frames, prepared, settings, view, seconds, !outputs.light);
     const FrameContext context = frames.context(frame.graph, view);
     SceneLight light = sampled ? declare(frame.graph, of, prepared, places.back())
                                : render::declare(context, *scene, prepared, poses, view);

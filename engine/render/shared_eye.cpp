@@ -28,7 +28,7 @@ Colours colours_of(graph::FrameGraph& graph, std::span<const ViewStatistics> pic
     return {image_of(graph, "colours", tiles, extent), extent};
 }
 
-// What statistics are read from.
+// Copies on the host that statistics are read from.
 struct StatisticsReadbacks {
     graph::Resource histogram, whole, fovea, colours;
 };
@@ -103,12 +103,13 @@ SharedEye::Seen SharedEye::see(const ToneChainSettings& settings, const StoredPi
                                StoredPicture& retina) {
     FrameQueue::Declared frame{.extent = light.view().extent};
     graph::FrameGraph& graph = frame.graph;
+    seeing_.set_eye({eye()});
     ChainInputs inputs = seeing_.inputs(settings, light.view(), seconds);
     inputs.scatter.lamps = beside.lamps, inputs.scatter.pictures = beside.pictures;
     const FrameContext whole = seeing_.context(graph, light.view()), inner = seeing_.context(graph, shown);
     const graph::Resource seen = add_retina(whole, light.load(graph, "light"), inputs.scatter, inputs.corona);
-    retina.store_middle(device_, graph, seen, light.view().extent, shown);
-    const Statistics statistics = add_statistics(inner, retina.load(graph, "retina"), settings);
+    const graph::Resource middle = retina.store_middle(device_, graph, seen, light.view().extent, shown);
+    const Statistics statistics = add_statistics(inner, middle, settings);
     const StatisticsReadbacks readbacks = read_back(graph, statistics);
     seeing_.submit(std::move(frame), inputs, {});
     ToneMapped done = *seeing_.finish();
@@ -150,9 +151,7 @@ ToneMapped SharedEye::adapt(const ToneChainSettings& settings, std::span<const V
     frame.chain.histogram = add_readback(graph, "histogram", histogram, sizeof(shared::Histogram));
     frame.chain.eye = add_readback(graph, "eye", eye, sizeof(shared::EyeState));
     adapting_.submit(std::move(frame), inputs, {});
-    ToneMapped adapted = *adapting_.finish();
-    seeing_.set_eye({adapted.eye});
-    return adapted;
+    return *adapting_.finish();
 }
 
 }  // namespace vesper::render

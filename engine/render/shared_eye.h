@@ -46,7 +46,7 @@ public:
     ToneMapped show(const ToneChainSettings&, const StoredPicture& retina, const shared::ToneCurve&, const Outputs&);
 
     void reset_adaptation() { set_eye({}); }
-    void set_eye(const shared::EyeState& eye) { adapting_.set_eye({eye}), seeing_.set_eye({eye}); }
+    void set_eye(const shared::EyeState& eye) { adapting_.set_eye({eye}); }
     const shared::EyeState& eye() const { return adapting_.eye().value; }
 
 private:

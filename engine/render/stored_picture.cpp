@@ -31,17 +31,24 @@ void StoredPicture::store(const gpu::Device& device, graph::FrameGraph& graph, g
     graph.copy("store picture", image, declare(device, graph, view));
 }
 
-void StoredPicture::store_middle(const gpu::Device& device, graph::FrameGraph& graph, graph::Resource image,
-                                 VkExtent2D whole, const gpu_scene::View& view) {
+graph::Resource StoredPicture::store_middle(const gpu::Device& device, graph::FrameGraph& graph, graph::Resource image,
+                                            VkExtent2D whole, const gpu_scene::View& view) {
     const VkExtent2D inner = view.extent;
-    if (inner.width == whole.width && inner.height == whole.height) return store(device, graph, image, view);
+    if (inner.width == whole.width && inner.height == whole.height) {
+        store(device, graph, image, view);
+        return image;
+    }
     const uint32_t left = (whole.width - inner.width) / 2, top = (whole.height - inner.height) / 2;
     const graph::Resource all = graph.transient("whole picture", graph::buffer_shape(bytes_of(whole)));
     graph.copy("whole picture", image, all);
     std::vector<graph::Region> rows;
     for (uint64_t y = 0; y < inner.height; ++y)
         rows.push_back({kTexel * ((y + top) * whole.width + left), kTexel * y * inner.width, kTexel * inner.width});
-    graph.copy("store picture", all, declare(device, graph, view), std::move(rows));
+    const graph::Resource stored = declare(device, graph, view);
+    graph.copy("store picture", all, stored, std::move(rows));
+    const graph::Resource middle = graph.transient("middle", graph::image_shape(kSceneFormat, inner));
+    graph.copy("middle", stored, middle);
+    return middle;
 }
 
 graph::Resource StoredPicture::load(graph::FrameGraph& graph, const std::string& name) const {

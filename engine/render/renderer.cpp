@@ -261,7 +261,7 @@ void Renderer::State::submit(const Request& of, float seconds, const Outputs& ou
     forget_lost();
 }
 
-// What the host makes of a frame whose results can be read: of the oldest that is left, or the last.
+// The results of a frame on the host, which can be read: of the oldest that is left, or the last.
 std::optional<Frame> Renderer::State::take(std::optional<ToneMapped> shown) {
     if (!shown) {
         forget_lost();
@@ -299,6 +299,8 @@ std::optional<Frame> Renderer::finish() {
 std::optional<Frame> Renderer::finish_oldest(bool waits) {
     return state_->or_forget([&] { return state_->take(state_->frames.finish_oldest(waits)); });
 }
+
+size_t Renderer::unfinished() const { return state_->frames.unfinished(); }
 
 Frame Renderer::render(const RenderSettings& given, const gpu_scene::View& view, const gpu_scene::SceneFrame& poses,
                        float seconds, const Outputs& outputs) {

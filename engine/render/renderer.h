@@ -63,6 +63,8 @@ public:
     /// Results of the oldest submitted frame whose results were not returned; those of frames before the last
     /// graph::Executor::kFramesUnderWay are lost. Without `waits` there are none while it is under way.
     std::optional<Frame> finish_oldest(bool waits);
+    /// Submitted frames whose results are left.
+    size_t unfinished() const;
     /// Where maps of what stands still are kept from run to run; null, as at first: nowhere. Pictures do not depend on
     /// it. Throws nothing.
     void keep_maps(std::shared_ptr<Cache> cache);

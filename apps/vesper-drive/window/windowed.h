@@ -102,7 +102,6 @@ private:
     std::optional<VkExtent2D> size_;  // of pictures, as it was given or recorded; none: the window's
     VkExtent2D rendered_{};
     render::Frame frame_;     // the last one whose results are known
-    unsigned under_way_ = 0;  // frames whose results are not
     bool on_device_ = false;  // the picture is the screen's image, and frame_ has no codes
     gpu_scene::View view_;
     std::optional<Channels> channels_;

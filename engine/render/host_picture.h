@@ -8,7 +8,6 @@
 #include "gpu/memory.h"
 #include "gpu_scene/view.h"
 #include "graph/frame_graph.h"
-#include "vision/light_elsewhere.h"
 
 namespace vesper::render {
 
@@ -23,7 +22,6 @@ struct HostPicture {
         {};  ///< lamps that scatter light into it; the picture is seen along -z, y up
     const vision::ImageAngles* angles =
         nullptr;  ///< of its edges, in place of vertical_fov, where the eye's axis is not in its middle
-    const vision::OffscreenLight* beyond = nullptr;  ///< that other pictures of the eye scatter into it
 };
 
 /// What a picture covers: `angles`, or so much in height, rad, about the axis of the eye. Throws Error.

@@ -3,7 +3,7 @@
 #include "render/passes/picture.h"
 
 namespace vesper::render {
-ToneMapper::ToneMapper(gpu::Device& device, size_t views) : upload_(device), frames_(device, views) {}
+ToneMapper::ToneMapper(gpu::Device& device) : upload_(device), frames_(device) {}
 
 ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture& picture, float seconds,
                            Outputs outputs) {
@@ -14,7 +14,7 @@ ToneMapped ToneMapper::map(const ToneChainSettings& settings, const HostPicture&
 
     finish();
     ChainInputs inputs = frames_.inputs(settings, view, seconds);
-    inputs.scatter.lamps = picture.outside, inputs.scatter.pictures = picture.beyond;
+    inputs.scatter.lamps = picture.outside;
     submit(std::move(frame), scene, settings, view, inputs, outputs, {});
     return *finish();
 }

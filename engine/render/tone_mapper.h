@@ -20,8 +20,7 @@ struct DevicePicture {
 /// the size changes. Not thread-safe; several may share a device in one thread.
 class ToneMapper {
 public:
-    /// Keeps fitted glare for up to `views` sizes or angles of pictures.
-    explicit ToneMapper(gpu::Device& device, size_t views = 1);
+    explicit ToneMapper(gpu::Device& device);
 
     /// `seconds` have passed since the last picture. NaN and infinities are shown black and counted. Throws Error.
     ToneMapped map(const ToneChainSettings&, const HostPicture&, float seconds, Outputs outputs = {});

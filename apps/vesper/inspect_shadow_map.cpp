@@ -1,4 +1,4 @@
-// What a lamp of a scene sees: its shadow map. SPDX-License-Identifier: MIT
+// The shadow map of a lamp of a scene. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
 

@@ -33,7 +33,7 @@ public:
 
     /// Where the next frame goes. Waits for the device where extent or bits change. Throws Error.
     graph::ExternalImage target(VkExtent2D extent, uint32_t bits);
-    /// What it shows after that frame.
+    /// The picture of that frame.
     Picture picture() const { return {.codes = {}, .extent = extent_, .bits = bits_, .image = view_.get()}; }
 
 private:

@@ -21,7 +21,7 @@ public:
     /// A view with as many more pixels on every side as its glare needs.
     static gpu_scene::View guarded(const gpu_scene::View&);
 
-    /// What is the same for all views of a moment.
+    /// Input that all views of a moment share.
     struct Moment {
         const render::RenderSettings& settings;
         bool late;  ///< light of other views is that of a moment ago
@@ -50,7 +50,7 @@ private:
         std::vector<std::vector<uint32_t>> wanted;  // nodes that each view takes light of
     };
     using Light = std::vector<std::vector<std::vector<glm::vec3>>>;  // by own view, taker: of its nodes, lx
-    /// What all views shed, as far as this process takes it.
+    /// Light of all views, as far as this process takes it.
     struct Shed {
         std::vector<std::vector<gpu_scene::GlareSource>> lamps;     // by view
         std::vector<std::vector<std::vector<glm::vec3>>> by_taker;  // own view, view: of its nodes, lx

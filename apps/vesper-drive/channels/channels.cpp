@@ -171,7 +171,7 @@ std::vector<float> middle_of(const std::vector<float>& rgba, VkExtent2D whole, V
     return middle;
 }
 
-// What the eye made of a screen, and luminances without the border, which nobody sees.
+// Times and pupil of an eye that saw a screen; and luminances lose the border, which nobody sees.
 void take_seen(render::Frame& frame, const render::SharedEye::Seen& seen, VkExtent2D shown) {
     if (!frame.scene.empty()) frame.scene = middle_of(frame.scene, frame.extent, shown);
     frame.extent = shown;

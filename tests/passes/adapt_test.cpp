@@ -300,6 +300,53 @@ TEST(Adapt, MatchesTheReferenceForEveryOperatorOverTime) {
         }
 }
 
+// An eye that leaves one colour for another has half of the new one at once, and is between them for a while.
+TEST(Adapt, MatchesTheReferenceWhileColoursChange) {
+    for (const Operator op : {Operator::Durand, Operator::Devlin}) {
+        SCOPED_TRACE(render::operator_info(op).name);
+        PassRig rig;
+        shared::EyeState eye{};
+        for (const glm::vec3 colour : {glm::vec3(1, 0.5f, 0.1f), glm::vec3(0.2f, 0.5f, 1), glm::vec3(0.3f, 1, 0.2f)}) {
+            Frame frame = frame_of({{60, 8, 20000}});
+            frame.tone_operator = op;
+            frame.colours.assign(6, glm::vec4(30.0f * colour, 1024));
+            frame.seconds = 4;
+            const auto want = frame.wanted(eye);
+            const Got got = adapt(rig, frame);
+            expect_same(got, want, frame);
+            eye = got.eye;
+        }
+    }
+}
+
+// Pigments of Pattanaik's cones come back within minutes after a day, and his rods see down to starlight.
+TEST(Adapt, MatchesTheReferenceFromDayToStarlight) {
+    PassRig rig;
+    shared::EyeState eye{};
+    for (const auto& [at, seconds] : {std::pair(99.0, 0.0f), {70.0, 30.0f}, {15.0, 60.0f}, {2.0, 200.0f}}) {
+        SCOPED_TRACE(at);
+        Frame frame = frame_of({{at, 0.5, 20000}});
+        frame.tone_operator = Operator::Pattanaik;
+        frame.tone.operators.pattanaik.rod_constant = 500;  // the light below which rods are no brighter counts
+        frame.seconds = seconds;
+        const auto want = frame.wanted(eye);
+        const Got got = adapt(rig, frame);
+        expect_same(got, want, frame);
+        eye = got.eye;
+    }
+}
+
+// Ward's ceiling clips until little is left to clip: how little shows in few histograms.
+TEST(Adapt, MatchesTheReferenceWhereWardStopsToClip) {
+    PassRig rig;
+    for (uint32_t spread = 0; spread < 60; ++spread) {
+        SCOPED_TRACE(spread);
+        Frame frame = frame_of({{70, 0.5 + 0.05 * spread, 20000}, {40, 10, 4000}}, 100, spread);
+        frame.tone_operator = Operator::Ward;
+        expect_same(adapt(rig, frame, render::EyeState{}), frame.wanted({}), frame);
+    }
+}
+
 TEST(Adapt, TheGazeMovesOverTheFovealLevel) {
     PassRig rig;
     Frame frame = frame_of({{30, 8, 2000}, {60, 5, 400}});

@@ -219,6 +219,49 @@ TEST(Visibility, PixelsLookAtTheTexelsOfTheReference) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+// A lamp that gives little counts with the share of a block that sees it, whether it is merged with others or not.
+TEST(Visibility, MergedLampsKeepTheShareThatIsSeen) {
+    PassRig rig;
+    constexpr uint32_t kSide = 64;
+    Noise noise(9);
+    const gpu_scene::View view = gpu_scene::View::symmetric({83, 61}, 0.7f, glm::mat4(1));
+    Surfaces s{view.extent, {}, {}, {}};
+    for (uint32_t i = 0; i < view.extent.width * view.extent.height; ++i) {  // a wall
+        s.reflectance.emplace_back(0.5f, 0.5f, 0.5f, 0.0f);
+        s.surface.emplace_back(glm::vec2(reference::octahedral_encode({0, 0, 1})), 12.0f, 1.0f);
+        s.emission.emplace_back(0);
+    }
+    gpu_scene::LampList list;
+    shared::Lamp lamp{};
+    lamp.position = {0.7f, 1.5f, -2}, lamp.intensity = 1000, lamp.axis = {0, 0, -1}, lamp.lobe_b = 1;
+    lamp.colour = {1, 0.7f, 0.4f};
+    list.lamps = {lamp}, list.indices = {0}, list.counts = {1, 0, 0, 0};
+    std::vector<uint16_t> texels;
+    for (uint32_t k = 0; k < 2 * kSide * kSide; ++k) texels.push_back(glm::packHalf1x16(4 + 12 * noise.fine()));
+    const std::vector map{render::shadow_map(
+        {.side = kSide, .hemispheres = 2, .zoom = 1, .flat = false, .range = 1, .radius = 0, .first = 0},
+        render::map_frame(glm::mat4(1)), view)};
+    const auto picture = [&](float merge_error) {
+        graph::FrameGraph graph;
+        const render::FrameShadowMaps maps{graph.upload("maps", map, VK_FORMAT_R32G32B32A32_SFLOAT),
+                                           graph.upload("distances", texels, VK_FORMAT_R16_SFLOAT)};
+        const LitBlocks lit = light(rig.frame(graph, view), upload(graph, s), list, no_tables(graph), {},
+                                    {.merge_error = merge_error, .maps = maps, .shadow_error = 100});
+        const graph::Resource scene = keep<glm::vec4>(graph, lit.scene),
+                              report = keep<shared::VisibilityReport>(graph, lit.blocks.visibility);
+        rig.run(graph);
+        EXPECT_GT(rig.got<shared::VisibilityReport>(report).at(0).faint, 20u);
+        return rig.got<glm::vec4>(scene);
+    };
+    const std::vector<glm::vec4> alone = picture(0), merged = picture(0.05f);
+    size_t differ = 0;
+    for (size_t i = 0; i < alone.size(); ++i) {
+        differ += alone[i] == merged[i] ? 0 : 1;
+        for (int c = 0; c < 3; ++c) ASSERT_NEAR(merged[i][c], alone[i][c], 0.01f * alone[i][c] + 1e-6f) << i;
+    }
+    EXPECT_GT(differ, alone.size() / 4) << "merged lamps are interpolated";
+}
+
 // A lamp never shades itself by its fixture; something that moves takes its shadow along; a lamp that is switched on
 // later has shadows; what has no place any more finds one.
 TEST(Visibility, MapsAreNeverStale) {

@@ -70,11 +70,12 @@ std::vector<std::string> luminaires_of(const BenchArguments& a, const std::strin
 std::vector<Planned> planned_runs(const BenchArguments& a) {
     std::vector<Planned> runs;
     apps::ToneArguments tone = a.tone;
-    const std::vector<std::string> operators = a.operators.empty() ? std::vector{tone.eye.tone_operator} : a.operators;
-    const std::vector<std::string> glares = a.glares.empty() ? std::vector{tone.glare} : a.glares;
+    const std::vector<std::string> operators =
+        a.operators.empty() ? std::vector{apps::text_of("operator", tone.own)} : a.operators;
+    const std::vector<std::string> glares = a.glares.empty() ? std::vector{apps::text_of("glare", tone.own)} : a.glares;
     const auto plan = [&](Planned run, const std::string& size, uint32_t channels, const std::string& glare,
                           const std::string& op) {
-        tone.eye.tone_operator = op, tone.glare = glare;
+        tone.instead = {{"operator", op}, {"glare", glare}};
         static_cast<render::ToneChainSettings&>(run.plan.render) = apps::tone_settings(tone);
         RunSettings& s = run.plan.settings;
         s.scene = short_name(run.scene) + (run.luminaire.empty() ? "" : "(" + run.luminaire + ")");

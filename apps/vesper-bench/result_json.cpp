@@ -84,7 +84,7 @@ apps::RecordedSettings read_light(const JsonValue& value) {
     if (std::ranges::find(render::kQualityNames, quality.text()) == render::kQualityNames.end())
         quality.fail("\"" + words(quality) + "\" is no quality");
     apps::RecordedSettings light{quality.text(), {}};
-    for (const render::Setting& row : render::settings()) {
+    for (const render::LightSetting& row : render::light_rows()) {
         double number = row.value(render::quality_named(light.quality));
         if (const std::optional<JsonValue> given = value.find(std::string(row.name).c_str())) {
             const bool unlimited = std::isinf(row.high) && given->json().is_string();

@@ -65,7 +65,7 @@ bool is_png(const std::string& output) { return output.ends_with(".png"); }
 
 // Of light that is traced. All reflections count there unless a number is given.
 void check_paths(RenderArguments& a) {
-    const apps::Command& command = a.tone.eye.command;
+    const apps::Command& command = a.tone.command;
     a.traces = a.paths > 0;
     if (a.traces && !a.settings.indirect) throw Error("--paths has no meaning with --indirect off");
     if (a.traces && a.settings.tone_operator == render::Operator::Ldr)
@@ -167,14 +167,14 @@ std::vector<FrameTime> moments_of(const RenderArguments& arguments) {
         return moments;
     }
     const auto idle = [&](const char* option, const char* why) {
-        if (arguments.tone.eye.command.count(option))
+        if (arguments.tone.command.count(option))
             throw Error("--replay " + one_line(arguments.replay_file) + ": " + why + ": " + option +
                         " has no meaning beside it");
     };
     idle("--dt", "times are those of the log"), idle("--eye-in", "eyes are those of the log");
     const std::vector<apps::LoggedFrame> log = apps::read_log(arguments.replay_file);
     check_log(arguments, "--replay", arguments.replay_file, log);
-    const unsigned frames = arguments.tone.eye.command.count("--frames") ? arguments.frames : ~0u;
+    const unsigned frames = arguments.tone.command.count("--frames") ? arguments.frames : ~0u;
     for (size_t i = 0; i < log.size() && moments.size() < frames; ++i)
         if (log[i].seconds >= arguments.start)
             moments.push_back({log[i].seconds, log[i].step, i == 0 ? shared::EyeState{} : log[i - 1].eye});

@@ -35,9 +35,8 @@ io::Header describe_frame(const RenderArguments& arguments, const gpu::Device& d
                       {"vesper:device", device.name() + ", " + device.driver()}};
     render::RenderSettings luminance = arguments.settings;
     luminance.display_average = false;  // of codes
-    for (const io::Header& part :
-         {apps::describe_settings(apps::recorded_settings(arguments.light.quality, luminance)),
-          apps::describe_tone(arguments.settings, frame), apps::describe_glare(arguments.settings, glare)})
+    for (const io::Header& part : {apps::describe_settings(apps::recorded_settings(arguments.light.quality, luminance)),
+                                   apps::describe_tone(arguments.settings, frame), apps::describe_glare(glare)})
         header.insert(header.end(), part.begin(), part.end());
     return header;
 }

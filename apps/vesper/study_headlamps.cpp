@@ -256,8 +256,9 @@ void HeadlampStudy::write() {
         "obstacle is seen where |VL| is at least %g. VL is negative where the obstacle is darker than what "
         "is around it. Where VL changes its sign the obstacle has no contrast and is not seen, however near. "
         "Between distances VL is linear.",
-        a.tone.glare == "none" ? "without the veil of lamps in the eye (--glare none)"
-                               : ("with the veil of all lamps in the eye (--glare " + a.tone.glare + ")").c_str(),
+        settings_.glare == render::Glare::None
+            ? "without the veil of lamps in the eye (--glare none)"
+            : ("with the veil of all lamps in the eye (--glare " + apps::text_of("glare", settings_) + ")").c_str(),
         a.level));
     std::vector<std::vector<std::string>> rows;
     const std::vector<std::string> columns{"beam", "oncoming lamps", "age", "seen", "darker at, m", "not measured"};
@@ -307,7 +308,7 @@ void add_headlamps(apps::Command studies) {
     apps::Command command = studies.add_command(
         "headlamps", "Headlamps: from where a driver sees an obstacle, with and without oncoming lamps");
     const auto a = std::make_shared<HeadlampArguments>();
-    a->tone.glare = "cie";
+    a->tone.own.glare = render::Glare::Scatter;
     command.add_option("scene", a->scene, "A .gltf or .glb, as vesper convert writes it").required();
     command.add_option("--output,-o", a->folder, "Folder of the page, its pictures, CSV and plots").required();
     command.add_option("--camera,-c", a->approach.camera, "Name of a camera that rides in a car (default: the first)");

@@ -117,8 +117,7 @@ std::vector<render::Operator> histogram_operators() {
 std::vector<render::Operator> studied_operators(const StudyArguments& arguments,
                                                 const std::vector<render::Operator>& candidates,
                                                 const std::string& why) {
-    const apps::EyeArguments& eye = arguments.tone.eye;
-    if (eye.command.count("--operator") == 0) return candidates;
+    if (arguments.tone.command.count("--operator") == 0) return candidates;
     const render::Operator given = apps::tone_settings(arguments.tone).tone_operator;
     if (std::find(candidates.begin(), candidates.end(), given) == candidates.end())
         throw Error("--operator " + apps::name_of(given) + ": " + why);

@@ -184,7 +184,7 @@ void write_outputs(const TonemapArguments& arguments, const render::ToneChainSet
         header.insert(header.end(), scale.begin(), scale.end());
         const io::Header tone = apps::describe_tone(settings, picture);
         header.insert(header.end(), tone.begin(), tone.end());
-        const io::Header dazzled = apps::describe_glare(settings, shown.glare);
+        const io::Header dazzled = apps::describe_glare(shown.glare);
         header.insert(header.end(), dazzled.begin(), dazzled.end());
         io::write_exr(output, picture.extent.width, picture.extent.height, picture.display_light, header);
     }

@@ -15,7 +15,7 @@ struct NamedRow {
 const std::vector<NamedRow>& rows() {
     static const std::vector<NamedRow> kRows = [] {
         std::vector<NamedRow> list;
-        for (const render::Setting& row : render::settings())
+        for (const render::LightSetting& row : render::light_rows())
             if (is_of_renderers(row))
                 list.push_back({&row, row.option(), std::string(row.unit), std::string(row.help)});
         return list;
@@ -29,6 +29,7 @@ uint32_t kind_of(render::SettingKind kind) {
             return VESPER_SETTING_SWITCH;
         case render::SettingKind::Count:
             return VESPER_SETTING_COUNT;
+        case render::SettingKind::Choice:
         case render::SettingKind::Float:
         case render::SettingKind::Double:
             break;
@@ -51,7 +52,7 @@ VesperResult by_name(const VesperRenderer* renderer, const char* name, VesperErr
 }
 
 const char* checked(const char* name) {
-    if (!is_of_renderers(render::setting(name))) throw Error("a renderer has no setting " + std::string(name));
+    if (!is_of_renderers(render::light_row(name))) throw Error("a renderer has no setting " + std::string(name));
     return name;
 }
 

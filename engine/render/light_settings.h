@@ -8,10 +8,9 @@
 
 #include <cstdint>
 
-namespace vesper::render {
+#include "render/setting.h"
 
-/// Value of a setting of type uint64_t that has no limit; "all" in text.
-constexpr uint64_t kUnlimited = ~uint64_t{0};
+namespace vesper::render {
 
 // clang-format off
 #define VESPER_LIGHT_SETTINGS(X) \

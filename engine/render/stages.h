@@ -25,7 +25,8 @@ struct ToneChainSettings {
     vision::Display display;
     Glare glare = Glare::None;
     BloomSettings bloom;
-    eye::ScatterSettings scatter;  ///< of Glare::Scatter: light scattered in the eye, in cd/m^2
+    /// Of Glare::Scatter: light scattered in the eye, in cd/m^2. The eye is of the observer's age.
+    eye::ScatterSettings scatter{.eye = {.age = vision::Observer{}.age}};
 };
 
 /// Retina: the light, rgba32f, cd/m^2 RGB, as the eye scatters it: with needles and halo of bright lamps where there is

@@ -151,7 +151,7 @@ TEST(Drive, SettingsAreTheOptionsOfRender) {
     drive::DriveSettings settings;
     settings.set("operator", "reinhard");
     settings.set("display-peak", "500");
-    settings.set("rods", "true");
+    settings.set("rods", "on");
     settings.set("sun", "-4");
     settings.set("free", "1,2,3,90,-10");
     EXPECT_EQ(settings.render().tone_operator, render::Operator::Reinhard);

@@ -16,7 +16,7 @@ namespace {
 using render::Quality, render::RenderSettings, render::settings_of;
 
 void expect_equal(const RenderSettings& a, const RenderSettings& b) {
-    for (const render::Setting& row : render::settings()) EXPECT_EQ(row.get(a), row.get(b)) << row.name;
+    for (const render::LightSetting& row : render::light_rows()) EXPECT_EQ(row.get(a), row.get(b)) << row.name;
 }
 
 TEST(Quality, StandardIsTheDefault) { expect_equal(settings_of(Quality::Standard), {}); }
@@ -44,7 +44,7 @@ TEST(Quality, SetsAreInTheOrderOfTheirBounds) {
 std::string table() {
     std::string text =
         "| setting | value | `draft` | `standard` | `exact` | meaning |\n| --- | --- | ---: | ---: | ---: | --- |\n";
-    for (const render::Setting& row : render::settings()) {
+    for (const render::LightSetting& row : render::light_rows()) {
         text += "| `--" + row.option() + "` | " + row.range() + " | ";
         for (const double value : row.values) text += row.text(value) + " | ";
         text += std::string(row.help) + " |\n";
@@ -61,19 +61,19 @@ TEST(Quality, TheDocumentListsAllSettings) {
 }
 
 TEST(Quality, SettingsAreTextsThatReadBack) {
-    for (const render::Setting& row : render::settings())
+    for (const render::LightSetting& row : render::light_rows())
         for (const double value : row.values) {
             EXPECT_EQ(row.parse(row.text(value)), value) << row.name;
             RenderSettings settings;
             row.set(settings, value);
             EXPECT_EQ(row.get(settings), value) << row.name;
         }
-    EXPECT_THROW(render::setting("no-shadows"), Error);
-    EXPECT_EQ(render::setting("shadow-error").parse("0.01"), double(0.01f));
+    EXPECT_THROW(render::light_row("no-shadows"), Error);
+    EXPECT_EQ(render::light_row("shadow-error").parse("0.01"), double(0.01f));
     for (const char* wrong : {"", "0.5x", "nan", "inf", "-0.1", "1.1", "on", " 1"})
-        EXPECT_THROW(render::setting("shadow_error").parse(wrong), Error) << wrong;
+        EXPECT_THROW(render::light_row("shadow_error").parse(wrong), Error) << wrong;
     for (const char* wrong : {"1.5", "1e3", "0", "65537", "all", "-1"})
-        EXPECT_THROW(render::setting("samples").parse(wrong), Error) << wrong;
+        EXPECT_THROW(render::light_row("samples").parse(wrong), Error) << wrong;
 }
 
 TEST(Quality, OfADriveIsASettingLikeOthers) {
@@ -105,7 +105,7 @@ std::string lit_plane() {
 }
 
 std::string standard_of(const char* name) {
-    const render::Setting& row = render::setting(name);
+    const render::LightSetting& row = render::light_row(name);
     return row.text(row.value(Quality::Standard));
 }
 
@@ -174,7 +174,7 @@ TEST_F(QualityProgram, BoundsAreRecordedBesideTheName) {
     EXPECT_EQ(members["threshold"], 10);
     EXPECT_EQ(members["merge_error"], 1);
     EXPECT_EQ(members["shadow_error"], 0.5);
-    EXPECT_EQ(members["reflection_error"], render::setting("reflection-error").value(Quality::Standard));
+    EXPECT_EQ(members["reflection_error"], render::light_row("reflection-error").value(Quality::Standard));
     EXPECT_EQ(members["shadows"], true);
     EXPECT_EQ(members["shadow_budget"], "all");
     EXPECT_EQ(value(picture("--quality exact"), "vesper:mergeError"), "0");
@@ -185,9 +185,9 @@ TEST_F(QualityProgram, BoundsAreRecordedBesideTheName) {
 TEST_F(QualityProgram, ThePlanBeginsWithAllSettings) {
     ASSERT_EQ(run("render a.gltf --camera eye --size 8x8 --indirect off --quality draft --plan"), 0) << said;
     EXPECT_TRUE(printed.starts_with("settings of light, quality draft\n")) << printed;
-    for (const render::Setting& row : render::settings())
+    for (const render::LightSetting& row : render::light_rows())
         EXPECT_NE(printed.find("\n  " + row.option() + " "), std::string::npos) << row.name;
-    const render::Setting& row = render::setting("threshold");
+    const render::LightSetting& row = render::light_row("threshold");
     EXPECT_NE(printed.find(" " + row.text(row.value(Quality::Draft)) + " lx\n"), std::string::npos) << printed;
 }
 

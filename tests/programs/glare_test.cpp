@@ -75,7 +75,7 @@ TEST_F(GlareProgram, ALampElsewhereVeilsABlackPicture) {
         EXPECT_NEAR(shown.rgb[size_t(3 * (20 * 64 + column))] / (0.001 + 99.999 * veil / 10), 1, 0.07) << column;
     }
     EXPECT_EQ(header("out.exr", "vesper:glare"), "cie");
-    EXPECT_EQ(header("out.exr", "vesper:glare:age"), "60");
+    EXPECT_EQ(header("out.exr", "vesper:age"), "60");
     const double e = 5 * std::cos(10 / kDegreesPerRadian), below = std::cos(40 / kDegreesPerRadian);
     EXPECT_NEAR(std::stod(header("out.exr", "vesper:glare:veil")),
                 e * vision::cie_general_glare(10, {60, 1}) + below * vision::cie_general_glare(40, {60, 1}), 1e-6);

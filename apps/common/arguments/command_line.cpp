@@ -119,6 +119,7 @@ Option& Option::check(const Check& check) { return option_->check(check.validato
 Option& Option::required() { return option_->required(), *this; }
 Option& Option::shows_default() { return option_->capture_default_str(), *this; }
 Option& Option::shows_default(const std::string& text) { return option_->default_str(text), *this; }
+Option& Option::takes(const std::string& word) { return option_->type_name(word), *this; }
 Option& Option::separated_by(char separator) { return option_->delimiter(separator), *this; }
 Option& Option::values(int least, int most) { return option_->expected(least, most), *this; }
 Option& Option::excludes(const Option& other) { return option_->excludes(other.option_), *this; }

@@ -64,6 +64,8 @@ public:
     /// --help shows the value that the variable had when this was called, or `text`.
     Option& shows_default();
     Option& shows_default(const std::string& text);
+    /// --help shows the word for what it takes.
+    Option& takes(const std::string& word);
     /// One argument holds several values.
     Option& separated_by(char separator);
     /// How many values follow.

@@ -149,13 +149,8 @@ std::string target_line(const GlareReport& r) {
                   r.target_veil, r.visibility);
 }
 
-io::Header describe_glare(const render::ToneChainSettings& settings, const GlareReport& report) {
-    const eye::ScatterSettings& s = settings.scatter;
-    io::Header header{{"vesper:glare", settings.glare == render::Glare::None  ? "none"
-                                       : settings.glare == render::Glare::Ldr ? "ldr"
-                                                                              : name_of(s.model)},
-                      {"vesper:glare:age", digits(s.eye.age)},
-                      {"vesper:glare:iris", digits(s.eye.pigmentation)}};
+io::Header describe_glare(const GlareReport& report) {
+    io::Header header;
     for (const Named& n : kNames) header.emplace_back(std::string("vesper:glare:") + n.name, digits(report.*n.value));
     return header;
 }

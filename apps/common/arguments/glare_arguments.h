@@ -34,7 +34,7 @@ vision::GlareReport glare_of(const GlareArguments&, const render::ToneChainSetti
 void check_target(const GlareArguments&, const render::ToneChainSettings&);
 /// How visible the marked target is, in a line.
 std::string target_line(const vision::GlareReport&);
-io::Header describe_glare(const render::ToneChainSettings&, const vision::GlareReport&);
+io::Header describe_glare(const vision::GlareReport&);
 /// Columns of a log, with a leading comma, and their values.
 std::string glare_columns();
 std::string glare_values(const vision::GlareReport&);

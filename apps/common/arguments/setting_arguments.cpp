@@ -11,12 +11,14 @@
 namespace vesper::apps {
 namespace {
 
-using render::Setting, render::SettingKind;
+using render::LightSetting, render::Setting, render::SettingKind;
 
 std::string option_name(const Setting& row) { return "--" + row.option(); }
 
 Check check_of(const Setting& row) {
     if (row.kind == SettingKind::Switch) return one_of({"on", "off"});
+    if (row.kind == SettingKind::Choice)
+        return one_of(std::vector<std::string>(row.choices.begin(), row.choices.end()));
     return {[&row](const std::string& given) {
                 try {
                     row.parse(given);
@@ -30,7 +32,7 @@ Check check_of(const Setting& row) {
 
 std::string help_of(const Setting& row) {
     std::string help(row.help);
-    if (!row.unit.empty()) help += ", " + std::string(row.unit);
+    if (!row.unit.empty()) help.insert(std::min(help.find(';'), help.size()), ", " + std::string(row.unit));
     return help;
 }
 
@@ -48,7 +50,14 @@ std::string with_unit(const Setting& row, double value) {
     return row.text(value) + (row.unit.empty() ? "" : " " + std::string(row.unit));
 }
 
-// "shadowError".
+template <class Visit>
+void for_each_value(const RecordedSettings& recorded, const Visit& visit) {
+    size_t index = 0;
+    for (const LightSetting& row : render::light_rows()) visit(row, recorded.values.at(index++));
+}
+
+}  // namespace
+
 std::string field_of(const Setting& row) {
     std::string field;
     bool capital = false;
@@ -59,13 +68,15 @@ std::string field_of(const Setting& row) {
     return field;
 }
 
-template <class Visit>
-void for_each_value(const RecordedSettings& recorded, const Visit& visit) {
-    size_t index = 0;
-    for (const Setting& row : render::settings()) visit(row, recorded.values.at(index++));
+void add_row_option(Command command, const Setting& row, double value) {
+    if (!row.group.empty()) command.help_group(std::string(row.group));
+    const bool is_switch = row.kind == SettingKind::Switch;
+    (is_switch ? command.add_switch(option_name(row), help_of(row))
+               : command.add_option(option_name(row), help_of(row)).takes(row.choices.empty() ? "NUMBER" : "NAME"))
+        .check(check_of(row))
+        .shows_default(default_of(row, value));
+    command.help_group();
 }
-
-}  // namespace
 
 void add_quality_option(Command command, SettingArguments& a) {
     std::vector<std::string> names(render::kQualityNames.begin(), render::kQualityNames.end());
@@ -75,29 +86,23 @@ void add_quality_option(Command command, SettingArguments& a) {
 }
 
 void add_setting_options(Command command, SettingArguments& a, std::initializer_list<std::string_view> without) {
-    command.help_group("Light");
     a.command = command;
-    for (const Setting& row : render::settings()) {
+    for (const LightSetting& row : render::light_rows()) {
         if (std::ranges::find(without, row.name) != without.end()) continue;
-        const bool is_switch = row.kind == SettingKind::Switch;
-        (is_switch ? command.add_switch(option_name(row), help_of(row))
-                   : command.add_option(option_name(row), help_of(row)))
-            .check(check_of(row))
-            .shows_default(default_of(row, a.own.get(row.name)));
+        add_row_option(command, row, a.own.get(row.name));
         a.rows.push_back(&row);
     }
-    command.help_group();
 }
 
 void add_setting_option(Command command, std::string_view name, double& value) {
-    const Setting& row = render::setting(name);
+    const Setting& row = render::light_row(name);
     command.add_option(option_name(row), value, help_of(row)).check(check_of(row)).shows_default();
 }
 
 render::ChosenSettings chosen_settings(const SettingArguments& a) {
     render::ChosenSettings chosen = a.own;
     chosen.quality = render::quality_named(a.quality);
-    for (const Setting* row : a.rows)
+    for (const LightSetting* row : a.rows)
         if (a.command.count(option_name(*row)) > 0)
             chosen.set(row->name, a.command.option(option_name(*row)).results().back());
     return chosen;
@@ -110,12 +115,12 @@ void apply_settings(const SettingArguments& a, render::RenderSettings& settings)
 }
 
 double& RecordedSettings::value(std::string_view name) {
-    return values.at(size_t(&render::setting(name) - render::settings().data()));
+    return values.at(size_t(&render::light_row(name) - render::light_rows().data()));
 }
 
 RecordedSettings recorded_settings(const std::string& quality, const render::RenderSettings& settings) {
     RecordedSettings recorded{quality, {}};
-    for (const Setting& row : render::settings()) recorded.values.push_back(row.get(settings));
+    for (const LightSetting& row : render::light_rows()) recorded.values.push_back(row.get(settings));
     return recorded;
 }
 

@@ -17,9 +17,13 @@ namespace vesper::apps {
 struct SettingArguments {
     std::string quality = "standard";  ///< of render::kQualityNames
     render::ChosenSettings own;        ///< defaults of the program, which replace values of every set
-    std::vector<const render::Setting*> rows;
+    std::vector<const render::LightSetting*> rows;
     Command command;
 };
+/// The option of a row, in its group of --help-all, which shows `value` as the default.
+void add_row_option(Command, const render::Setting&, double value);
+/// "shadowError", as headers of pictures name a row.
+std::string field_of(const render::Setting&);
 void add_quality_option(Command, SettingArguments&);
 /// An option for each row but those named, in the group "Light" of --help-all. An option wins over the set, in any
 /// order.
@@ -34,7 +38,7 @@ void apply_settings(const SettingArguments&, render::RenderSettings&);
 /// The set and the values of all rows, as files record them.
 struct RecordedSettings {
     std::string quality = "standard";
-    std::vector<double> values;  ///< by render::settings()
+    std::vector<double> values;  ///< by render::light_rows()
 
     double& value(std::string_view name);
     bool same_values(const RecordedSettings& other) const { return values == other.values; }

@@ -1,10 +1,9 @@
 #include "arguments/tone_arguments.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <map>
 
+#include "arguments/setting_arguments.h"
 #include "base/error.h"
 #include "print.h"
 #include "tone_log.h"
@@ -12,127 +11,57 @@
 namespace vesper::apps {
 namespace {
 
-using render::Glare;
+/// Petit, Bremond and Vienne: what --preset paper is, unless an option says otherwise.
+constexpr std::pair<const char*, const char*> kPaper[]{{"operator", "irawan"}, {"bins", "100"},
+                                                       {"foveal-level", "5"},  {"whole-votes", "on"},
+                                                       {"smoothing", "0"},     {"adapt-to", "texel"}};
 
-struct NamedGlare {
-    const char* name;
-    Glare glare;
-    eye::ScatterSettings::Model model = eye::ScatterSettings::Model::Cie;
-};
-constexpr NamedGlare kGlares[]{{"none", Glare::None},
-                               {"cie", Glare::Scatter, eye::ScatterSettings::Model::Cie},
-                               {"temporal", Glare::Scatter, eye::ScatterSettings::Model::Temporal},
-                               {"spencer", Glare::Scatter, eye::ScatterSettings::Model::Spencer},
-                               {"ward", Glare::Scatter, eye::ScatterSettings::Model::Ward},
-                               {"ldr", Glare::Ldr}};
-const std::map<std::string, uint32_t> kGamuts{
-    {"luminance", shared::kGamutLuminance}, {"chromaticity", shared::kGamutChromaticity}, {"clip", shared::kGamutClip}};
-const std::map<std::string, vision::SpencerState> kPupils{{"photopic", vision::SpencerState::Photopic},
-                                                          {"mesopic", vision::SpencerState::Mesopic},
-                                                          {"scotopic", vision::SpencerState::Scotopic}};
-
-/// Adds the settings of an operator to a command.
-struct OperatorOptions {
-    Command& command;
-    void operator()(const render::OperatorOption& option, float& value) const {
-        Option added = command.add_option(option.name, value, option.help).check(between(option.low, option.high));
-        if (option.shows_default) added.shows_default();
-    }
-    void operator()(const render::OperatorOption& option, bool& value) const {
-        command.add_flag(option.name, value, option.help);
-    }
-};
+void set(render::ToneChainSettings& settings, std::string_view name, const std::string& text) {
+    const render::ToneRow& row = render::tone_row(name);
+    row.set(settings, row.parse(text));
+}
 
 }  // namespace
 
 void add_tone_options(Command command, ToneArguments& a) {
-    add_eye_options(command, a.eye, a.histogram, a.tone);
-    command
-        .add_option("--glare", a.glare,
-                    "Light scattered in the eye\n"
-                    "  cie: CIE 135/1 total glare function\n"
-                    "  spencer: 1995, with needles and halo\n"
-                    "  ward: the veil of 1997\n"
-                    "  temporal: cie with needles and halo that move, after Ritschel 2009\n"
-                    "  ldr: the paper's, on the tone-mapped image; the others are in cd/m^2 before the operator")
-        .check(one_of(glare_names()))
-        .shows_default();
-    command.help_group("Glare");
-    command
-        .add_option("--iris", a.iris,
-                    "cie, temporal: pigmentation of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue")
-        .check(between(0.0, 1.5))
-        .shows_default();
-    command.add_option("--pupil", a.pupil, "spencer: state of adaptation of the pupil")
-        .check(one_of({"photopic", "mesopic", "scotopic"}))
-        .shows_default();
-    command.add_option("--eye-seed", a.eye_seed, "temporal, spencer: seed of the eye's needles and movements")
-        .check(range(0u, 0xffffffffu))
-        .shows_default();
-    command.add_flag("--lashes", a.lashes, "temporal: the eye squints, and lashes hang before its pupil");
+    a.command = command;
+    for (const render::ToneRow& row : render::tone_rows()) add_row_option(command, row, row.get(a.own));
+    command.help_group("The eye");
+    command.add_option("--gaze", a.gaze, "Where the eye looks: X,Y, parts of the image from its top left")
+        .separated_by(',')
+        .values(2)
+        .check(between(0.0, 1.0));
     command.help_group("Operators and their curves");
-    command.add_option("--histogram-low", a.histogram_low, "Luminance the histogram begins with, cd/m^2")
-        .check(between(1e-6, 1e9))
+    command
+        .add_option("--preset", a.preset,
+                    "paper: irawan with cones only, 100 bins, whole votes of level 5 alone, adapted to its texel at "
+                    "the gaze, no smoothing (at its 1680x1050, the default size)")
+        .check(one_of({"none", "paper"}))
         .shows_default();
-    command.add_option("--histogram-high", a.histogram_high, "Luminance the histogram ends with, cd/m^2")
-        .check(between(1e-6, 1e9))
-        .shows_default();
-    a.tone.operators.each([&](auto& settings) { settings.options(OperatorOptions{command}); });
     command.help_group();
     add_display_options(command, a);
-    command.help_group("Display");
-    command
-        .add_option(
-            "--gamut", a.gamut,
-            "Colours brighter than the display: luminance (keep its order, towards white), chromaticity (keep it, as "
-            "bright as it can be) or clip (each channel by itself)")
-        .check(one_of(gamut_names()))
-        .shows_default();
-    command.help_group();
 }
 
-render::ToneChainSettings tone_settings(const ToneArguments& arguments) {
-    render::ToneChainSettings settings;
-    const NamedGlare& glare = *std::find_if(std::begin(kGlares), std::end(kGlares),
-                                            [&](const NamedGlare& one) { return arguments.glare == one.name; });
-    settings.glare = glare.glare;
-    settings.scatter = {glare.model,
-                        {arguments.tone.observer.age, arguments.iris},
-                        kPupils.at(arguments.pupil),
-                        {arguments.eye_seed, arguments.lashes}};
-    settings.histogram = arguments.histogram;
-    settings.tone = arguments.tone;
-    settings.tone.gamut = kGamuts.at(arguments.gamut);
-    apply(arguments.eye, settings);
-    settings.histogram.log10_low = float(std::log10(arguments.histogram_low));
-    settings.histogram.log10_high = float(std::log10(arguments.histogram_high));
-    if (!(arguments.histogram_high >= 1.01 * arguments.histogram_low))
-        throw Error("--histogram-high must be more than --histogram-low");
-    settings.tone.operators.check();
-    if (settings.glare == Glare::Scatter && settings.tone_operator == render::Operator::Ldr)
-        throw Error("--glare " + arguments.glare + ": the ldr operator has no luminances to scatter");
-    settings.display = display_of(arguments);
+render::ToneChainSettings tone_settings(const ToneArguments& a) {
+    render::ToneChainSettings settings = a.own;
+    if (a.preset == "paper")
+        for (const auto& [name, text] : kPaper) set(settings, name, text);
+    for (const render::ToneRow& row : render::tone_rows()) {
+        const std::string option = "--" + row.option();
+        if (const auto found = a.instead.find(row.name); found != a.instead.end())
+            set(settings, row.name, found->second);
+        else if (a.command.count(option))
+            set(settings, row.name, a.command.option(option).results().back());
+    }
+    settings.tone.gaze = {a.gaze.at(0), a.gaze.at(1)};
+    render::check_tone(settings);
+    settings.display = display_of(a);
     return settings;
 }
 
-const std::vector<std::string>& glare_names() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> made;
-        for (const NamedGlare& glare : kGlares) made.emplace_back(glare.name);
-        return made;
-    }();
-    return names;
-}
-
-const std::vector<std::string>& gamut_names() {
-    static const std::vector<std::string> names{"luminance", "chromaticity", "clip"};
-    return names;
-}
-
-std::string name_of(eye::ScatterSettings::Model wanted) {
-    return std::find_if(std::begin(kGlares), std::end(kGlares),
-                        [&](const NamedGlare& one) { return one.glare == Glare::Scatter && one.model == wanted; })
-        ->name;
+std::string text_of(std::string_view name, const render::ToneChainSettings& settings) {
+    const render::ToneRow& row = render::tone_row(name);
+    return row.text(row.get(settings));
 }
 
 std::string name_of(render::Operator wanted) { return std::string(render::operator_info(wanted).name); }
@@ -141,6 +70,7 @@ std::string digits(double value) { return format("%.9g", value); }
 
 io::Header describe_tone(const render::ToneChainSettings& settings, const render::ToneMapped& shown) {
     io::Header header{{"vesper:operator", name_of(settings.tone_operator)},
+                      {"vesper:glare", text_of("glare", settings)},
                       {"vesper:adaptationLuminance", digits(double(shown.curve.adaptation))},
                       {"vesper:eyeSeconds", digits(double(shown.eye.seconds))},
                       {"vesper:fovealLevel", std::to_string(shown.foveal_level)},
@@ -148,6 +78,12 @@ io::Header describe_tone(const render::ToneChainSettings& settings, const render
                       {"vesper:displayHigh", digits(double(settings.display.high()))},
                       {"vesper:coneSigma", digits(double(shown.curve.cone_sigma))},
                       {"vesper:rodSigma", digits(double(shown.curve.rod_sigma))}};
+    for (const render::ToneRow& row : render::tone_rows()) {
+        const double value = row.get(settings);
+        const bool is_above = row.name == "operator" || row.name == "glare" || row.name == "foveal_level";
+        if (!is_above && value != row.value(render::Quality::Standard))
+            header.emplace_back("vesper:" + field_of(row), row.text(value));
+    }
     for (const auto& [name, value] : named_state(shown.eye)) header.emplace_back("vesper:eye:" + name, digits(value));
     const auto list = [](const auto& values, size_t count) {
         std::string text;

@@ -1,40 +1,38 @@
-// What commands that show luminance on a display share: operator, display, files. SPDX-License-Identifier: MIT
+// What commands that show luminance on a display share: operator, eye, glare, display, files. SPDX-License-Identifier:
+// MIT
 #pragma once
 
+#include <map>
 #include <string>
+#include <vector>
 
 #include "arguments/command_line.h"
 
 #include "arguments/display_arguments.h"
-#include "arguments/eye_arguments.h"
 #include "io/image_file.h"
-#include "render/tone_chain.h"
+#include "render/tone_rows.h"
 
 namespace vesper::apps {
 
-/// Options of the way from luminance to display codes.
+/// Options of the way from luminance to display codes: those of render::tone_rows(), the gaze, a preset and the
+/// display.
 struct ToneArguments : DisplayArguments {
-    EyeArguments eye;
-    std::string glare = "none", pupil = "photopic", gamut = "luminance";
-    double iris = vision::ScatteringEye{}.pigmentation;
-    uint32_t eye_seed = vision::ApertureSettings{}.seed;
-    bool lashes = false;
-    double histogram_low = 1e-4, histogram_high = 1e6;  ///< cd/m^2
-    render::HistogramSettings histogram;
-    render::ToneSettings tone;
+    render::ToneChainSettings own;                         ///< defaults of the program
+    std::map<std::string_view, std::string> instead = {};  ///< of programs that take lists: in place of what was given
+    std::string preset = "none";
+    std::vector<float> gaze{0.5f, 0.5f};
+    Command command = {};  ///< tells which were given
 };
 void add_tone_options(Command, ToneArguments&);
 /// What they say; throws Error if they contradict each other.
 render::ToneChainSettings tone_settings(const ToneArguments&);
 
+/// The value of a setting as users write it.
+std::string text_of(std::string_view name, const render::ToneChainSettings&);
 /// The name an operator has on the command line.
 std::string name_of(render::Operator);
-std::string name_of(eye::ScatterSettings::Model);
-/// What --glare takes.
-const std::vector<std::string>& glare_names();
-/// What --gamut takes.
-const std::vector<std::string>& gamut_names();
-/// What a picture's header should say of how it is shown.
+/// What a picture's header should say of how it is shown: the operator, settings that differ from their default, and
+/// what the eye adapted to.
 io::Header describe_tone(const render::ToneChainSettings&, const render::ToneMapped&);
 /// Nine digits, as in headers.
 std::string digits(double value);

@@ -240,7 +240,7 @@ void add_drive(apps::Command program) {
         apps::use_threads(a->threads);
         a->settings = DriveSettings::given(program);
         if (const auto set = a->settings.find("quality"); set != a->settings.end() && program.count("--scale") == 0)
-            a->scale = render::setting("scale").value(render::quality_named(set->second));
+            a->scale = render::light_row("scale").value(render::quality_named(set->second));
         take_messages(program, *a);
         check(program, *a);
         a->size_given = program.count("--size") > 0;

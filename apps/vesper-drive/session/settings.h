@@ -24,8 +24,8 @@ struct FreeCamera {
 };
 
 /// The settings of a drive are the options of `vesper render` and a few more, as text: one way for the command line,
-/// for a recording and for whoever turns a knob. Names are without dashes ("operator", "age", "display-peak"); flags
-/// are "true" or "false". What is not set has its default. Lamps by name: "lamp:street lamp" is a factor on their
+/// for a recording and for whoever turns a knob. Names are without dashes ("operator", "age", "display-peak");
+/// switches are "on" or "off". What is not set has its default. Lamps by name: "lamp:street lamp" is a factor on their
 /// intensity.
 class DriveSettings {
 public:

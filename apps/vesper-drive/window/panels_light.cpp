@@ -19,7 +19,7 @@ void Instruments::draw_light(const FrameState& now) {
     if (begin(kLight, "Light (F4)", {8, 8}, {520, 300})) {
         const render::RenderSettings& settings = now.session.settings().render();
         const render::HistogramSettings& bins = settings.histogram;
-        const double low = std::pow(10, double(bins.log10_low)), high = std::pow(10, double(bins.log10_high));
+        const double low = double(bins.low), high = double(bins.high);
         const vision::Display& display = settings.display;
         const ImVec2 room = ImGui::GetContentRegionAvail();
         const std::string legend = apps::format("bars: votes; grey band: the display's own range, %.3g to %.4g cd/m²",

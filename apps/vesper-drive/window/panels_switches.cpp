@@ -6,7 +6,7 @@
 #include "print.h"
 
 #include "arguments/tone_arguments.h"
-#include "render/passes/operators.h"
+#include "render/tone_rows.h"
 #include "vision/display.h"
 #include "window/instruments.h"
 
@@ -27,14 +27,11 @@ public:
     }
     void change(const std::string& name, const std::string& value) { changes_.emplace_back(name, value); }
 
-    void choice(const char* label, const char* name, const std::string& now, std::span<const std::string> of) {
+    void choice(const char* label, const char* name, const std::string& now, const std::vector<std::string>& of) {
         if (!ImGui::BeginCombo(label, now.c_str())) return;
         for (const std::string& one : of)
             if (ImGui::Selectable(one.c_str(), one == now) && one != now) change(name, one);
         ImGui::EndCombo();
-    }
-    void flag(const char* label, const char* name, bool now) {
-        if (ImGui::Checkbox(label, &now)) change(name, now ? "true" : "false");
     }
     /// The format says the unit.
     void slider(const char* label, const char* name, float now, float low, float high, const char* pattern,
@@ -44,11 +41,15 @@ public:
             change(name, format("%.6g", double(now)));
     }
 
-    /// A row of the table, by its kind. Numbers without a limit have no slider.
+    /// A row of a table, by its kind. Numbers without a limit have no slider.
     void row(const render::Setting& row, double now) {
         const std::string name = row.option();
         std::string label(row.name);
         std::ranges::replace(label, '_', ' ');
+        if (row.kind == render::SettingKind::Choice) {
+            choice(label.c_str(), name.c_str(), row.text(now), {row.choices.begin(), row.choices.end()});
+            return;
+        }
         const std::string pattern =
             (row.kind == render::SettingKind::Count ? "%.0f " : "%.3g ") + std::string(row.unit);
         auto slid = float(now);
@@ -80,20 +81,21 @@ void Instruments::draw_switches(const FrameState& now, std::vector<Change>& chan
         Switches to(settings, changes);
         ImGui::PushItemWidth(210);
 
-        std::vector<std::string> names;
-        for (const render::OperatorInfo& info : render::operators()) names.emplace_back(info.name);
-        to.choice("operator", "operator", apps::name_of(render.tone_operator), names);
+        const auto tone_row = [&](const char* name) {
+            const render::ToneRow& row = render::tone_row(name);
+            to.row(row, row.get(render));
+        };
+        tone_row("operator");
         ImGui::TextWrapped("%s", std::string(render::operator_info(render.tone_operator).summary).c_str());
 
-        to.choice("glare", "glare", to.text("glare", "none"), apps::glare_names());
-        if (render.glare == render::Glare::Scatter)
-            to.slider("iris", "iris", float(render.scatter.eye.pigmentation), 0, 1.5f, "%.2f (0 dark, 1.2 light blue)");
+        tone_row("glare");
+        if (render.glare == render::Glare::Scatter) tone_row("iris");
 
-        names.clear();
+        std::vector<std::string> names;
         for (const vision::NamedDisplay& known : vision::known_displays())
             if (now.screen.shows(known.display)) names.emplace_back(known.name);
         to.choice("display", "display", to.text("display", vision::known_displays().front().name), names);
-        to.choice("bright colours keep", "gamut", to.text("gamut", "luminance"), apps::gamut_names());
+        tone_row("gamut");
         if (render.display.eotf != vision::Eotf::Table) {
             to.slider("peak", "display-peak", render.display.peak, 1, 4000, "%.0f cd/m²", true);
             to.slider("black", "display-black", render.display.black, 0.001f, 2, "%.3f cd/m²", true);
@@ -101,19 +103,15 @@ void Instruments::draw_switches(const FrameState& now, std::vector<Change>& chan
         to.slider("light on it", "display-ambient", render.display.ambient, 0, 1000, "%.0f lx", true);
 
         ImGui::Separator();
-        to.slider("age", "age", float(tone.observer.age), 18, 90, "%.0f years");
-        to.slider("low vision", "low-vision", float(tone.observer.low_vision), 0.5f, 20, "%.1f x thresholds", true);
+        tone_row("age");
+        tone_row("low_vision");
         to.slider("gaze, right", "gaze", tone.gaze.x, 0, 1, "%.2f of the width");
         if (!changes.empty() && changes.back().first == "gaze")
             changes.back().second += format(",%.4g", double(tone.gaze.y));
         float down = tone.gaze.y;
         if (ImGui::SliderFloat("gaze, down", &down, 0, 1, "%.2f of the height"))
             to.change("gaze", format("%.4g,%.4g", double(tone.gaze.x), double(down)));
-        to.flag("rods see too", "rods", tone.observer.use_rods);
-        to.flag("dim light loses its colour", "colour-loss", tone.colour_loss);
-        to.flag("and sharpness", "acuity-loss", tone.acuity_loss);
-        to.flag("and is weighted as rods do", "purkinje", tone.purkinje);
-        to.slider("smoothing", "smoothing", tone.smoothing_seconds, 0, 5, "%.2f s");
+        for (const char* name : {"rods", "colour_loss", "acuity_loss", "purkinje", "smoothing"}) tone_row(name);
 
         ImGui::Separator();
         bool day = settings.sun().has_value();
@@ -124,7 +122,7 @@ void Instruments::draw_switches(const FrameState& now, std::vector<Change>& chan
         }
         const std::vector<std::string> sets(render::kQualityNames.begin(), render::kQualityNames.end());
         to.choice("quality", "quality", settings.quality(), sets);
-        for (const render::Setting& row : render::settings())
+        for (const render::LightSetting& row : render::light_rows())
             if (DriveSettings::knows(row.option())) to.row(row, row.get(render));
         ImGui::PopItemWidth();
     }

@@ -25,6 +25,11 @@ std::string free_name(const char* before, const char* after) {
             return name;
 }
 
+std::vector<std::string> choices_of(const char* setting) {
+    const auto choices = render::tone_row(setting).choices;
+    return {choices.begin(), choices.end()};
+}
+
 }  // namespace
 
 void WindowedDrive::change(const std::string& name, const std::string& value) {
@@ -150,8 +155,6 @@ void WindowedDrive::press_view(Action action) {
         change("age", format("%g", std::clamp(std::round((double(tone.observer.age) + by) / kAgeStep) * kAgeStep,
                                               kYoungest, kOldest)));
     };
-    std::vector<std::string> names;
-    for (const render::OperatorInfo& info : render::operators()) names.emplace_back(info.name);
     switch (action) {
         case Action::NextCamera:
             cycle("camera", {"driver", "chase", "bird", "free"}, 1);
@@ -169,13 +172,13 @@ void WindowedDrive::press_view(Action action) {
             change("camera", "free");
             break;
         case Action::NextOperator:
-            cycle("operator", names, 1);
+            cycle("operator", choices_of("operator"), 1);
             break;
         case Action::PreviousOperator:
-            cycle("operator", names, -1);
+            cycle("operator", choices_of("operator"), -1);
             break;
         case Action::NextGlare:
-            cycle("glare", apps::glare_names(), 1);
+            cycle("glare", choices_of("glare"), 1);
             break;
         case Action::NextDisplay:
             next_display();

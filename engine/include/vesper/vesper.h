@@ -179,8 +179,8 @@ typedef struct VesperToneSettings {
     uint32_t eye_seed;        /**< VESPER_GLARE_TEMPORAL and _SPENCER: selects the needles of the eye */
     int32_t lashes;           /**< VESPER_GLARE_TEMPORAL: 1: the eye squints */
     uint32_t gamut;           /**< a VesperGamut */
-    const char* options; /**< settings of operators as `vesper tonemap --help` names them, without dashes: "bias=0.7
-                          * devlin-contrast=0.4"; 1 sets a flag. They overrule key, white and black. Null: none */
+    const char* options; /**< settings by name (docs/tone-settings.md), separated by spaces: "bias=0.7 adapt-to=texel
+                          * rods=on". They overrule the fields above. Null: none */
 } VesperToneSettings;
 
 /** Sets the defaults of `vesper tonemap`. `size`: sizeof the caller's structure. */

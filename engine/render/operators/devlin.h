@@ -16,17 +16,16 @@ struct DevlinSettings {
     float chromatic_adaptation = 0.5f;  ///< c: 0 to luminance, 1 to each channel; default as pfstools 2.2.0, paper: 0
 
     template <class Visit>
-    void options(const Visit& visit) {
-        visit(OperatorOption{"--devlin-intensity", "devlin: more is brighter", -8, 8}, intensity);
-        visit(OperatorOption{"--devlin-contrast",
-                             "devlin: exponent of the half saturation, 0.3 to 1; 0: from the frame", 0, 1},
-              contrast);
-        visit(OperatorOption{"--devlin-light-adaptation",
-                             "devlin: receptors adapt to the frame (0) or to their pixel (1)", 0, 1},
-              light_adaptation);
-        visit(OperatorOption{"--devlin-chromatic-adaptation",
-                             "devlin: receptors adapt to luminance (0) or to their channel (1)", 0, 1},
-              chromatic_adaptation);
+    static void options(const Visit& visit) {
+        using S = DevlinSettings;
+        visit(&S::intensity, OperatorOption{"devlin_intensity", "", "devlin: more is brighter", -8, 8});
+        visit(&S::contrast, OperatorOption{"devlin_contrast", "",
+                                           "devlin: exponent of the half saturation, 0.3 to 1; 0: from the frame"});
+        visit(&S::light_adaptation, OperatorOption{"devlin_light_adaptation", "",
+                                                   "devlin: receptors adapt to the frame (0) or to their pixel (1)"});
+        visit(&S::chromatic_adaptation,
+              OperatorOption{"devlin_chromatic_adaptation", "",
+                             "devlin: receptors adapt to luminance (0) or to their channel (1)"});
     }
     bool counts_finely() const { return true; }
     OperatorBlock block(const vision::Display&) const {

@@ -13,9 +13,9 @@ struct DragoSettings {
     float bias = 0.85f;  ///< less lifts dark parts
 
     template <class Visit>
-    void options(const Visit& visit) {
-        visit(OperatorOption{"--bias", "drago: less lifts dark parts, more keeps the contrast of bright ones", 0.5, 1},
-              bias);
+    static void options(const Visit& visit) {
+        visit(&DragoSettings::bias,
+              OperatorOption{"bias", "", "drago: less lifts dark parts, more keeps the contrast of bright ones", 0.5});
     }
     OperatorBlock block(const vision::Display&) const { return {glm::vec4(std::log(bias) / std::log(0.5f), 0, 0, 0)}; }
 };

@@ -13,11 +13,11 @@ struct LinearSettings {
     float high = 0;  ///< cd/m^2 shown as white; 0: the frame's maximum
 
     template <class Visit>
-    void options(const Visit& visit) {
-        visit(OperatorOption{"--linear-min", "linear: luminance shown as black, cd/m^2", 0, 1e9}, low);
-        visit(OperatorOption{"--linear-max", "linear: luminance shown as white, cd/m^2 (default: the maximum)", 0, 1e9,
-                             false},
-              high);
+    static void options(const Visit& visit) {
+        using S = LinearSettings;
+        visit(&S::low, OperatorOption{"linear_min", "cd/m^2", "linear: luminance shown as black", 0, 1e9});
+        visit(&S::high,
+              OperatorOption{"linear_max", "cd/m^2", "linear: luminance shown as white; 0: the maximum", 0, 1e9});
     }
     void check() const {
         if (high > 0 && high <= low) throw Error("--linear-max must be more than --linear-min");

@@ -11,11 +11,10 @@ struct NeutralSettings {
     float white = 0;  ///< cd/m^2 that is 1 before the curve; 0: the log average is 0.18
 
     template <class Visit>
-    void options(const Visit& visit) {
-        visit(OperatorOption{"--neutral-white",
-                             "neutral: luminance that is 1 before the curve, cd/m^2 (default: the log average is 0.18)",
-                             0, 1e9, false},
-              white);
+    static void options(const Visit& visit) {
+        visit(&NeutralSettings::white,
+              OperatorOption{"neutral_white", "cd/m^2",
+                             "neutral: luminance that is 1 before the curve; 0: the log average is 0.18", 0, 1e9});
     }
     OperatorBlock block(const vision::Display&) const { return {glm::vec4(white, 0, 0, 0)}; }
 };

@@ -3,7 +3,7 @@
 // engine/render/operators/NAME.h defines NameSettings for every line of vesper/operators.h, with
 //   traits                     what the operator needs of the tone chain
 //   fields, with defaults      what users may set
-//   options(visit)             calls visit(OperatorOption, field) for each of them
+//   options(visit)             calls visit(&NameSettings::field, OperatorOption) for each of them; static
 //   block(Display)             the settings as glsl/operators/NAME.glsl reads them; may be left out
 //   counts_finely()            whether it uses the histogram as set, beside traits.histogram; may be left out
 //   check()                    throws Error for settings that contradict each other; may be left out
@@ -31,12 +31,12 @@ struct OperatorTraits {
     bool bands = false;      ///< contrast is mapped in bands (add_bands), and only what lies above them by the curve
 };
 
-/// A setting on the command line: a number from `low` to `high`, or a flag.
+/// What users read of a setting: a number from `low` to `high`, or a switch.
 struct OperatorOption {
-    const char* name;
-    const char* help;
-    double low = 0, high = 0;
-    bool shows_default = true;
+    const char* name;  ///< "devlin_contrast"
+    const char* unit = "";
+    const char* help = "";
+    double low = 0, high = 1;
 };
 
 /// The table of a curve at a luminance, cd/m^2, between its nodes.
@@ -53,7 +53,7 @@ using OperatorBlock = std::array<glm::vec4, shared::kOperatorSettings>;
 /// Of operators that nothing can be set of.
 struct NoOptions {
     template <class Visit>
-    void options(const Visit&) {}
+    static void options(const Visit&) {}
 };
 
 }  // namespace vesper::render

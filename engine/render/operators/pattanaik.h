@@ -12,9 +12,9 @@ struct PattanaikSettings {
     float rod_constant = 5e5f;  ///< of the half saturation of rods; pfstmo_pattanaik00 has 5e4
 
     template <class Visit>
-    void options(const Visit& visit) {
-        visit(OperatorOption{"--rod-constant", "pattanaik: constant of the rods (pfstmo_pattanaik00: 5e4)", 1, 1e9},
-              rod_constant);
+    static void options(const Visit& visit) {
+        visit(&PattanaikSettings::rod_constant,
+              OperatorOption{"rod_constant", "", "pattanaik: constant of the rods (pfstmo_pattanaik00: 5e4)", 1, 1e9});
     }
     OperatorBlock block(const vision::Display&) const { return {glm::vec4(rod_constant, 0, 0, 0)}; }
     static double shown(const shared::ToneCurve& curve, double luminance) {

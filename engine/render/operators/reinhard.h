@@ -14,21 +14,19 @@ struct ReinhardSettings {
     float white = 0;        ///< cd/m^2 shown as white; 0: the frame's maximum
 
     template <class Visit>
-    void options(const Visit& visit) {
-        visit(OperatorOption{"--key",
-                             "reinhard: what the log average is scaled to, relative to white, before compression", 1e-4,
-                             10},
-              key);
-        visit(OperatorOption{"--automatic", "reinhard: key and white from the frame (Reinhard 2003)"}, automatic);
-        visit(
-            OperatorOption{"--log-epsilon",
-                           "reinhard: added to luminance before logarithms, cd/m^2 (his program: 1e-5; default: none, "
-                           "but not below 1e-4)",
-                           0, 1, false},
-            log_epsilon);
-        visit(OperatorOption{"--white", "reinhard: luminance shown as white, cd/m^2 (default: the maximum)", 0, 1e9,
-                             false},
-              white);
+    static void options(const Visit& visit) {
+        using S = ReinhardSettings;
+        visit(&S::key, OperatorOption{"key", "",
+                                      "reinhard: what the log average is scaled to, relative to white, before "
+                                      "compression",
+                                      1e-4, 10});
+        visit(&S::automatic, OperatorOption{"automatic", "", "reinhard: key and white from the frame (Reinhard 2003)"});
+        visit(&S::log_epsilon,
+              OperatorOption{"log_epsilon", "cd/m^2",
+                             "reinhard: added to luminance before logarithms (his program: 1e-5); 0: none, but "
+                             "luminance is at least 1e-4"});
+        visit(&S::white,
+              OperatorOption{"white", "cd/m^2", "reinhard: luminance shown as white; 0: the maximum", 0, 1e9});
     }
     bool counts_finely() const { return automatic; }
     OperatorBlock block(const vision::Display&) const { return {glm::vec4(key, white, automatic ? 1 : 0, 0)}; }

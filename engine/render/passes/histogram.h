@@ -11,11 +11,11 @@
 namespace vesper::render {
 
 struct HistogramSettings {
-    uint32_t bins = 100;   ///< 1 .. 256
-    float log10_low = -4;  ///< log10 of the lowest luminance, cd/m^2
-    float log10_high = 6;  ///< and of the highest
-    bool split = true;     ///< a vote is shared by the two nearest bins, so that none jumps from one to the next
-    bool fine = true;      ///< half of all votes are those of level 1, so that small lamps have bins of their own
+    uint32_t bins = 100;  ///< 1 .. 256
+    float low = 1e-4f;    ///< cd/m^2, from which luminance is counted
+    float high = 1e6f;    ///< cd/m^2, up to which it is
+    bool split = true;    ///< a vote is shared by the two nearest bins, so that none jumps from one to the next
+    bool fine = true;     ///< half of all votes are those of level 1, so that small lamps have bins of their own
     bool overlap =
         true;  ///< with fine votes: texels of the level itself overlap, so that the place of their grid does not matter
     uint64_t electorate = 0;  ///< px of all pictures whose votes are added, so that all have as many; 0: of this one
@@ -26,11 +26,12 @@ struct HistogramSettings {
     /// Bins between the knots of the B-spline (of variance window^2 / 3) that, with a vote's share in two bins (1/6),
     /// makes the spread of the vote.
     float window() const {
-        const float spread_in_bins = spread * float(bins) / (log10_high - log10_low);
+        const float spread_in_bins = spread * float(bins) / decades();
         return split ? std::sqrt(std::max(3 * (spread_in_bins * spread_in_bins - 1.0f / 6), 1.0f)) : 0;
     }
-    float ln_low() const { return log10_low * std::numbers::ln10_v<float>; }
-    float bins_per_ln() const { return float(bins) / ((log10_high - log10_low) * std::numbers::ln10_v<float>); }
+    float ln_low() const { return float(std::log10(double(low))) * std::numbers::ln10_v<float>; }
+    float bins_per_ln() const { return float(bins) / (decades() * std::numbers::ln10_v<float>); }
+    float decades() const { return float(std::log10(double(high))) - float(std::log10(double(low))); }
 };
 
 /// Votes of ln luminance over the texels of one pyramid level (1-based), and of level 1 as settings say. A

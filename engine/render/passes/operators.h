@@ -37,10 +37,10 @@ struct OperatorSettings {
     VESPER_OPERATORS(VESPER_SETTINGS)
 #undef VESPER_SETTINGS
 
-    /// Calls visit(settings) for each operator.
+    /// Calls visit(&OperatorSettings::name) for each operator.
     template <class Visit>
-    void each(const Visit& visit) {
-#define VESPER_VISIT(NAME, Name, name, value, summary) visit(name);
+    static void each(const Visit& visit) {
+#define VESPER_VISIT(NAME, Name, name, value, summary) visit(&OperatorSettings::name);
         VESPER_OPERATORS(VESPER_VISIT)
 #undef VESPER_VISIT
     }

@@ -2,6 +2,7 @@
 #include "render/passes/operators.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <map>
@@ -12,6 +13,8 @@
 #include <vesper/vesper.h>
 
 #include "places.h"
+#include "render/settings.h"
+#include "render/tone_rows.h"
 
 namespace vesper::test::list_test {
 namespace {
@@ -19,12 +22,12 @@ namespace {
 /// "`--key`, `--white`", by the name of an operator.
 std::map<std::string, std::string> options_of_operators() {
     std::map<std::string, std::string> made;
-    render::OperatorSettings all;
     size_t index = 0;
-    all.each([&](auto& settings) {
+    render::OperatorSettings::each([&](auto of) {
         std::string& list = made[std::string(render::operators()[index++].name)];
-        settings.options([&](const render::OperatorOption& option, auto&) {
-            list += (list.empty() ? "`" : ", `") + std::string(option.name) + "`";
+        using Own = std::remove_reference_t<decltype(std::declval<render::OperatorSettings&>().*of)>;
+        Own::options([&](auto, const render::OperatorOption& option) {
+            list += (list.empty() ? "`--" : ", `--") + render::tone_row(option.name).option() + "`";
         });
     });
     return made;
@@ -54,19 +57,70 @@ TEST(Operators, TheDocumentListsThem) {
     EXPECT_EQ(text.substr(begin, until - begin), table());
 }
 
-TEST(Operators, HaveNamesAndOptionsOfTheirOwn) {
-    std::set<std::string> names, options;
+TEST(Operators, HaveNamesOfTheirOwn) {
+    std::set<std::string> names;
     for (const render::OperatorInfo& op : render::operators()) {
         EXPECT_TRUE(names.emplace(op.name).second) << op.name;
         EXPECT_FALSE(op.summary.empty()) << op.name;
     }
-    render::OperatorSettings all;
-    all.each([&](auto& settings) {
-        settings.options([&](const render::OperatorOption& option, auto&) {
-            EXPECT_TRUE(options.emplace(option.name).second) << option.name;
-            EXPECT_NE(std::string(option.help), "");
-        });
-    });
+}
+
+TEST(ToneRows, HaveNamesOfTheirOwn) {
+    std::set<std::string> names;
+    for (const render::LightSetting& row : render::light_rows()) names.emplace(row.name);
+    for (const render::ToneRow& row : render::tone_rows()) {
+        EXPECT_TRUE(names.emplace(row.name).second) << row.name;
+        EXPECT_FALSE(row.help.empty()) << row.name;
+    }
+}
+
+// Every value of a choice, and both ends of a range: what was set is what is got, and what its text says.
+TEST(ToneRows, SettingsAreTextsThatReadBack) {
+    for (const render::ToneRow& row : render::tone_rows()) {
+        EXPECT_EQ(row.get({}), row.value(render::Quality::Standard)) << row.name;
+        std::vector<double> values{row.low, row.high};
+        if (row.kind == render::SettingKind::Choice)
+            for (double value = row.low; value < row.high; ++value) values.push_back(value);
+        for (const double value : values) {
+            render::ToneChainSettings settings;
+            row.set(settings, row.parse(row.text(row.checked(value))));
+            EXPECT_EQ(row.get(settings), row.rounded(value)) << row.name;
+            for (const render::ToneRow& other : render::tone_rows())
+                if (&other != &row) EXPECT_EQ(other.get(settings), other.get({})) << row.name << " sets " << other.name;
+        }
+        for (const double value : {row.low - 1, row.high * 1.01 + 1, std::nan("")})
+            EXPECT_THROW(row.checked(value), Error) << row.name << " " << value;
+    }
+    EXPECT_THROW(render::tone_row("pupils"), Error);
+    EXPECT_THROW(render::tone_row("glare").parse("moss"), Error);
+}
+
+// An observer has one age: of thresholds and of the scatter in the eye.
+TEST(ToneRows, AnObserverHasOneAge) {
+    render::ToneChainSettings settings;
+    EXPECT_EQ(settings.scatter.eye.age, settings.tone.observer.age);
+    render::tone_row("age").set(settings, 71);
+    EXPECT_EQ(settings.scatter.eye.age, 71);
+    EXPECT_EQ(settings.tone.observer.age, 71);
+}
+
+std::string table_of_rows() {
+    std::string text = "| option | value | default | meaning |\n| --- | --- | ---: | --- |\n";
+    for (const render::ToneRow& row : render::tone_rows()) {
+        const std::string help(row.help.substr(0, row.help.find('\n')));
+        text += "| `--" + row.option() + "` | " + row.range() + " | " + row.text(row.value(render::Quality::Standard)) +
+                " | " + help + " |\n";
+    }
+    return text;
+}
+
+TEST(ToneRows, TheDocumentListsThem) {
+    std::ifstream stream(VESPER_SOURCE_DIR "/docs/tone-settings.md", std::ios::binary);
+    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    const size_t from = text.find("<!-- settings"), until = text.find("<!-- /settings -->");
+    ASSERT_TRUE(from != text.npos && until != text.npos && from < until);
+    const size_t begin = text.find('\n', from) + 1;
+    EXPECT_EQ(text.substr(begin, until - begin), table_of_rows());
 }
 
 // Programs of other people hold these numbers.

@@ -11,6 +11,7 @@
 namespace vesper::graph {
 namespace {
 
+constexpr size_t kMostGraphs = 8;          // in turn, such as of screens of several sizes, whose transients stay
 constexpr size_t kSpareTransients = 64;    // of other frames
 constexpr uint64_t kSliceAlignment = 256;  // at least every minimum offset alignment Vulkan allows a device to ask for
 constexpr VkBufferUsageFlags kHostUsage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
@@ -243,24 +244,23 @@ void Executor::enter_slot() {
     slot_->views.clear();
 }
 
-bool Executor::is_placed(const FrameGraph& graph, const Plan::Placement& p) const {
+Executor::TransientKey Executor::key_of(const FrameGraph& graph, const Plan::Placement& p) const {
     const FrameGraph::ResourceInfo& info = graph.resources()[p.resource];
-    const auto found = transients_.find(info.name);
-    if (found == transients_.end()) return false;
-    const Transient& t = found->second;
-    return t.shape == info.shape && t.usage == plan_.usage[p.resource] && t.heap == p.heap && t.offset == p.offset;
+    const auto& [format, extent, bytes] = info.shape;
+    return {info.name, format, extent.width, extent.height, bytes, plan_.usage[p.resource], p.heap, p.offset};
 }
 
 // Transients that this frame does not have stay, for a frame that has them again.
 void Executor::place(const FrameGraph& graph) {
-    // Memory stays where it is large enough, and not more than twice so.
+    // Memory stays where it is large enough, and not more than four times so.
     const auto suffices = [](const Plan::Heap& had, const Plan::Heap& wanted) {
-        return had.memory_types == wanted.memory_types && had.bytes >= wanted.bytes && had.bytes / 2 <= wanted.bytes;
+        return had.memory_types == wanted.memory_types && had.bytes >= wanted.bytes && had.bytes / 4 <= wanted.bytes;
     };
     const bool has_room = std::ranges::equal(allocated_, plan_.heaps, suffices);
-    const bool all_placed =
-        has_room && std::ranges::all_of(plan_.placements, [&](const auto& p) { return is_placed(graph, p); });
-    const bool crowded = transients_.size() > 2 * plan_.placements.size() + kSpareTransients;
+    const bool all_placed = has_room && std::ranges::all_of(plan_.placements, [&](const auto& p) {
+                                return transients_.contains(key_of(graph, p));
+                            });
+    const bool crowded = transients_.size() > kMostGraphs * plan_.placements.size() + kSpareTransients;
     if (!all_placed || crowded) wait();  // what is under way uses what goes now
     if (!has_room || crowded) transients_.clear();
     if (!has_room) {
@@ -273,28 +273,30 @@ void Executor::place(const FrameGraph& graph) {
     resources_.assign(graph.resources().size(), {});
     for (const Plan::Placement& p : plan_.placements) {
         const FrameGraph::ResourceInfo& info = graph.resources()[p.resource];
-        if (!is_placed(graph, p)) make_transient(info, p);
-        const Transient& t = transients_.at(info.name);
+        TransientKey key = key_of(graph, p);
+        auto found = transients_.find(key);
+        if (found == transients_.end()) found = transients_.emplace(std::move(key), make_transient(info, p)).first;
+        const Transient& t = found->second;
         Realized& r = resources_[p.resource];
         r.image = t.image.get(), r.view = t.view.get(), r.aspect = gpu::aspect_of(info.shape.format);
         r.buffer = &t.buffer, r.bytes = r.viewed_bytes = info.shape.bytes;
     }
 }
 
-void Executor::make_transient(const FrameGraph::ResourceInfo& info, const Plan::Placement& p) {
-    transients_.erase(info.name);
-    Transient t{info.shape, plan_.usage[p.resource], p.heap, p.offset, {}, {}, {}};
+Executor::Transient Executor::make_transient(const FrameGraph::ResourceInfo& info, const Plan::Placement& p) const {
+    Transient t;
+    const uint32_t usage = plan_.usage[p.resource];
     if (info.shape.is_image()) {
-        t.image = gpu::make_image(device_, gpu::image_info(info.shape.format, info.shape.extent, 1, t.usage));
+        t.image = gpu::make_image(device_, gpu::image_info(info.shape.format, info.shape.extent, 1, usage));
         gpu::check(vkBindImageMemory(device_.handle(), t.image.get(), heaps_[p.heap].get(), p.offset),
                    "placing an image");
         t.view = gpu::make_view(device_, t.image.get(), info.shape.format);
     } else {
-        t.buffer = gpu::make_buffer(device_, info.shape.bytes, t.usage);
+        t.buffer = gpu::make_buffer(device_, info.shape.bytes, usage);
         gpu::check(vkBindBufferMemory(device_.handle(), t.buffer.get(), heaps_[p.heap].get(), p.offset),
                    "placing a buffer");
     }
-    transients_.emplace(info.name, std::move(t));
+    return t;
 }
 
 void Executor::realize_histories(const FrameGraph& graph) {

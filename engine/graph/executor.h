@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "gpu/kernel.h"
@@ -65,11 +66,10 @@ private:
         uint64_t offset = 0, bytes = 0;
         uint64_t last_frame = 0;  // that has the upload
     };
-    // The objects of a transient, and where they lie.
+    // A transient is the same in frames where all of this is: name, shape (format, width, height, bytes), usage, heap,
+    // offset.
+    using TransientKey = std::tuple<std::string, VkFormat, uint32_t, uint32_t, uint64_t, uint32_t, uint32_t, uint64_t>;
     struct Transient {
-        Shape shape;
-        uint32_t usage, heap;
-        uint64_t offset;
         gpu::OwnedImage image;
         gpu::OwnedImageView view;
         gpu::OwnedBuffer buffer;
@@ -80,8 +80,8 @@ private:
     void fail() noexcept;
     void place(const FrameGraph& graph);
     void find_turning(const FrameGraph& graph);
-    bool is_placed(const FrameGraph& graph, const Plan::Placement& placement) const;
-    void make_transient(const FrameGraph::ResourceInfo& info, const Plan::Placement& placement);
+    TransientKey key_of(const FrameGraph& graph, const Plan::Placement& placement) const;
+    Transient make_transient(const FrameGraph::ResourceInfo& info, const Plan::Placement& placement) const;
     void realize_histories(const FrameGraph& graph);
     void realize_uploads(const FrameGraph& graph);
     void realize_externals(const FrameGraph& graph);
@@ -103,7 +103,7 @@ private:
     std::vector<Past*> cleared_;           // by it
     std::vector<gpu::OwnedMemory> heaps_;
     std::vector<Plan::Heap> allocated_;                 // what they are
-    std::map<std::string, Transient> transients_;       // in `heaps_`, by name
+    std::map<TransientKey, Transient> transients_;      // in `heaps_`
     std::map<std::string, UploadPlace> upload_places_;  // in FrameSlot::uploads, by name
     uint64_t upload_end_ = 0;
     uint64_t frame_ = 0;  // number of the last one

@@ -61,7 +61,8 @@ public:
     /// Waits for all submitted frames. Returns the results of the last one, once.
     std::optional<Frame> finish();
     /// Results of the oldest submitted frame whose results were not returned; those of frames before the last
-    /// graph::Executor::kFramesUnderWay are lost. Without `waits` there are none while it is under way.
+    /// graph::Executor::kFramesUnderWay are lost, and with temporal glare those of all but the last. Without `waits`
+    /// there are none while it is under way.
     std::optional<Frame> finish_oldest(bool waits);
     /// Submitted frames whose results are left.
     size_t unfinished() const;

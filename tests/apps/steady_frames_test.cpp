@@ -36,6 +36,19 @@ TEST(SteadyFrames, AreOneSubmissionAndMakeNothing) {
         EXPECT_EQ(after.objects - before.objects, 0u) << i;
         EXPECT_EQ(after.pipelines - before.pipelines, 0u) << i;
     }
+    for (int i = 0; i < kFrames; ++i) {  // the same in flight
+        for (int steps = 0; steps < 4; ++steps) session.step({.throttle = 0.7});
+        const gpu_scene::View view = session.view({160, 100});
+        const gpu::DeviceUse before = device.use();
+        session.submit(view, {.display = true});
+        const gpu::DeviceUse& after = device.use();
+        EXPECT_EQ(after.submissions - before.submissions, 1u) << i;
+        EXPECT_EQ(after.waits - before.waits, 0u) << i << ": beside the oldest frame, which is waited for below";
+        if (i >= kFirst) {
+            EXPECT_EQ(after.objects - before.objects, 0u) << i;
+        }
+        while (session.renderer().unfinished() > 1) ASSERT_TRUE(session.finish_oldest(true));
+    }
     EXPECT_GT(maps, uint32_t{kFrames});  // headlamps move
     EXPECT_GT(tiles, uint32_t{kFrames});
 }

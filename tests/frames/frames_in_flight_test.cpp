@@ -115,5 +115,23 @@ TEST_F(FramesInFlight, NothingElseIsWaitedFor) {
     EXPECT_EQ(device.use().waits, before.waits + graph::Executor::kFramesUnderWay);
 }
 
+// Screens of several sizes, one after the other: each has what its last frame had. Their glare is of a shared eye,
+// which has a fit for each; a renderer has one.
+TEST_F(FramesInFlight, SizesInTurnMakeNothing) {
+    settings.glare = render::Glare::None;
+    render::Renderer renderer(device, scene);
+    for (unsigned round = 0; round < 6; ++round) {
+        const uint64_t before = device.use().objects;
+        for (const VkExtent2D extent : {VkExtent2D{61, 37}, {96, 60}, {33, 80}}) {
+            const gpu_scene::View view = gpu_scene::View::symmetric(extent, 0.6f, glm::dmat4(1));
+            const render::Frame got = renderer.render(settings, view, frame, 0.1f, {});
+            EXPECT_EQ(got.extent.width, extent.width);
+        }
+        if (round >= 3) {
+            EXPECT_EQ(device.use().objects, before) << round;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace vesper::test

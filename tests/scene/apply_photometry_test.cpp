@@ -51,12 +51,13 @@ void expect_same_both_ways(const fs::path& file, const fs::path& photometry, con
 TEST(ApplyPhotometry, GivesTheSceneOfAConvertedFile) {
     const TempFolder folder;
     const io::AllowedFolder lamps(kData);
-    for (const auto& [file, photometry] : {std::pair{"rivoli/rivoli.gltf", "rivoli/rivoli.measured.photometry.json"},
-                                           {"rivoli/rivoli.gltf", "rivoli/rivoli.photometry.json"},
-                                           {"rivoli/rivoli-drive.gltf", "rivoli/rivoli-drive.photometry.json"},
-                                           {"photometry/yard.gltf", "photometry/yard.photometry.json"}})
-        for (const char* output : {"out.glb", "out.gltf"})
-            expect_same_both_ways(kData / file, kData / photometry, folder / output);
+    for (const auto& [file, photometry, output] :
+         {std::tuple{"rivoli/rivoli.gltf", "rivoli/rivoli.measured.photometry.json", "out.glb"},
+          {"rivoli/rivoli.gltf", "rivoli/rivoli.photometry.json", "out.gltf"},
+          {"rivoli/rivoli-drive.gltf", "rivoli/rivoli-drive.photometry.json", "out.glb"},
+          {"photometry/yard.gltf", "photometry/yard.photometry.json", "out.glb"},
+          {"photometry/yard.gltf", "photometry/yard.photometry.json", "out.gltf"}})
+        expect_same_both_ways(kData / file, kData / photometry, folder / output);
 }
 
 TEST(ApplyPhotometry, GivesTheSceneOfAConvertedFileForSharedFiles) {

@@ -90,6 +90,7 @@ void print_findings(const SaliencyFindings& found) {
 void run(const SaliencyArguments& a) {
     const render::ToneChainSettings settings = apps::tone_settings(a.tone);
     if (settings.tone_operator == render::Operator::Ldr) throw Error("--operator ldr: it does not show luminance");
+    check_source(a.source, std::span(&a.input, 1));
     io::announce_read(a.input);
     const bool values = a.picture.ends_with(".exr");
     if (!values && !a.picture.ends_with(".png"))

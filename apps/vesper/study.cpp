@@ -34,6 +34,7 @@ std::vector<std::string> check_arguments(const StudyArguments& arguments) {
         if (!fs::is_regular_file(input)) throw Error(one_line(input) + ": there is no such file");
     }
     apps::parse_size(arguments.source.size);
+    check_source(arguments.source, arguments.inputs);
     return names;
 }
 

@@ -105,6 +105,15 @@ void add_source_options(apps::Command command, PictureSource& source) {
         .check(apps::between(0.1, 170.0));
 }
 
+void check_source(const PictureSource& source, std::span<const std::string> inputs) {
+    if (std::ranges::any_of(inputs, [](const std::string& input) { return scene::is_scene_name(input); })) return;
+    std::vector<std::string> options{"--camera", "--size", "--start", "--quality", "--cache"};
+    for (const render::LightSetting* row : source.light.rows) options.push_back("--" + row->option());
+    for (const std::string& option : options)
+        if (source.light.command.count(option))
+            throw Error(option + ": is of scenes, and " + one_line(inputs.front()) + " is a picture");
+}
+
 StudyPicture read_study_picture(const PictureSource& arguments, gpu::Device& device,
                                 const render::ToneChainSettings& settings, const std::string& input) {
     StudyPicture picture =

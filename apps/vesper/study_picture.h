@@ -49,6 +49,9 @@ struct PictureSource {
 void add_light_options(apps::Command, apps::SettingArguments&, std::string& cache);
 void add_source_options(apps::Command, PictureSource&);
 
+/// Throws Error where options of scenes are given and no input is one.
+void check_source(const PictureSource&, std::span<const std::string> inputs);
+
 /// A picture without a name. Prints notes. Throws Error if it cannot be read or is black.
 StudyPicture read_study_picture(const PictureSource&, gpu::Device&, const render::ToneChainSettings&,
                                 const std::string& input);

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "base/error.h"
 #include "render/renderer.h"
 #include "render/settings.h"
 #include "render/tone_mapper.h"
@@ -61,6 +62,9 @@ struct VesperRenderer {
 
 namespace vesper::api {
 
+/// Why a call that shows nothing, or hands nothing back, refuses the setting.
+constexpr const char* kDisplayAverage = "display-average is for pictures of vesper_render";
+
 /// Thrown for what only a caller can get wrong.
 struct BadArgument {
     std::string what;
@@ -68,6 +72,16 @@ struct BadArgument {
 
 inline void require(bool holds, const char* otherwise) {
     if (!holds) throw BadArgument{otherwise};
+}
+
+/// The result of a call that reads settings: an Error there is a mistake of the caller.
+template <class Call>
+decltype(auto) accepted(const Call& call) {
+    try {
+        return call();
+    } catch (const Error& refused) {
+        throw BadArgument{refused.what()};
+    }
 }
 
 /// Runs a call that makes its outputs last, and turns what it throws into its result.

@@ -1,6 +1,5 @@
 // Settings of light by their names. SPDX-License-Identifier: MIT
 #include "api/handles.h"
-#include "base/error.h"
 
 namespace vesper::api {
 namespace {
@@ -43,11 +42,7 @@ VesperResult by_name(const VesperRenderer* renderer, const char* name, VesperErr
     return guarded(error, [&] {
         require(renderer, VesperRenderer::kNone);
         require(name, "the name is null");
-        try {
-            call();
-        } catch (const Error& refused) {
-            throw BadArgument{refused.what()};
-        }
+        accepted(call);
     });
 }
 

@@ -50,6 +50,7 @@ struct FrameRequest {
 FrameRequest request_of(VesperRenderer& renderer, const VesperToneSettings* tone, const VesperView* view) {
     FrameRequest request{.frame = {}, .view = {}, .settings = settings_of(tone, renderer.displays)};
     renderer.chosen.apply(request.settings);
+    accepted([&] { render::check_light(request.settings); });
     const VesperView v = known(view, "a view without its size");
     require(v.scene_seconds >= 0 && v.scene_seconds <= 1e9, "the scene's time is 0 to 1e9 s");
     request.frame = frame_of(renderer, v.scene_seconds);
@@ -185,6 +186,7 @@ VesperResult vesper_render_image(VesperRenderer* renderer, const VesperToneSetti
         const graph::SubmitSemaphores semaphores = semaphores_of(handover);
         const FrameRequest request = request_of(*renderer, settings, view);
         require(renderer->device.borrowed(), kBorrowed);
+        require(!request.settings.display_average, kDisplayAverage);
         const render::Outputs to{.display = false, .shown = shown_image(shown, request.view.extent)};
         take_over_scene(*renderer);
         find_lamp_reflections(*renderer, request);

@@ -1,11 +1,9 @@
 // Settings of the tone chain as callers give them. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cstring>
-#include <functional>
 #include <string_view>
 
 #include "api/handles.h"
-#include "base/error.h"
 #include "render/tone_rows.h"
 
 namespace vesper::api {
@@ -15,14 +13,16 @@ namespace {
 static_assert(VESPER_GLARE_WARD == 5 && VESPER_ADAPT_TEXEL == 4 && VESPER_PUPIL_SCOTOPIC == 2 &&
               VESPER_GAMUT_CLIP == 2);
 
-constexpr size_t kLongestOptions = 4096;  // characters that are read
+constexpr size_t kLongestOptions = 4096;  // characters
 
 VesperToneSettings default_settings() {
     const render::ToneChainSettings settings;
     const render::ToneSettings& tone = settings.tone;
     const vision::Display& display = vision::known_displays().front().display;
     VesperToneSettings made{sizeof made};
-    made.tone_operator = VESPER_IRAWAN, made.glare = VESPER_GLARE_NONE, made.bins = settings.histogram.bins;
+    const auto choice = [&](const char* name) { return uint32_t(render::tone_row(name).get(settings)); };
+    made.tone_operator = choice("operator"), made.glare = choice("glare"), made.bins = settings.histogram.bins;
+    made.adapt_to = choice("adapt_to"), made.pupil = choice("pupil"), made.gamut = choice("gamut");
     made.age = float(tone.observer.age), made.pigmentation = float(settings.scatter.eye.pigmentation);
     made.gaze[0] = tone.gaze.x, made.gaze[1] = tone.gaze.y;
     made.display_peak = display.peak, made.display_black = display.black, made.display_ambient = display.ambient;
@@ -42,18 +42,9 @@ vision::Display display_of(const VesperToneSettings& s, scene::DisplayFinder& di
     return display;
 }
 
-// A value that the table refuses is a mistake of the caller.
-template <class Value>
-Value accepted(const std::function<Value()>& call) {
-    try {
-        return call();
-    } catch (const Error& refused) {
-        throw BadArgument{refused.what()};
-    }
-}
 void set(render::ToneChainSettings& settings, std::string_view name, double value) {
-    const render::ToneRow& row = accepted<const render::ToneRow&>([&]() -> auto& { return render::tone_row(name); });
-    row.set(settings, accepted<double>([&] { return row.checked(value); }));
+    const render::ToneRow& row = accepted([&]() -> auto& { return render::tone_row(name); });
+    row.set(settings, accepted([&] { return row.checked(value); }));
 }
 
 // NAME=VALUE, separated by spaces. Numbers count as values of switches, too.
@@ -65,7 +56,7 @@ void read_options(std::string_view text, render::ToneChainSettings& settings) {
         const size_t equals = std::min(word.find('='), word.size());
         const std::string_view value = word.substr(std::min(equals + 1, word.size()));
         require(equals > 0 && !value.empty(), "options are NAME=VALUE, separated by spaces");
-        accepted<int>([&] {
+        accepted([&] {
             const render::ToneRow& row = render::tone_row(word.substr(0, equals));
             const bool is_switch = row.kind == render::SettingKind::Switch;
             row.set(settings, is_switch && value == "0" ? 0.0 : is_switch && value == "1" ? 1.0 : row.parse(value));
@@ -78,7 +69,6 @@ void read_options(std::string_view text, render::ToneChainSettings& settings) {
 
 render::RenderSettings settings_of(const VesperToneSettings* given, scene::DisplayFinder& displays) {
     const VesperToneSettings s = given ? known(given, "tone settings without their size") : default_settings();
-    require(s.tone_operator != uint32_t(render::Operator::Ldr), "there is no such tone operator");
     require(within(s.gaze[0], 0, 1) && within(s.gaze[1], 0, 1), "the gaze is a part of the image, 0 to 1");
     render::RenderSettings settings;
     const std::pair<const char*, double> given_values[]{
@@ -107,8 +97,13 @@ render::RenderSettings settings_of(const VesperToneSettings* given, scene::Displ
     };
     for (const auto& [name, value] : given_values) set(settings, name, value);
     settings.tone.gaze = {s.gaze[0], s.gaze[1]};
-    if (s.options) read_options(std::string_view(s.options, strnlen(s.options, kLongestOptions)), settings);
-    accepted<int>([&] { return render::check_tone(settings), 0; });
+    if (s.options) {
+        const size_t length = strnlen(s.options, kLongestOptions + 1);
+        require(length <= kLongestOptions, "options are longer than 4096 characters");
+        read_options({s.options, length}, settings);
+    }
+    require(settings.tone_operator != render::Operator::Ldr, "there is no such tone operator");
+    accepted([&] { render::check_tone(settings); });
     settings.display = display_of(s, displays);
     vision::check_display(settings.display);
     return settings;

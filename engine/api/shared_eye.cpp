@@ -54,6 +54,7 @@ VesperResult vesper_shared_eye_look(VesperSharedEye* eye, uint32_t index, Vesper
         require(renderer, VesperRenderer::kNone);
         require(&renderer->device == &eye->device, "the renderer and the shared eye are of two devices");
         tone_of(*eye, settings);
+        require(renderer->chosen.get("display_average") == 0, kDisplayAverage);
         seen.is_new = false;
         seen.outside = render_frame(*renderer, settings, view, 0, {.display = false, .light = &seen.light}).outside;
         seen.is_new = true;

@@ -101,11 +101,9 @@ double Setting::parse(std::string_view given) const {
 
 double Setting::checked(double value) const {
     if (!accepts(value)) refuse(*this, shortest(value));
-    return rounded(value);
+    return kind == SettingKind::Count && value >= 0x1p63 ? high : rounded(value) + 0.0;  // no -0
 }
 
-void throw_no_setting(std::string_view name) {
-    throw Error("there is no setting " + one_line(std::string(name), 40));
-}
+void throw_no_setting(std::string_view name) { throw Error("there is no setting " + one_line(std::string(name), 40)); }
 
 }  // namespace vesper::render

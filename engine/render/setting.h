@@ -23,11 +23,11 @@ enum class SettingKind : uint8_t { Switch, Count, Float, Double, Choice };
 struct Setting {
     std::string_view name;  ///< "shadow_error"
     std::string_view unit, help;
-    std::string_view group;                        ///< of options, as --help-all heads them; empty: the first page
-    double low = 0, high = 1;                      ///< infinity: unlimited
-    std::span<const std::string_view> choices{};   ///< of a Choice, whose value is the index of one
+    std::string_view group;                       ///< of options, as --help-all heads them; empty: the first page
+    double low = 0, high = 1;                     ///< infinity: unlimited
+    std::span<const std::string_view> choices{};  ///< of a Choice, whose value is the index of one
     SettingKind kind = SettingKind::Switch;
-    std::array<double, 3> values{};                ///< by Quality; switches are 0 and 1
+    std::array<double, 3> values{};  ///< by Quality; switches are 0 and 1
 
     double value(Quality quality) const { return values[size_t(quality)]; }
     std::string option() const;      ///< "shadow-error"

@@ -46,6 +46,11 @@ std::span<const LightSetting> light_rows() {
 
 const LightSetting& light_row(std::string_view name) { return row_named(light_rows(), name); }
 
+void check_light(const LightSettings& settings) {
+    if (settings.moving_reflections && !settings.indirect)
+        throw Error("--moving-reflections has no meaning with --indirect off");
+}
+
 void ChosenSettings::set(std::string_view name, double value) {
     const LightSetting& row = light_row(name);
     chosen_[&row] = row.checked(value);

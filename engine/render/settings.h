@@ -33,6 +33,9 @@ std::span<const LightSetting> light_rows();
 /// By its name, with dashes or underscores. Throws Error if there is none.
 const LightSetting& light_row(std::string_view name);
 
+/// Throws Error where settings, each in its range, contradict each other.
+void check_light(const LightSettings&);
+
 /// A set of values, and single values that replace values of the set.
 class ChosenSettings {
 public:

@@ -61,7 +61,7 @@ private:
 
     void refuse(const std::string& command, const std::string& option) {
         ++choices;
-        expect_refused(command + " " + option + " 'none\x01\x1bof those'", {option});
+        expect_refused(command + " " + option + "='none\x01\x1bof those'", {option});
         EXPECT_TRUE(is_text(said)) << command << " " << option;
     }
 };

@@ -141,6 +141,17 @@ TEST_F(CInterface, EverySettingArrives) {
          [](auto& e) { e.tone_operator = render::Operator::Reinhard, e.tone.operators.reinhard.white = 50; }},
         {"drago", [](auto& s) { s.tone_operator = VESPER_DRAGO, s.options = " bias=0.6  automatic=1"; },
          [](auto& e) { e.tone_operator = render::Operator::Drago, e.tone.operators.drago.bias = 0.6f; }},
+        {"all by name, over fields",
+         [](auto& s) {
+             s.bins = 50, s.glare = VESPER_GLARE_CIE;
+             s.options = "bins=9 adapt-to=texel fast-seconds=0.2 rods=on iris=1.2 glare=ward histogram_low=0.01";
+         },
+         [](auto& e) {
+             e.histogram.bins = 9, e.histogram.low = 0.01f, e.tone.adapt_to = shared::kAdaptTexel;
+             e.tone.observer.cones.fast_seconds = 0.2, e.tone.observer.use_rods = true;
+             e.glare = render::Glare::Scatter, e.scatter.model = eye::ScatterSettings::Model::Ward;
+             e.scatter.eye.pigmentation = 1.2;
+         }},
         {"linear", [](auto& s) { s.tone_operator = VESPER_LINEAR, s.white = 50, s.black = 1; },
          [](auto& e) { e.tone_operator = render::Operator::Linear, e.tone.operators.linear = {.low = 1, .high = 50}; }},
         {"gamma", [](auto& s) { s.display_gamma = 1.8f; }, [](auto& e) { e.display.gamma = 1.8f; }},
@@ -332,8 +343,10 @@ TEST_F(CInterface, RefusesWhatCannotBeAndTouchesNothing) {
     refuses([](auto&, auto& s, auto&, auto&) { s.pupil = 3; });
     refuses([](auto&, auto& s, auto&, auto&) { s.gamut = 3; });
     for (const char* options : {"bias", "bias=", "bias=x", "bias=0.7x", "bias=2", "bias=nan", "bia=0.7", "=1",
-                                "automatic=2", "devlin-contrast=0.4,bias=0.7"})
+                                "automatic=2", "devlin-contrast=0.4,bias=0.7", "operator=ldr", "glare=moss", "pupil=3"})
         refuses([&](auto&, auto& s, auto&, auto&) { s.options = options; });
+    const std::string long_options = std::string(4096, ' ') + "bias=0.7";
+    refuses([&](auto&, auto& s, auto&, auto&) { s.options = long_options.c_str(); });
     refuses([](auto&, auto& s, auto&, auto&) { s.smoothing = -1; });
     refuses([](auto&, auto& s, auto&, auto&) { s.low_vision = 0; });
     refuses([](auto&, auto& s, auto&, auto&) { s.histogram_high = s.histogram_low; });

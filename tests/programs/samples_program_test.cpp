@@ -42,7 +42,7 @@ TEST_F(SamplesProgram, TheMeanOfWhatTheDisplayShowsIsAnother) {
 TEST_F(SamplesProgram, RefusesWhatHasNoMeaning) {
     for (const char* number : {"0", "-1", "65537", "1e3", "many", "4.5"})
         expect_refused(render + "-o a.png --samples " + number, {"--samples"});
-    expect_refused(render + "-o a.png --anti-aliasing maybe", {"--anti-aliasing"});
+    expect_refused(render + "-o a.png --anti-aliasing=maybe", {"--anti-aliasing"});
     expect_refused("render a.gltf --paths 16 --samples 4 -o a.png", {"--samples", "--paths"});
     expect_refused(render + "--display-average -o a.png", {"--display-average", "--samples"});
     expect_refused(render + "--samples 4 --display-average -o a.exr", {"--display-average", ".png"});

@@ -74,7 +74,8 @@ void parse_words(CLI::App& app, std::vector<std::string> words) {
     std::set<std::string> switches;
     find_switches(app, switches);
     for (size_t i = 0; i < words.size(); ++i)
-        if (switches.contains(words[i]) && (i + 1 == words.size() || words[i + 1].starts_with('-'))) words[i] += "=on";
+        if (switches.contains(words[i]) && (i + 1 == words.size() || (words[i + 1] != "on" && words[i + 1] != "off")))
+            words[i] += "=on";
     std::ranges::reverse(words);
     app.parse(std::move(words));
 }

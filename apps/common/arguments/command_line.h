@@ -104,7 +104,7 @@ public:
     /// Without a variable: see Option::results().
     Option add_option(const std::string& names, const std::string& help);
     Option add_flag(const std::string& names, bool& value, const std::string& help);
-    /// Takes on or off; before another option, or as the last word, its name alone is on. See Option::results().
+    /// Takes on or off; before any other word, or as the last one, its name alone is on. See Option::results().
     Option add_switch(const std::string& names, const std::string& help);
     /// --allow-outside, for commands that read scenes: opens folders to the files that they name (AllowedFolder).
     void add_allow_outside();

@@ -68,6 +68,14 @@ std::string field_of(const Setting& row) {
     return field;
 }
 
+std::string json_member(const Setting& row, double value) {
+    const bool is_word = row.kind == SettingKind::Choice || std::isinf(value);
+    const std::string text = row.kind == SettingKind::Switch ? (value != 0 ? "true" : "false")
+                             : is_word                       ? "\"" + row.text(value) + "\""
+                                                             : row.text(value);
+    return "\"" + std::string(row.name) + "\": " + text;
+}
+
 void add_row_option(Command command, const Setting& row, double value) {
     if (!row.group.empty()) command.help_group(std::string(row.group));
     const bool is_switch = row.kind == SettingKind::Switch;
@@ -110,8 +118,7 @@ render::ChosenSettings chosen_settings(const SettingArguments& a) {
 
 void apply_settings(const SettingArguments& a, render::RenderSettings& settings) {
     chosen_settings(a).apply(settings);
-    if (settings.moving_reflections && !settings.indirect)
-        throw Error("--moving-reflections has no meaning with --indirect off");
+    render::check_light(settings);
 }
 
 double& RecordedSettings::value(std::string_view name) {
@@ -128,12 +135,7 @@ RecordedSettings recorded_standard() { return recorded_settings("standard", {});
 
 std::string settings_json(const RecordedSettings& recorded) {
     std::string members = "\"quality\": \"" + recorded.quality + "\"";
-    for_each_value(recorded, [&](const Setting& row, double value) {
-        const std::string text = row.kind == SettingKind::Switch ? (value != 0 ? "true" : "false")
-                                 : std::isinf(value)             ? "\"all\""
-                                                                 : row.text(value);
-        members += ", \"" + std::string(row.name) + "\": " + text;
-    });
+    for_each_value(recorded, [&](const Setting& row, double value) { members += ", " + json_member(row, value); });
     return members;
 }
 

@@ -24,6 +24,8 @@ struct SettingArguments {
 void add_row_option(Command, const render::Setting&, double value);
 /// "shadowError", as headers of pictures name a row.
 std::string field_of(const render::Setting&);
+/// "shadow_error": 0.005, as JSON has it.
+std::string json_member(const render::Setting&, double value);
 void add_quality_option(Command, SettingArguments&);
 /// An option for each row but those named, in the group "Light" of --help-all. An option wins over the set, in any
 /// order.

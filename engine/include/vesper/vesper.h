@@ -361,7 +361,7 @@ VesperResult vesper_renderer_place(VesperRenderer* renderer, uint32_t node, cons
  * them off. The node must have one of them. */
 VesperResult vesper_renderer_dim(VesperRenderer* renderer, uint32_t node, float factor, VesperError* error);
 
-/** Keeps shadow maps of what stands still in a folder, which is made, for renderers of later runs.
+/** Keeps shadow maps of what stands still, and light between surfaces, in a folder, which is made, for later runs.
  * Files there take at most 1 GiB; those that were used longest ago are removed. `folder`: null: nowhere, which is the
  * default. Pictures are the same with and without, also where a disk is full. VESPER_FAILED: nothing can be written
  * there. */

@@ -34,10 +34,11 @@ struct Destroyer {
 };
 using Device = std::unique_ptr<VesperDevice, Destroyer<vesper_device_close>>; /**< owner of a device */
 using ToneMapper =
-    std::unique_ptr<VesperToneMapper, Destroyer<vesper_tone_mapper_destroy>>;         /**< owner of a tone mapper */
-using Scene = std::unique_ptr<VesperScene, Destroyer<vesper_scene_destroy>>;          /**< owner of a scene */
-using Renderer = std::unique_ptr<VesperRenderer, Destroyer<vesper_renderer_destroy>>; /**< owner of a renderer */
-using Vision = std::unique_ptr<VesperVision, Destroyer<vesper_vision_destroy>>;       /**< owner of a vision */
+    std::unique_ptr<VesperToneMapper, Destroyer<vesper_tone_mapper_destroy>>;             /**< owner of a tone mapper */
+using Scene = std::unique_ptr<VesperScene, Destroyer<vesper_scene_destroy>>;              /**< owner of a scene */
+using Renderer = std::unique_ptr<VesperRenderer, Destroyer<vesper_renderer_destroy>>;     /**< owner of a renderer */
+using SharedEye = std::unique_ptr<VesperSharedEye, Destroyer<vesper_shared_eye_destroy>>; /**< owner of a shared eye */
+using Vision = std::unique_ptr<VesperVision, Destroyer<vesper_vision_destroy>>;           /**< owner of a vision */
 
 /** Calls a function of vesper.h, without its last argument (the error). Throws Failure. Example:
  *     call(vesper_render, renderer.get(), &settings, &view, seconds, &outputs); */

@@ -42,11 +42,17 @@ io::Header describe_frame(const RenderArguments& arguments, const gpu::Device& d
 }
 
 std::string statistics_json(const RenderArguments& arguments, const render::Frame& frame) {
-    return "{" + apps::settings_json(recorded_of(arguments)) + ", \"threads\": " + std::to_string(parallel_threads()) +
-           ", " + apps::json_of(apps::luminance_statistics(frame.scene)).substr(1);
+    return "{" + apps::settings_json(recorded_of(arguments)) + ", " + apps::tone_json(arguments.settings) +
+           ", \"threads\": " + std::to_string(parallel_threads()) + ", " +
+           apps::json_of(apps::luminance_statistics(frame.scene)).substr(1);
 }
 
-io::Header describe_codes(const RenderArguments& arguments) { return apps::describe_settings(recorded_of(arguments)); }
+io::Header describe_codes(const RenderArguments& arguments) {
+    io::Header header = apps::describe_settings(recorded_of(arguments));
+    const io::Header tone = apps::describe_tone(arguments.settings);
+    header.insert(header.end(), tone.begin(), tone.end());
+    return header;
+}
 
 void print_statistics(const RenderArguments& arguments, const gpu::Device& device, const render::Renderer& renderer,
                       const render::Frame& frame, std::vector<double> milliseconds) {

@@ -84,15 +84,14 @@ ToneRow operator_row() {
     static const std::vector<std::string_view> kNames = operator_names();
     static const std::string kHelp = operator_help();
     return choice(
-        {"operator", "", kHelp, kFirstPage}, kNames,
-        [](const ToneChainSettings& s) { return double(s.tone_operator); },
+        {"operator", "", kHelp, kFirstPage}, kNames, [](const ToneChainSettings& s) { return double(s.tone_operator); },
         [](ToneChainSettings& s, double value) { s.tone_operator = Operator(int(value)); });
 }
 
 /// A choice of codes that an operator has a default of: "operator" is its first name.
 template <size_t n>
 ToneRow code_row(const Setting& row, const std::array<std::string_view, n + 1>& names,
-                 const std::array<uint32_t, n>& codes, std::optional<uint32_t> ToneSettings::* code) {
+                 const std::array<uint32_t, n>& codes, std::optional<uint32_t> ToneSettings::*code) {
     return choice(
         row, names,
         [codes, code](const ToneChainSettings& s) {
@@ -146,16 +145,15 @@ ToneRow gamut_row() {
          "bright as it can be) or clip (each channel by itself)",
          kDisplay},
         kNames,
-        [](const ToneChainSettings& s) {
-            return double(std::ranges::find(kCodes, s.tone.gamut) - kCodes.begin());
-        },
+        [](const ToneChainSettings& s) { return double(std::ranges::find(kCodes, s.tone.gamut) - kCodes.begin()); },
         [](ToneChainSettings& s, double value) { s.tone.gamut = kCodes[size_t(value)]; });
 }
 
 // Age counts in the thresholds of the observer and in the scatter of the same eye.
 ToneRow age_row() {
-    ToneRow row = row_of({"age", "years", "Age of the observer", kFirstPage, 1, 120},
-                         [](auto& s) -> auto& { return s.tone.observer.age; });
+    ToneRow row = row_of(
+        {"age", "years", "Age of the observer", kFirstPage, 1, 120},
+        [](auto& s) -> auto& { return s.tone.observer.age; });
     row.set = [](ToneChainSettings& s, double value) { s.tone.observer.age = s.scatter.eye.age = value; };
     return row;
 }
@@ -180,23 +178,27 @@ ToneRow whole_votes_row() {
 
 void add_curve(std::vector<ToneRow>& rows) {
     rows.push_back(operator_row());
-    rows.push_back(row_of({"bins", "", "Bins of the histogram", kCurve, 1, shared::kMaxBins},
-                          [](auto& s) -> auto& { return s.histogram.bins; }));
+    rows.push_back(row_of(
+        {"bins", "", "Bins of the histogram", kCurve, 1, shared::kMaxBins},
+        [](auto& s) -> auto& { return s.histogram.bins; }));
     rows.push_back(foveal_level_row());
     rows.push_back(whole_votes_row());
-    rows.push_back(
-        row_of({"smoothing", "s", "Curve: time constant against flicker; no model of the eye; 0: none", kCurve, 0, 60},
-               [](auto& s) -> auto& { return s.tone.smoothing_seconds; }));
+    rows.push_back(row_of(
+        {"smoothing", "s", "Curve: time constant against flicker; no model of the eye; 0: none", kCurve, 0, 60},
+        [](auto& s) -> auto& { return s.tone.smoothing_seconds; }));
     rows.push_back(ceiling_row());
-    rows.push_back(row_of({"histogram_low", "cd/m^2", "Luminance the histogram begins with", kCurve, 1e-6, 1e9},
-                          [](auto& s) -> auto& { return s.histogram.low; }));
-    rows.push_back(row_of({"histogram_high", "cd/m^2", "Luminance the histogram ends with", kCurve, 1e-6, 1e9},
-                          [](auto& s) -> auto& { return s.histogram.high; }));
+    rows.push_back(row_of(
+        {"histogram_low", "cd/m^2", "Luminance the histogram begins with", kCurve, 1e-6, 1e9},
+        [](auto& s) -> auto& { return s.histogram.low; }));
+    rows.push_back(row_of(
+        {"histogram_high", "cd/m^2", "Luminance the histogram ends with", kCurve, 1e-6, 1e9},
+        [](auto& s) -> auto& { return s.histogram.high; }));
     OperatorSettings::each([&](auto of) {
         using Own = std::remove_reference_t<decltype(std::declval<OperatorSettings&>().*of)>;
         Own::options([&](auto member, const OperatorOption& option) {
-            rows.push_back(row_of({option.name, option.unit, option.help, kCurve, option.low, option.high},
-                                  [of, member](auto& s) -> auto& { return s.tone.operators.*of.*member; }));
+            rows.push_back(row_of(
+                {option.name, option.unit, option.help, kCurve, option.low, option.high},
+                [ of, member ](auto& s) -> auto& { return s.tone.operators.*of.*member; }));
         });
     });
 }
@@ -204,45 +206,59 @@ void add_curve(std::vector<ToneRow>& rows) {
 void add_eye(std::vector<ToneRow>& rows) {
     const auto add = [&](const Setting& row, auto member) { rows.push_back(row_of(row, member)); };
     rows.push_back(adapt_to_row());
-    add({"colour_loss", "", "Dim light loses its colour (from 5.62 down to 0.00562 cd/m^2)", kEye},
+    add(
+        {"colour_loss", "", "Dim light loses its colour (from 5.62 down to 0.00562 cd/m^2)", kEye},
         [](auto& s) -> auto& { return s.tone.colour_loss; });
-    add({"acuity_loss", "", "Dim light is blurred as far as it cannot be resolved", kEye},
+    add(
+        {"acuity_loss", "", "Dim light is blurred as far as it cannot be resolved", kEye},
         [](auto& s) -> auto& { return s.tone.acuity_loss; });
-    add({"purkinje", "", "Dim light is weighted as rods do: blue brighter, red darker", kEye},
+    add(
+        {"purkinje", "", "Dim light is weighted as rods do: blue brighter, red darker", kEye},
         [](auto& s) -> auto& { return s.tone.purkinje; });
-    add({"photopic_rods", "", "Rods take luminance for scotopic luminance (as pfstools); off: that of the colour", kEye},
+    add(
+        {"photopic_rods", "", "Rods take luminance for scotopic luminance (as pfstools); off: that of the colour",
+         kEye},
         [](auto& s) -> auto& { return s.tone.photopic_rods; });
     rows.push_back(age_row());
-    add({"low_vision", "", "Observer: factor of all thresholds", kEye, 0.1, 100},
+    add(
+        {"low_vision", "", "Observer: factor of all thresholds", kEye, 0.1, 100},
         [](auto& s) -> auto& { return s.tone.observer.low_vision; });
-    add({"rods", "", "Observer: rods see too, not only cones", kEye},
+    add(
+        {"rods", "", "Observer: rods see too, not only cones", kEye},
         [](auto& s) -> auto& { return s.tone.observer.use_rods; });
-    add({"semi_saturation", "", "Observer: c, half saturation over luminance in daylight", kEye, 1, 100},
+    add(
+        {"semi_saturation", "", "Observer: c, half saturation over luminance in daylight", kEye, 1, 100},
         [](auto& s) -> auto& { return s.tone.observer.cones.semi_saturation; });
-    add({"fast_seconds", "s", "Observer: fast neural adaptation of cones, time constant", kEye, 1e-3, 10},
+    add(
+        {"fast_seconds", "s", "Observer: fast neural adaptation of cones, time constant", kEye, 1e-3, 10},
         [](auto& s) -> auto& { return s.tone.observer.cones.fast_seconds; });
-    add({"slow_seconds", "s", "Observer: slow neural adaptation of cones, time constant", kEye, 1e-3, 1e4},
+    add(
+        {"slow_seconds", "s", "Observer: slow neural adaptation of cones, time constant", kEye, 1e-3, 1e4},
         [](auto& s) -> auto& { return s.tone.observer.cones.slow_seconds; });
-    add({"fast_share", "", "Observer: part of the neural adaptation of cones that is fast", kEye, 0, 1},
+    add(
+        {"fast_share", "", "Observer: part of the neural adaptation of cones that is fast", kEye, 0, 1},
         [](auto& s) -> auto& { return s.tone.observer.cones.fast_share; });
-    add({"bleach_seconds", "s", "Observer: pigment of cones, time constant", kEye, 1e-3, 1e5},
+    add(
+        {"bleach_seconds", "s", "Observer: pigment of cones, time constant", kEye, 1e-3, 1e5},
         [](auto& s) -> auto& { return s.tone.observer.cones.bleach_seconds; });
-    add({"bleach_trolands", "td", "Observer: what bleaches half of the pigment of cones", kEye, 1, 1e9},
+    add(
+        {"bleach_trolands", "td", "Observer: what bleaches half of the pigment of cones", kEye, 1, 1e9},
         [](auto& s) -> auto& { return s.tone.observer.cones.bleach_trolands; });
 }
 
 void add_glare(std::vector<ToneRow>& rows) {
     rows.push_back(glare_row());
     rows.push_back(row_of(
-        {"iris", "",
-         "cie, temporal: pigmentation of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue", kGlare, 0, 1.5},
+        {"iris", "", "cie, temporal: pigmentation of the iris: 0 very dark, 0.5 brown, 1 green, 1.2 light blue", kGlare,
+         0, 1.5},
         [](auto& s) -> auto& { return s.scatter.eye.pigmentation; }));
     rows.push_back(pupil_row());
     rows.push_back(row_of(
         {"eye_seed", "", "temporal, spencer: seed of the eye's needles and movements", kGlare, 0, 0xffffffffu},
         [](auto& s) -> auto& { return s.scatter.aperture.seed; }));
-    rows.push_back(row_of({"lashes", "", "temporal: the eye squints, and lashes hang before its pupil", kGlare},
-                          [](auto& s) -> auto& { return s.scatter.aperture.lashes; }));
+    rows.push_back(row_of(
+        {"lashes", "", "temporal: the eye squints, and lashes hang before its pupil", kGlare},
+        [](auto& s) -> auto& { return s.scatter.aperture.lashes; }));
 }
 
 }  // namespace

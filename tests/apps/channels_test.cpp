@@ -264,7 +264,7 @@ TEST(Channels, GlareOfOtherScreensIsWhatTheyShow) {
         return glm::transpose(glm::dmat3(view.world_to_view)) *
                reference::direction_of(gpu_scene::angles_of(view), pixels);
     };
-    const vision::EyeScatter psf = eye::eye_scatter({});
+    const vision::EyeScatter psf = eye::eye_scatter(kScattering.scatter);
     const vision::ImageAngles left = gpu_scene::angles_of(drive::channel_view(channels.screens[0], driver));
     for (const size_t channel : {1u, 2u})
         for (const glm::ivec2 at : {glm::ivec2(0, 48), {1, 3}, {30, 70}, {40, 95}}) {
@@ -294,7 +294,7 @@ TEST(Channels, LampsOfOtherScreensCountOnce) {
         rig.wall.render(rig.renderer, channels, kScattering, driver, rig.frame, 0, {.display = true, .retina = true});
     const glm::dvec3 lamp(-19 * std::tan(32 * kRadiansPerDegree), 0, -19);
     const double distance = glm::length(lamp), lux = 20000 / (distance * distance);
-    const vision::EyeScatter psf = eye::eye_scatter({});
+    const vision::EyeScatter psf = eye::eye_scatter(kScattering.scatter);
     const vision::ImageAngles middle = gpu_scene::angles_of(drive::channel_view(channels.screens[1], driver));
     for (const glm::ivec2 at : {glm::ivec2(0, 60), {60, 60}, {119, 10}}) {
         const double theta = reference::degrees_apart(lamp, reference::direction_of(middle, glm::dvec2(at) + 0.5));

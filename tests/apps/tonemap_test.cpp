@@ -327,7 +327,7 @@ TEST_F(TonemapProgram, AnglesSetTheFovealLevel) {
     write_layout(folder / "a.exr", street(640, 400), {});
     const auto level = [&](const std::string& arguments) {
         EXPECT_EQ(tonemap("a.exr -o x.exr " + arguments), 0) << said;
-        return header("x.exr", "vesper:fovealLevel");
+        return header("x.exr", "vesper:shownFovealLevel");
     };
     EXPECT_EQ(level("--fov 100"), "2");  // 4 px a degree
     EXPECT_EQ(level("--fov 25"), "4");   // 16 px

@@ -68,22 +68,29 @@ std::string name_of(render::Operator wanted) { return std::string(render::operat
 
 std::string digits(double value) { return format("%.9g", value); }
 
+io::Header describe_tone(const render::ToneChainSettings& settings) {
+    io::Header header;
+    for (const render::ToneRow& row : render::tone_rows())
+        header.emplace_back("vesper:" + field_of(row), row.text(row.get(settings)));
+    return header;
+}
+
+std::string tone_json(const render::ToneChainSettings& settings) {
+    std::string members;
+    for (const render::ToneRow& row : render::tone_rows())
+        members += (members.empty() ? "" : ", ") + json_member(row, row.get(settings));
+    return members;
+}
+
 io::Header describe_tone(const render::ToneChainSettings& settings, const render::ToneMapped& shown) {
-    io::Header header{{"vesper:operator", name_of(settings.tone_operator)},
-                      {"vesper:glare", text_of("glare", settings)},
-                      {"vesper:adaptationLuminance", digits(double(shown.curve.adaptation))},
-                      {"vesper:eyeSeconds", digits(double(shown.eye.seconds))},
-                      {"vesper:fovealLevel", std::to_string(shown.foveal_level)},
-                      {"vesper:displayLow", digits(double(settings.display.low()))},
-                      {"vesper:displayHigh", digits(double(settings.display.high()))},
-                      {"vesper:coneSigma", digits(double(shown.curve.cone_sigma))},
-                      {"vesper:rodSigma", digits(double(shown.curve.rod_sigma))}};
-    for (const render::ToneRow& row : render::tone_rows()) {
-        const double value = row.get(settings);
-        const bool is_above = row.name == "operator" || row.name == "glare" || row.name == "foveal_level";
-        if (!is_above && value != row.value(render::Quality::Standard))
-            header.emplace_back("vesper:" + field_of(row), row.text(value));
-    }
+    io::Header header = describe_tone(settings);
+    header.insert(header.end(), {{"vesper:adaptationLuminance", digits(double(shown.curve.adaptation))},
+                                 {"vesper:eyeSeconds", digits(double(shown.eye.seconds))},
+                                 {"vesper:shownFovealLevel", std::to_string(shown.foveal_level)},
+                                 {"vesper:displayLow", digits(double(settings.display.low()))},
+                                 {"vesper:displayHigh", digits(double(settings.display.high()))},
+                                 {"vesper:coneSigma", digits(double(shown.curve.cone_sigma))},
+                                 {"vesper:rodSigma", digits(double(shown.curve.rod_sigma))}});
     for (const auto& [name, value] : named_state(shown.eye)) header.emplace_back("vesper:eye:" + name, digits(value));
     const auto list = [](const auto& values, size_t count) {
         std::string text;

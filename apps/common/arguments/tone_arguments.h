@@ -31,8 +31,11 @@ render::ToneChainSettings tone_settings(const ToneArguments&);
 std::string text_of(std::string_view name, const render::ToneChainSettings&);
 /// The name an operator has on the command line.
 std::string name_of(render::Operator);
-/// What a picture's header should say of how it is shown: the operator, settings that differ from their default, and
-/// what the eye adapted to.
+/// Fields of a picture's header: all of render::tone_rows(), as "vesper:age".
+io::Header describe_tone(const render::ToneChainSettings&);
+/// Members of a JSON object, in a line: "operator": "irawan", ...
+std::string tone_json(const render::ToneChainSettings&);
+/// The fields, and what the eye adapted to.
 io::Header describe_tone(const render::ToneChainSettings&, const render::ToneMapped&);
 /// Nine digits, as in headers.
 std::string digits(double value);

@@ -102,7 +102,7 @@ public:
     void check(const DriveSettings& settings) {
         if (!first_) {
             first_ = settings.render().display;
-            for (const auto& [name, text] : rendering(settings))
+            for (const auto& [name, text] : of_codes(settings))
                 comment_ += (comment_.empty() ? "" : " ") + name + "=" + text;
         }
         const vision::Display &display = settings.render().display, &before = *first_;
@@ -133,7 +133,7 @@ public:
     apps::Bytes take(unsigned index, const Session& session, const render::ToneMapped& shown, uint32_t lamps,
                      const std::string& row) {
         const vision::Display& display = session.settings().render().display;
-        if (names_ && !exr_) apps::write_codes(names_->at(index), shown, display, rendering(session.settings()));
+        if (names_ && !exr_) apps::write_codes(names_->at(index), shown, display, of_codes(session.settings()));
         if (names_ && exr_)
             io::write_exr(names_->at(index), shown.extent.width, shown.extent.height, shown.scene,
                           header(session, shown, lamps));
@@ -172,7 +172,15 @@ private:
     }
     // How its frames are rendered, for every kind of picture.
     io::Header rendering(const DriveSettings& settings) const {
-        return apps::describe_settings(settings.recorded(arguments_.scale));
+        render::RenderSettings with = settings.render();
+        with.scale = arguments_.scale;
+        return apps::describe_settings(apps::recorded_settings(settings.quality(), with));
+    }
+    io::Header of_codes(const DriveSettings& settings) const {
+        io::Header made = rendering(settings);
+        const io::Header tone = apps::describe_tone(settings.render());
+        made.insert(made.end(), tone.begin(), tone.end());
+        return made;
     }
     io::Header header(const Session& session, const render::ToneMapped& frame, uint32_t lamps) const {
         std::string options;  // settings other than the defaults

@@ -73,6 +73,8 @@ public:
 
     // Settings.
     const DriveSettings& settings() const { return settings_; }
+    /// What pictures record of the light of frames, which are rendered with a part of the pixels of each side.
+    apps::RecordedSettings recorded(double scale) const;
     /// Throws Error, also for lamps that the scene has not got; then nothing has changed.
     void set(const std::string& name, const std::string& value);
 

@@ -134,12 +134,6 @@ void DriveSettings::apply(const Values& values) {
 
 bool DriveSettings::knows(const std::string& name) { return setting_names().contains(name); }
 
-apps::RecordedSettings DriveSettings::recorded(double scale) const {
-    render::RenderSettings settings = render_;
-    settings.scale = scale;
-    return apps::recorded_settings(quality_, settings);
-}
-
 void DriveSettings::add_options(apps::Command command) {
     const auto a = std::make_shared<SettingsArguments>();
     add(command, *a);

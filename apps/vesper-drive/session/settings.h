@@ -50,8 +50,6 @@ public:
     const std::map<std::string, double>& lamps() const { return lamps_; }
     /// "quality": the set of values of all settings of light.
     const std::string& quality() const { return quality_; }
-    /// What pictures record, which are rendered with a part of the pixels of each side.
-    apps::RecordedSettings recorded(double scale) const;
 
     /// Whether there is a setting of this name, lamps not counted.
     static bool knows(const std::string& name);

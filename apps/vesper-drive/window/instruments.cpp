@@ -70,9 +70,9 @@ bool Instruments::leave() {
     return true;
 }
 
-void Instruments::remember(const Session& session, const render::Frame& frame) {
-    const double now = session.world().seconds();
-    if (!past_.empty() && past_.back().seconds >= now) past_.pop_back();
+void Instruments::remember(const render::Frame& frame) {
+    const double now = double(frame.eye.seconds) + double(frame.eye.seconds_lost);
+    while (!past_.empty() && past_.back().seconds >= now) past_.pop_back();
     past_.push_back({now, double(frame.curve.adaptation), double(frame.curve.log_average),
                      double(frame.curve.cone_sigma), double(frame.curve.rod_sigma)});
     while (past_.front().seconds < now - kPastSeconds) past_.pop_front();

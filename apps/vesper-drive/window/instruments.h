@@ -41,7 +41,7 @@ public:
     /// all that is visible, and is none of theirs where nothing is.
     bool press(Action);
     /// Keeps what is drawn over time.
-    void remember(const Session&, const render::Frame&);
+    void remember(const render::Frame&);
     void forget() { past_.clear(); }
 
     /// Whether something needs the luminances of the next frame.

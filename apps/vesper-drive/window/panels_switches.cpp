@@ -1,6 +1,8 @@
 // Switches of the eye, the display and the lamps. SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <utility>
 
 #include <imgui.h>
 #include "print.h"
@@ -46,20 +48,21 @@ public:
         const std::string name = row.option();
         std::string label(row.name);
         std::ranges::replace(label, '_', ' ');
-        if (row.kind == render::SettingKind::Choice) {
-            choice(label.c_str(), name.c_str(), row.text(now), {row.choices.begin(), row.choices.end()});
-            return;
-        }
         const std::string pattern =
             (row.kind == render::SettingKind::Count ? "%.0f " : "%.3g ") + std::string(row.unit);
+        const bool is_wide = row.high > 100 * std::max(row.low, 1e-3);  // in decades
         auto slid = float(now);
         bool on = now != 0;
-        if (row.kind == render::SettingKind::Switch) {
+        if (row.kind == render::SettingKind::Choice) {
+            choice(label.c_str(), name.c_str(), row.text(now), {row.choices.begin(), row.choices.end()});
+        } else if (row.kind == render::SettingKind::Switch) {
             if (ImGui::Checkbox(label.c_str(), &on)) change(name, row.text(on));
         } else if (std::isfinite(row.high)) {
-            if (ImGui::SliderFloat(label.c_str(), &slid, float(row.low), float(row.high), pattern.c_str(),
-                                   ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic))
-                change(name, row.text(std::clamp(double(slid), row.low, row.high)));
+            const int steps = ImGuiSliderFlags_AlwaysClamp | (is_wide ? ImGuiSliderFlags_Logarithmic : 0);
+            if (ImGui::SliderFloat(label.c_str(), &slid, float(row.low), float(row.high), pattern.c_str(), steps)) {
+                const double rounded = std::strtod(format("%.4g", double(slid)).c_str(), nullptr);
+                change(name, row.text(std::clamp(rounded, row.low, row.high)));
+            }
         } else {
             return;
         }
@@ -89,13 +92,12 @@ void Instruments::draw_switches(const FrameState& now, std::vector<Change>& chan
         ImGui::TextWrapped("%s", std::string(render::operator_info(render.tone_operator).summary).c_str());
 
         tone_row("glare");
-        if (render.glare == render::Glare::Scatter) tone_row("iris");
+        tone_row("age");
 
         std::vector<std::string> names;
         for (const vision::NamedDisplay& known : vision::known_displays())
             if (now.screen.shows(known.display)) names.emplace_back(known.name);
         to.choice("display", "display", to.text("display", vision::known_displays().front().name), names);
-        tone_row("gamut");
         if (render.display.eotf != vision::Eotf::Table) {
             to.slider("peak", "display-peak", render.display.peak, 1, 4000, "%.0f cd/m²", true);
             to.slider("black", "display-black", render.display.black, 0.001f, 2, "%.3f cd/m²", true);
@@ -103,16 +105,12 @@ void Instruments::draw_switches(const FrameState& now, std::vector<Change>& chan
         to.slider("light on it", "display-ambient", render.display.ambient, 0, 1000, "%.0f lx", true);
 
         ImGui::Separator();
-        tone_row("age");
-        tone_row("low_vision");
         to.slider("gaze, right", "gaze", tone.gaze.x, 0, 1, "%.2f of the width");
         if (!changes.empty() && changes.back().first == "gaze")
             changes.back().second += format(",%.4g", double(tone.gaze.y));
         float down = tone.gaze.y;
         if (ImGui::SliderFloat("gaze, down", &down, 0, 1, "%.2f of the height"))
             to.change("gaze", format("%.4g,%.4g", double(tone.gaze.x), double(down)));
-        for (const char* name : {"rods", "colour_loss", "acuity_loss", "purkinje", "smoothing"}) tone_row(name);
-
         ImGui::Separator();
         bool day = settings.sun().has_value();
         if (ImGui::Checkbox("sun", &day)) to.change("sun", day ? "-4" : "");
@@ -124,6 +122,14 @@ void Instruments::draw_switches(const FrameState& now, std::vector<Change>& chan
         to.choice("quality", "quality", settings.quality(), sets);
         for (const render::LightSetting& row : render::light_rows())
             if (DriveSettings::knows(row.option())) to.row(row, row.get(render));
+        std::string_view group;
+        bool open = false;
+        for (const render::ToneRow& row : render::tone_rows()) {
+            if (row.group.empty()) continue;  // above
+            if (std::exchange(group, row.group) != row.group)
+                open = ImGui::CollapsingHeader(std::string(group).c_str());
+            if (open) to.row(row, row.get(render));
+        }
         ImGui::PopItemWidth();
     }
     ImGui::End();

@@ -87,10 +87,12 @@ void WindowedDrive::record() {
 void WindowedDrive::save_picture() {
     try {
         const std::string name = free_name("picture-", ".png");
-        const DriveSettings& settings = session_->settings();
+        const render::RenderSettings& settings = session_->settings().render();
         if (on_device_) draw({.display = true});  // once more, for its codes
-        apps::write_codes(name, frame_, settings.render().display,
-                          apps::describe_settings(settings.recorded(picture_scale())));
+        io::Header texts = apps::describe_settings(session_->recorded(picture_scale()));
+        const io::Header tone = apps::describe_tone(settings);
+        texts.insert(texts.end(), tone.begin(), tone.end());
+        apps::write_codes(name, frame_, settings.display, texts);
         say("saved " + name);
     } catch (const Error& error) {
         say(error.what(), true);
@@ -98,6 +100,7 @@ void WindowedDrive::save_picture() {
 }
 
 void WindowedDrive::restart() {
+    while (session_->finish_oldest(true)) continue;  // what was before is not shown
     if (replay_)
         replay_->rewind(*session_), paused_ = false;
     else

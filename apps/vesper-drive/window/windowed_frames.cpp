@@ -57,7 +57,7 @@ void WindowedDrive::submit(VkExtent2D extent) {
 void WindowedDrive::take_finished() {
     while (std::optional<render::Frame> frame = session_->finish_oldest(session_->renderer().unfinished() > 1)) {
         frame_ = std::move(*frame);
-        instruments_.remember(*session_, frame_);
+        instruments_.remember(frame_);
     }
 }
 
@@ -87,7 +87,7 @@ void WindowedDrive::render(bool moved) {
     }
     rendered_ = extent, dirty_ = false, ++frame_number_;
     if (!waits) return;
-    instruments_.remember(*session_, frame_);
+    instruments_.remember(frame_);
     hatch_unseen(frame_, session_->settings().render(), arguments_.visible_from);
     if (log_) log_frame();
     if (!channels_) return;

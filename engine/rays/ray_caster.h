@@ -1,14 +1,15 @@
 // Rays through the triangles of a scene, on the host: what stands between two points. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
-#include <vector>
 
-#include "rays/hierarchy.h"
 #include "rays/triangles.h"
 
 namespace vesper::rays {
+
+class BoxHierarchy;
 
 /// Where a ray meets a triangle.
 struct Hit {
@@ -18,23 +19,26 @@ struct Hit {
     glm::dvec3 weights{0};                 ///< of the three corners, each >= 0, sum 1
 };
 
-/// The triangles of a scene in a hierarchy of boxes. Queries may run in several threads at a time; the same scene gives
-/// the same answers.
+/// The triangles of a scene in Embree's hierarchy of boxes. Queries may run in several threads at a time; the same
+/// scene gives the same answers, whatever the number of threads.
 ///
 /// Triangles stop light from both sides; those of masked materials where they are opaque (rays/opacity.h), those of
-/// clear ones nowhere. The boxes are floats that never miss a triangle; triangles are met in double, so that no ray
-/// passes between two that share an edge. Corners are floats from the middle of the scene: they lie within 1e-7 of
-/// their distance from it.
+/// clear ones nowhere. Boxes are floats that never miss a triangle (rays/box_hierarchy.h); triangles are met in double,
+/// so that no ray passes between two that share an edge. Corners are floats from the middle of the scene: they lie
+/// within 1e-7 of their distance from it.
 class RayCaster {
 public:
     /// Meets nothing.
-    RayCaster() = default;
+    RayCaster();
     /// The scene with its nodes at `world` (scene::world_transforms). Keeps a reference to the scene, which must stay
-    /// as it is. Takes at most kBytesPerTriangle while it builds, about 60 bytes a triangle afterwards, and the time
-    /// and memory of a Budget. Throws Error if that is not enough.
+    /// as it is. Takes about kBytesPerTriangle at most, and the time and memory of a Budget. Throws Error if
+    /// that is not enough.
     RayCaster(const scene::Scene& scene, std::span<const glm::dmat4> world);
     RayCaster(scene::Scene&&, std::span<const glm::dmat4>) = delete;
-    static constexpr uint64_t kBytesPerTriangle = sizeof(Triangle) + kBytesWhileBuilding;
+    RayCaster(RayCaster&&) noexcept;
+    RayCaster& operator=(RayCaster&&) noexcept;
+    ~RayCaster();
+    static constexpr uint64_t kBytesPerTriangle = 192;
 
     /// Whether a triangle lies strictly between two points, m; not those of the meshes at the nodes `without`
     /// (ascending). False if a point is not finite or beyond 10 kFarthest.
@@ -53,18 +57,13 @@ public:
 private:
     struct Sight;
     struct Crossing;
-    static glm::dvec4 meet(const Triangle& triangle, const Sight& sight);
-    template <bool kAny>
-    bool look_at(uint32_t first, uint32_t count, const Sight& sight, std::span<const uint32_t> without,
-                 std::optional<Crossing>& found) const;
-    template <bool kAny>
-    std::optional<Crossing> walk(glm::dvec3 from, glm::dvec3 to, std::span<const uint32_t> without) const;
+    struct Query;
+    bool has_way(glm::dvec3 from, glm::dvec3 to) const;
     bool counts(const Crossing& crossing, std::span<const uint32_t> without) const;
-    const TriangleList::Run& run_of(const Crossing& crossing) const;
 
     const scene::Scene* scene_ = nullptr;
     TriangleList list_;
-    std::vector<Node> nodes_;
+    std::unique_ptr<const BoxHierarchy> boxes_;
 };
 
 }  // namespace vesper::rays

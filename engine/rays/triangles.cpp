@@ -60,11 +60,10 @@ bool has_area(const Triangle& triangle) {
     return glm::cross(b - a, c - a) != glm::dvec3(0);
 }
 
-void add_triangles(TriangleList& list, const Primitive& primitive, const glm::dmat4& world, uint32_t first,
-                   uint32_t flag) {
+/// Of the last run.
+void add_triangles(TriangleList& list, const Primitive& primitive, const glm::dmat4& world) {
     for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-        Triangle triangle;
-        triangle.source = (first + uint32_t(i / 3)) | flag;
+        Triangle triangle{.corners = {}, .run = uint32_t(list.runs.size() - 1), .number = uint32_t(i / 3)};
         bool usable = true;
         for (size_t k = 0; k < 3; ++k) {
             const glm::dvec3 corner = corner_of(primitive, i + k, world);
@@ -91,12 +90,10 @@ TriangleList list_triangles(const Scene& scene, std::span<const glm::dmat4> worl
     TriangleList list;
     list.origin = middle_of(scene, world, count);
     list.triangles.reserve(count);
-    uint32_t number = 0;
     for_each_primitive(scene, [&](uint32_t node, uint32_t index, const Primitive& primitive) {
-        list.runs.push_back({number, node, index});
         const bool masked = scene.materials[primitive.material].alpha == scene::Material::Alpha::Mask;
-        add_triangles(list, primitive, world[node], number, masked ? Triangle::kMasked : 0);
-        number += uint32_t(primitive.indices.size() / 3);
+        list.runs.push_back({node, index, masked});
+        add_triangles(list, primitive, world[node]);
     });
     return list;
 }

@@ -3,6 +3,8 @@
 #include "rays/ray_caster.h"
 
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 #include <limits>
 #include <random>
 
@@ -203,7 +205,7 @@ TEST(RayCaster, AgreesWithTheReferenceOnTheStreet) {
     for (scene::Material& m : scene.materials) m.base_colour_texture.nearest = true;  // as the reference looks at them
     const Cast cast(scene);
     EXPECT_GT(cast.rays.triangles(), 250'000u);
-    EXPECT_LT(cast.rays.bytes(), 100 * cast.rays.triangles());
+    EXPECT_LT(cast.rays.bytes(), RayCaster::kBytesPerTriangle * cast.rays.triangles());
     const test::RayCaster reference(scene, cast.world);
     std::mt19937 random(11);
     std::uniform_real_distribution<double> x(-15, 15), y(0.05, 12), z(-150, 10);
@@ -221,6 +223,49 @@ TEST(RayCaster, AgreesWithTheReferenceOnTheStreet) {
     EXPECT_LE(differ, kRays / 1000);
     EXPECT_GT(met, kRays / 4);
     EXPECT_LT(met, kRays * 19 / 20);
+}
+
+// As floats these starts and ends lie on the plate.
+TEST(RayCaster, ComparesEndsWithSurfacesInDouble) {
+    OccluderScene made;
+    constexpr double wall = 3.125;
+    made.plate({wall, 7, 0}, {0, 1, 0}, {0, 0, 1});
+    for (int i = 0; i < 3; ++i) made.plate({-90, 0, 0}, {0, 1, 0}, {0, 0, 1});  // where the middle is
+    const Cast cast(made.scene());
+    EXPECT_EQ(cast.rays.middle().x, -90);
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> at(-0.9, 0.9);
+    int differ = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const dvec3 away(wall + (i % 2 ? 1 : -1) * (1 + at(random)), 7 + at(random), at(random));
+        const double by = away.x > wall ? -2e-8 : 2e-8;
+        const dvec3 behind(wall + by, 7 + at(random), at(random)), before(wall - by, behind.y, behind.z);
+        differ += !cast.rays.blocked(away, behind) || !cast.rays.blocked(behind, away);
+        differ += cast.rays.blocked(away, before) || cast.rays.blocked(before, away);
+        const auto hit = cast.rays.nearest(behind, away);
+        differ += !hit || !(hit->share > 0 && hit->share < 1e-6);
+    }
+    EXPECT_EQ(differ, 0);
+}
+
+// Rays from afar are rounded by more than triangles are apart, and still meet what they meet exactly.
+TEST(RayCaster, RoundingOfFarStartsIsInTheBoxes) {
+    std::mt19937 random(7);
+    scene::Scene scene = bumpy_ground(random);
+    std::vector<scene::Vertex>& v = scene.meshes[0].primitives[0].vertices;
+    for (scene::Vertex& vertex : v) vertex.position *= 0x1p-7f;  // 0.1 m by 0.1 m
+    add_triangles(scene, {{vec3(4000, 0, 0), {4000, 1, 0}, {4000, 0, 1}}});
+    const Cast cast(scene);
+    std::uniform_real_distribution<double> share(0, 1);
+    int passed = 0;
+    for (int i = 0; i < 40000; ++i) {
+        const uint32_t x = 4 + random() % 32, y = 4 + random() % 32, a = y * 40 + x;
+        const uint32_t b = a + (i % 3 == 0 ? 1 : i % 3 == 1 ? 40 : 41);
+        const dvec3 through = glm::mix(dvec3(v[a].position), dvec3(v[b].position), share(random));
+        const dvec3 way(2000 * share(random), 3000 + 4000 * share(random), 2000 * share(random));
+        if (!cast.rays.blocked(through + way, through - way)) ++passed;
+    }
+    EXPECT_EQ(passed, 0);
 }
 
 // Databases lie in coordinates of their country: 4 mm between floats there.
@@ -300,6 +345,7 @@ TEST(RayCaster, HoldsTrianglesThatBoxesCannotPart) {
     const auto hit = cast.rays.nearest({30, -40, -6}, {30, -40, -4});
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->triangle, 20000u) << "the first of all that lie there";
+    EXPECT_LT(cast.rays.bytes(), RayCaster::kBytesPerTriangle * cast.rays.triangles());
 }
 
 TEST(RayCaster, TakesNoMoreThanItsBudgetHas) {
@@ -309,6 +355,18 @@ TEST(RayCaster, TakesNoMoreThanItsBudgetHas) {
     spend(budget.bytes_left - 50 * RayCaster::kBytesPerTriangle);
     EXPECT_EQ(Cast(few).rays.triangles(), 5u);
     EXPECT_THROW(Cast{many}, Error);
+}
+
+TEST(RayCaster, LeavesNoThreads) {
+    const auto threads = [] {
+        const std::filesystem::directory_iterator all("/proc/self/task");
+        return std::distance(begin(all), end(all));
+    };
+    const auto before = threads();
+    std::mt19937 random(5);
+    scene::Scene scene = scene_of(soup(random, 50000));
+    const Cast cast(scene);
+    EXPECT_EQ(threads(), before);
 }
 
 TEST(RayCaster, TheSameSceneGivesTheSameAnswers) {

@@ -42,11 +42,6 @@ vision::Display display_of(const VesperToneSettings& s, scene::DisplayFinder& di
     return display;
 }
 
-void set(render::ToneChainSettings& settings, std::string_view name, double value) {
-    const render::ToneRow& row = accepted([&]() -> auto& { return render::tone_row(name); });
-    row.set(settings, accepted([&] { return row.checked(value); }));
-}
-
 // NAME=VALUE, separated by spaces. Numbers count as values of switches, too.
 void read_options(std::string_view text, render::ToneChainSettings& settings) {
     while (!text.empty()) {
@@ -56,21 +51,16 @@ void read_options(std::string_view text, render::ToneChainSettings& settings) {
         const size_t equals = std::min(word.find('='), word.size());
         const std::string_view value = word.substr(std::min(equals + 1, word.size()));
         require(equals > 0 && !value.empty(), "options are NAME=VALUE, separated by spaces");
-        accepted([&] {
-            const render::ToneRow& row = render::tone_row(word.substr(0, equals));
-            const bool is_switch = row.kind == render::SettingKind::Switch;
-            row.set(settings, is_switch && value == "0" ? 0.0 : is_switch && value == "1" ? 1.0 : row.parse(value));
-            return 0;
-        });
+        const render::ToneRow& row = render::tone_row(word.substr(0, equals));
+        const bool is_switch = row.kind == render::SettingKind::Switch;
+        row.set(settings, is_switch && value == "0" ? 0.0 : is_switch && value == "1" ? 1.0 : row.parse(value));
     }
 }
 
-}  // namespace
-
-render::RenderSettings settings_of(const VesperToneSettings* given, scene::DisplayFinder& displays) {
-    const VesperToneSettings s = given ? known(given, "tone settings without their size") : default_settings();
+// Of all but the display. Throws Error, too.
+render::ToneChainSettings tone_of(const VesperToneSettings& s) {
     require(within(s.gaze[0], 0, 1) && within(s.gaze[1], 0, 1), "the gaze is a part of the image, 0 to 1");
-    render::RenderSettings settings;
+    render::ToneChainSettings settings;
     const std::pair<const char*, double> given_values[]{
         {"operator", s.tone_operator},
         {"glare", s.glare},
@@ -95,7 +85,10 @@ render::RenderSettings settings_of(const VesperToneSettings* given, scene::Displ
         {"lashes", s.lashes != 0},
         {"gamut", s.gamut},
     };
-    for (const auto& [name, value] : given_values) set(settings, name, value);
+    for (const auto& [name, value] : given_values) {
+        const render::ToneRow& row = render::tone_row(name);
+        row.set(settings, row.checked(value));
+    }
     settings.tone.gaze = {s.gaze[0], s.gaze[1]};
     if (s.options) {
         const size_t length = strnlen(s.options, kLongestOptions + 1);
@@ -103,7 +96,16 @@ render::RenderSettings settings_of(const VesperToneSettings* given, scene::Displ
         read_options({s.options, length}, settings);
     }
     require(settings.tone_operator != render::Operator::Ldr, "there is no such tone operator");
-    accepted([&] { render::check_tone(settings); });
+    render::check_tone(settings);
+    return settings;
+}
+
+}  // namespace
+
+render::RenderSettings settings_of(const VesperToneSettings* given, scene::DisplayFinder& displays) {
+    const VesperToneSettings s = given ? known(given, "tone settings without their size") : default_settings();
+    render::RenderSettings settings;
+    static_cast<render::ToneChainSettings&>(settings) = accepted([&] { return tone_of(s); });
     settings.display = display_of(s, displays);
     vision::check_display(settings.display);
     return settings;

@@ -104,6 +104,12 @@ double Setting::checked(double value) const {
     return kind == SettingKind::Count && value >= 0x1p63 ? high : rounded(value) + 0.0;  // no -0
 }
 
+std::string member_name(std::string_view name) {
+    std::string made(name);
+    std::ranges::replace(made, '-', '_');
+    return made;
+}
+
 void throw_no_setting(std::string_view name) { throw Error("there is no setting " + one_line(std::string(name), 40)); }
 
 }  // namespace vesper::render

@@ -52,6 +52,14 @@ struct SettingOf : Setting {
 /// Value of a setting of type uint64_t that has no limit; "all" in text.
 constexpr uint64_t kUnlimited = ~uint64_t{0};
 
+/// The value of a member as rows have it.
+template <class T>
+constexpr double number_of(T value) {
+    if constexpr (std::is_same_v<T, uint64_t>)
+        if (value == kUnlimited) return std::numeric_limits<double>::infinity();
+    return double(value);
+}
+
 /// A row of the member that `member` refers to, in `Of` and in `const Of`; its kind is of the member's type, its values
 /// are those of a default `Of`.
 template <class Of, class Member>
@@ -61,12 +69,7 @@ SettingOf<Of> setting_of(Setting row, Member member) {
                : std::is_same_v<T, float>  ? SettingKind::Float
                : std::is_same_v<T, double> ? SettingKind::Double
                                            : SettingKind::Count;
-    const auto get = [member](const Of& from) {
-        const T value = member(from);
-        if constexpr (std::is_same_v<T, uint64_t>)
-            if (value == kUnlimited) return std::numeric_limits<double>::infinity();
-        return double(value);
-    };
+    const auto get = [member](const Of& from) { return number_of(member(from)); };
     row.values.fill(get(Of{}));
     return {row, get, [member](Of& to, double number) {
                 if constexpr (std::is_same_v<T, bool>)
@@ -78,12 +81,15 @@ SettingOf<Of> setting_of(Setting row, Member member) {
             }};
 }
 
+/// "shadow_error" of "shadow-error".
+std::string member_name(std::string_view name);
 [[noreturn]] void throw_no_setting(std::string_view name);
 /// The row of a name, with dashes or underscores. Throws Error if there is none.
 template <class Row>
 const Row& row_named(std::span<const Row> rows, std::string_view name) {
+    const std::string member = member_name(name);
     for (const Row& row : rows)
-        if (row.name == name || row.option() == name) return row;
+        if (row.name == member) return row;
     throw_no_setting(name);
 }
 

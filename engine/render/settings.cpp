@@ -13,17 +13,10 @@ namespace {
 VESPER_LIGHT_SETTINGS(VESPER_IS_MOST)
 #undef VESPER_IS_MOST
 
-template <class T>
-constexpr double bound(auto value) {
-    return std::is_same_v<T, uint64_t> && uint64_t(value) == kUnlimited ? std::numeric_limits<double>::infinity()
-                                                                        : double(value);
-}
-
 template <class Member>
 LightSetting row_of_light(const Setting& row, const std::array<double, 3>& values, Member member) {
     LightSetting made = setting_of<LightSettings>(row, member);
     made.values = values;
-    for (double& value : made.values) value = made.rounded(value);
     return made;
 }
 
@@ -32,10 +25,10 @@ LightSetting row_of_light(const Setting& row, const std::array<double, 3>& value
 std::span<const LightSetting> light_rows() {
     static const auto kRows = [] {
         std::vector<LightSetting> rows;
-#define VESPER_ROW(type, name, unit, low, high, draft, standard, exact, help) \
-    rows.push_back(row_of_light(                                              \
-        {#name, unit, help, "Light", bound<type>(low), bound<type>(high)},    \
-        {bound<type>(draft), bound<type>(standard), bound<type>(exact)},      \
+#define VESPER_ROW(type, name, unit, low, high, draft, standard, exact, help)        \
+    rows.push_back(row_of_light(                                                     \
+        {#name, unit, help, "Light", number_of(low), number_of(high)},               \
+        {number_of(type(draft)), number_of(type(standard)), number_of(type(exact))}, \
         [](auto& settings) -> auto& { return settings.name; }));
         VESPER_LIGHT_SETTINGS(VESPER_ROW)
 #undef VESPER_ROW

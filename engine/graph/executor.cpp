@@ -257,9 +257,10 @@ void Executor::place(const FrameGraph& graph) {
         return had.memory_types == wanted.memory_types && had.bytes >= wanted.bytes && had.bytes / 4 <= wanted.bytes;
     };
     const bool has_room = std::ranges::equal(allocated_, plan_.heaps, suffices);
-    const bool all_placed = has_room && std::ranges::all_of(plan_.placements, [&](const auto& p) {
-                                return transients_.contains(key_of(graph, p));
-                            });
+    std::vector<TransientKey> keys;
+    for (const Plan::Placement& p : plan_.placements) keys.push_back(key_of(graph, p));
+    const bool all_placed =
+        has_room && std::ranges::all_of(keys, [&](const TransientKey& key) { return transients_.contains(key); });
     const bool crowded = transients_.size() > kMostGraphs * plan_.placements.size() + kSpareTransients;
     if (!all_placed || crowded) wait();  // what is under way uses what goes now
     if (!has_room || crowded) transients_.clear();
@@ -271,11 +272,11 @@ void Executor::place(const FrameGraph& graph) {
         allocated_ = plan_.heaps;
     }
     resources_.assign(graph.resources().size(), {});
-    for (const Plan::Placement& p : plan_.placements) {
+    for (size_t i = 0; i < keys.size(); ++i) {
+        const Plan::Placement& p = plan_.placements[i];
         const FrameGraph::ResourceInfo& info = graph.resources()[p.resource];
-        TransientKey key = key_of(graph, p);
-        auto found = transients_.find(key);
-        if (found == transients_.end()) found = transients_.emplace(std::move(key), make_transient(info, p)).first;
+        auto found = transients_.find(keys[i]);
+        if (found == transients_.end()) found = transients_.emplace(std::move(keys[i]), make_transient(info, p)).first;
         const Transient& t = found->second;
         Realized& r = resources_[p.resource];
         r.image = t.image.get(), r.view = t.view.get(), r.aspect = gpu::aspect_of(info.shape.format);

@@ -54,7 +54,8 @@ void write_outputs(const RenderArguments& arguments, const gpu::Device& device, 
     for (const std::string& output : arguments.outputs) {
         const std::string file = file_of_frame(output, index, arguments.frames);
         if (output.ends_with(".png"))
-            apps::write_codes(file, frame, arguments.settings.display, describe_codes(arguments));
+            apps::write_codes(file, frame, arguments.settings.display,
+                              apps::describe_codes(arguments.light.quality, arguments.settings));
         else
             io::write_exr(file, frame.extent.width, frame.extent.height, frame.scene,
                           describe_frame(arguments, device, view, frame, glare, seconds));

@@ -47,13 +47,6 @@ std::string statistics_json(const RenderArguments& arguments, const render::Fram
            apps::json_of(apps::luminance_statistics(frame.scene)).substr(1);
 }
 
-io::Header describe_codes(const RenderArguments& arguments) {
-    io::Header header = apps::describe_settings(recorded_of(arguments));
-    const io::Header tone = apps::describe_tone(arguments.settings);
-    header.insert(header.end(), tone.begin(), tone.end());
-    return header;
-}
-
 void print_statistics(const RenderArguments& arguments, const gpu::Device& device, const render::Renderer& renderer,
                       const render::Frame& frame, std::vector<double> milliseconds) {
     print("%s on %s (%s), %u threads of the host\n", arguments.scene.c_str(), device.name().c_str(),

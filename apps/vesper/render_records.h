@@ -15,8 +15,6 @@ apps::RecordedSettings recorded_of(const RenderArguments& arguments);
 /// The header of a picture of luminances.
 io::Header describe_frame(const RenderArguments& arguments, const gpu::Device& device, const gpu_scene::View& view,
                           const render::Frame& frame, const vision::GlareReport& glare, double seconds);
-/// The same of a picture of codes.
-io::Header describe_codes(const RenderArguments& arguments);
 
 /// Of --stats-json.
 std::string statistics_json(const RenderArguments& arguments, const render::Frame& frame);

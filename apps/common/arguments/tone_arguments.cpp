@@ -75,6 +75,13 @@ io::Header describe_tone(const render::ToneChainSettings& settings) {
     return header;
 }
 
+io::Header describe_codes(const std::string& quality, const render::RenderSettings& settings) {
+    io::Header header = describe_settings(recorded_settings(quality, settings));
+    const io::Header tone = describe_tone(settings);
+    header.insert(header.end(), tone.begin(), tone.end());
+    return header;
+}
+
 std::string tone_json(const render::ToneChainSettings& settings) {
     std::string members;
     for (const render::ToneRow& row : render::tone_rows())

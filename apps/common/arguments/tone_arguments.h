@@ -1,5 +1,4 @@
-// What commands that show luminance on a display share: operator, eye, glare, display, files. SPDX-License-Identifier:
-// MIT
+// Arguments of the way from luminance to a display: operator, eye, glare, display, files. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <map>
@@ -10,6 +9,7 @@
 
 #include "arguments/display_arguments.h"
 #include "io/image_file.h"
+#include "render/settings.h"
 #include "render/tone_rows.h"
 
 namespace vesper::apps {
@@ -33,6 +33,8 @@ std::string text_of(std::string_view name, const render::ToneChainSettings&);
 std::string name_of(render::Operator);
 /// Fields of a picture's header: all of render::tone_rows(), as "vesper:age".
 io::Header describe_tone(const render::ToneChainSettings&);
+/// The same with the settings of light: the header of a picture of codes.
+io::Header describe_codes(const std::string& quality, const render::RenderSettings&);
 /// Members of a JSON object, in a line: "operator": "irawan", ...
 std::string tone_json(const render::ToneChainSettings&);
 /// The fields, and what the eye adapted to.

@@ -170,21 +170,18 @@ private:
         for (const unsigned number : numbers)
             if (number > 0 && number < frames) io::announce_write("--video", names_->at(number));
     }
-    // How its frames are rendered, for every kind of picture.
-    io::Header rendering(const DriveSettings& settings) const {
-        render::RenderSettings with = settings.render();
-        with.scale = arguments_.scale;
-        return apps::describe_settings(apps::recorded_settings(settings.quality(), with));
-    }
-    io::Header of_codes(const DriveSettings& settings) const {
-        io::Header made = rendering(settings);
-        const io::Header tone = apps::describe_tone(settings.render());
-        made.insert(made.end(), tone.begin(), tone.end());
+    render::RenderSettings scaled(const DriveSettings& settings) const {
+        render::RenderSettings made = settings.render();
+        made.scale = arguments_.scale;
         return made;
     }
+    io::Header of_codes(const DriveSettings& settings) const {
+        return apps::describe_codes(settings.quality(), scaled(settings));
+    }
     io::Header header(const Session& session, const render::ToneMapped& frame, uint32_t lamps) const {
+        const DriveSettings& settings = session.settings();
         std::string options;  // settings other than the defaults
-        for (const auto& [name, value] : session.settings().values())
+        for (const auto& [name, value] : settings.values())
             options += (options.empty() ? "" : " ") + apps::in_shell("--" + name) + " " + apps::in_shell(value);
         const std::string scene = session.scenery().scene().name, own = apps::own_data_name(scene);
         io::Header made{{"vesper:version", VESPER_VERSION},
@@ -194,7 +191,8 @@ private:
                         {"vesper:seconds", apps::digits(session.world().seconds())},
                         {"vesper:lights", std::to_string(lamps)}};
         for (const io::Header& part :
-             {rendering(session.settings()), apps::describe_tone(session.settings().render(), frame)})
+             {apps::describe_settings(apps::recorded_settings(settings.quality(), scaled(settings))),
+              apps::describe_tone(settings.render(), frame)})
             made.insert(made.end(), part.begin(), part.end());
         return made;
     }

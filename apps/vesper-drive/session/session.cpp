@@ -134,12 +134,6 @@ render::RenderSettings Session::frame_settings() const {
     return settings;
 }
 
-apps::RecordedSettings Session::recorded(double scale) const {
-    render::RenderSettings settings = frame_settings();
-    settings.scale = scale;
-    return apps::recorded_settings(settings_.quality(), settings);
-}
-
 void Session::keep_maps(std::shared_ptr<Cache> cache) {
     map_cache_ = std::move(cache);
     renderer_->keep_maps(map_cache_);

@@ -73,8 +73,8 @@ public:
 
     // Settings.
     const DriveSettings& settings() const { return settings_; }
-    /// What pictures record of the light of frames, which are rendered with a part of the pixels of each side.
-    apps::RecordedSettings recorded(double scale) const;
+    /// Those of frames: in a window fewer tiles of shadow maps are drawn, and obstacles are measured.
+    render::RenderSettings frame_settings() const;
     /// Throws Error, also for lamps that the scene has not got; then nothing has changed.
     void set(const std::string& name, const std::string& value);
 
@@ -148,7 +148,6 @@ private:
     DriveStart start() const;
     void note(const DriveEvent&);
     void make_wall();
-    render::RenderSettings frame_settings() const;
     void keep(const osi::Message&);
     void update_external(std::optional<double> shown);
     osi::Message message_now() const;

@@ -87,12 +87,11 @@ void WindowedDrive::record() {
 void WindowedDrive::save_picture() {
     try {
         const std::string name = free_name("picture-", ".png");
-        const render::RenderSettings& settings = session_->settings().render();
+        render::RenderSettings settings = session_->frame_settings();
+        settings.scale = picture_scale();
         if (on_device_) draw({.display = true});  // once more, for its codes
-        io::Header texts = apps::describe_settings(session_->recorded(picture_scale()));
-        const io::Header tone = apps::describe_tone(settings);
-        texts.insert(texts.end(), tone.begin(), tone.end());
-        apps::write_codes(name, frame_, settings.display, texts);
+        apps::write_codes(name, frame_, settings.display,
+                          apps::describe_codes(session_->settings().quality(), settings));
         say("saved " + name);
     } catch (const Error& error) {
         say(error.what(), true);

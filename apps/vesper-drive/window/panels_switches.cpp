@@ -29,10 +29,12 @@ public:
     }
     void change(const std::string& name, const std::string& value) { changes_.emplace_back(name, value); }
 
-    void choice(const char* label, const char* name, const std::string& now, const std::vector<std::string>& of) {
+    template <class Texts>
+    void choice(const char* label, const char* name, const std::string& now, const Texts& of) {
         if (!ImGui::BeginCombo(label, now.c_str())) return;
-        for (const std::string& one : of)
-            if (ImGui::Selectable(one.c_str(), one == now) && one != now) change(name, one);
+        for (const auto& text : of)
+            if (const std::string one(text); ImGui::Selectable(one.c_str(), one == now) && one != now)
+                change(name, one);
         ImGui::EndCombo();
     }
     /// The format says the unit.
@@ -54,7 +56,7 @@ public:
         auto slid = float(now);
         bool on = now != 0;
         if (row.kind == render::SettingKind::Choice) {
-            choice(label.c_str(), name.c_str(), row.text(now), {row.choices.begin(), row.choices.end()});
+            choice(label.c_str(), name.c_str(), row.text(now), row.choices);
         } else if (row.kind == render::SettingKind::Switch) {
             if (ImGui::Checkbox(label.c_str(), &on)) change(name, row.text(on));
         } else if (std::isfinite(row.high)) {
@@ -118,8 +120,7 @@ void Instruments::draw_switches(const FrameState& now, std::vector<Change>& chan
             ImGui::SameLine();
             to.slider("##sun", "sun", float(*settings.sun()), -18, 60, "%.1f° above the horizon");
         }
-        const std::vector<std::string> sets(render::kQualityNames.begin(), render::kQualityNames.end());
-        to.choice("quality", "quality", settings.quality(), sets);
+        to.choice("quality", "quality", settings.quality(), render::kQualityNames);
         for (const render::LightSetting& row : render::light_rows())
             if (DriveSettings::knows(row.option())) to.row(row, row.get(render));
         std::string_view group;

@@ -180,6 +180,14 @@ void expect_same(const Got& got, const reference::Adapted& want, const Frame& fr
     EXPECT_NEAR(got.curve.slack, w.slack, node_error);
 }
 
+/// The next frame of the eye that the rig keeps; `eye`: that it has before, and then after it.
+void expect_next(PassRig& rig, const Frame& frame, shared::EyeState& eye) {
+    const reference::Adapted want = frame.wanted(eye);
+    const Got got = adapt(rig, frame);
+    expect_same(got, want, frame);
+    eye = got.eye;
+}
+
 TEST(Adapt, MatchesTheReferenceOnRoadsDayAndNight) {
     PassRig rig;
     const std::vector<std::pair<const char*, Frame>> frames{
@@ -227,10 +235,7 @@ TEST(Adapt, MatchesTheReferenceOnRandomHistograms) {
             hills.push_back({100 * unit(random), 15 * unit(random), uint32_t(1 + 20000 * unit(random))});
         Frame frame = frame_of(hills, 100, uint32_t(k));
         frame.seconds = 0.02f;
-        const auto want = frame.wanted(eye);
-        const Got got = adapt(rig, frame);  // the same rig: the eye goes on
-        expect_same(got, want, frame);
-        eye = got.eye;
+        expect_next(rig, frame, eye);
     }
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -291,10 +296,7 @@ TEST(Adapt, MatchesTheReferenceForEveryOperatorOverTime) {
                 frame.tone_operator = op.tone_operator;
                 frame.tone.operators.reinhard.automatic = automatic;
                 frame.seconds = 0.1f;
-                const auto want = frame.wanted(eye);
-                const Got got = adapt(rig, frame);
-                expect_same(got, want, frame);
-                eye = got.eye;
+                expect_next(rig, frame, eye);
             }
             EXPECT_EQ(rig.complaints(), "");
         }
@@ -311,10 +313,7 @@ TEST(Adapt, MatchesTheReferenceWhileColoursChange) {
             frame.tone_operator = op;
             frame.colours.assign(6, glm::vec4(30.0f * colour, 1024));
             frame.seconds = 4;
-            const auto want = frame.wanted(eye);
-            const Got got = adapt(rig, frame);
-            expect_same(got, want, frame);
-            eye = got.eye;
+            expect_next(rig, frame, eye);
         }
     }
 }
@@ -329,10 +328,7 @@ TEST(Adapt, MatchesTheReferenceFromDayToStarlight) {
         frame.tone_operator = Operator::Pattanaik;
         frame.tone.operators.pattanaik.rod_constant = 500;  // the light below which rods are no brighter counts
         frame.seconds = seconds;
-        const auto want = frame.wanted(eye);
-        const Got got = adapt(rig, frame);
-        expect_same(got, want, frame);
-        eye = got.eye;
+        expect_next(rig, frame, eye);
     }
 }
 

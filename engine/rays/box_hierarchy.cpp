@@ -15,7 +15,7 @@ constexpr float kMostFarthest = 0x1p15f;
 
 float largest(glm::vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// What boxes are made of.
+/// Triangles, and the margin of the boxes around them.
 struct Boxes {
     std::span<const Triangle> triangles;
     float farthest = 0;

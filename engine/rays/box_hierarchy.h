@@ -12,7 +12,7 @@
 
 namespace vesper::rays {
 
-/// What looks at a triangle whose box a ray meets: its primID is the triangle's index.
+/// Functions that look at a triangle whose box a ray meets: its primID is the triangle's index.
 struct TriangleLooks {
     RTCIntersectFunctionN nearest;
     RTCOccludedFunctionN any;

@@ -31,7 +31,7 @@ struct OperatorTraits {
     bool bands = false;      ///< contrast is mapped in bands (add_bands), and only what lies above them by the curve
 };
 
-/// What users read of a setting: a number from `low` to `high`, or a switch.
+/// A setting as users read it: a number from `low` to `high`, or a switch.
 struct OperatorOption {
     const char* name;  ///< "devlin_contrast"
     const char* unit = "";

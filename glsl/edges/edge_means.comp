@@ -26,21 +26,42 @@ TEXELS(7, uvec4, facets);
 writeonly WRITTEN_TEXELS(8, vec4, means);
 layout(push_constant, scalar) uniform Push { EdgesPush push; };
 
+const uint kAllPoints = (1u << kEdgeSamples) - 1u;
+
 #include "edges.glsl"
+#include "edges_list.glsl"
 #include "facets.glsl"
+
+// For each point of the pixel which middle saw what is there: word b has bit b of the middles' numbers, a bit for each point.
+uint which[4];
+
+void give(uint points, uint middle_) {
+    [[unroll]] for (uint b = 0u; b < 4u; ++b) which[b] = (which[b] & ~points) | ((middle_ >> b & 1u) != 0u ? points : 0u);
+}
+
+uint middle_of(uint point) {
+    uint number = 0u;
+    [[unroll]] for (uint b = 0u; b < 4u; ++b) number |= (which[b] >> point & 1u) << b;
+    return number;
+}
+
+uint points_of(uint middle_) {
+    uint points = kAllPoints;
+    [[unroll]] for (uint b = 0u; b < 4u; ++b) points &= (middle_ >> b & 1u) != 0u ? which[b] : ~which[b];
+    return points;
+}
 
 void main() {
     const uint number = gl_GlobalInvocationID.x;
     if (number >= texel_at(counts, 3).r) return;
-    const uint index = texel_at(edges, int(number)).r;
-    const ivec2 pixel = ivec2(index % push.size.x, index / push.size.x);
+    const ivec2 pixel = edge_at(texel_at(edges, int(number)).r);
     middle = push.ray_scale * (vec2(pixel) + 0.5) + push.ray_offset;
     const Seen here = seen_at(pixel);
 
     float nearest[kEdgeSamples];  // inverse depth of what covers a point, 1/m; -1: nothing
     float closest[kEdgeSamples];  // px, negative: how far what does not cover it is
-    uint which[kEdgeSamples];     // middle saw that
-    [[unroll]] for (uint i = 0u; i < kEdgeSamples; ++i) nearest[i] = -1.0, closest[i] = -1e30, which[i] = 0u;
+    [[unroll]] for (uint i = 0u; i < kEdgeSamples; ++i) nearest[i] = -1.0, closest[i] = -1e30;
+    [[unroll]] for (uint b = 0u; b < 4u; ++b) which[b] = 0u;
     // Each facet once: a bit for the first middle that sees it.
     uint seen_first = 0u, nothing = 9u;
     uvec2 known[9];
@@ -53,35 +74,44 @@ void main() {
         seen_first |= is_new ? 1u << k : 0u;
         nothing = known[k].r == 0u ? min(nothing, k) : nothing;
     }
-    while (seen_first != 0u) {
+    // Each loop begins with a turn: something is seen beside every edge, and a CPU device takes a turn for nothing before it leaves
+    // a loop that asks first.
+    do {
         const uint k = uint(findLSB(seen_first));
         seen_first &= seen_first - 1u;
-        const ivec2 at = pixel + neighbour(k);
-        const uvec2 triangle = imageLoad(triangles, at).rg;
-        const SeenFacet facet = facet_of(triangle, vec2(neighbour(k)));
+        const ivec2 there = neighbour(k);
+        const SeenFacet facet = facet_of(imageLoad(triangles, pixel + there).rg, vec2(there));
         const bool fills = facet.narrow || facet.has_holes;
-        if (fills && k != 0u) continue;
-        const uint as = is_same(here, seen_at(at)) ? 0u : k;
+        // Of those that fill their pixels only the pixel's own counts.
+        const float filled = k == 0u ? 0.0 : -1e30;
+        uint taken = 0u;
         [[unroll]] for (uint i = 0u; i < kEdgeSamples; ++i) {
             const vec3 p = vec3(place_of(i), 1.0);
-            const float least = fills ? 0.0 : inside(facet, p);
+            const float least = fills ? filled : inside(facet, p);
             const float depth = fills ? -1.0 / here.position.z : dot(facet.inverse_depth, p);
             const bool covers = least >= 0.0 && depth > nearest[i];
             const bool closer = nearest[i] < 0.0 && least < 0.0 && least > closest[i] && depth > 0.0;
             nearest[i] = covers ? depth : nearest[i];
             closest[i] = closer ? least : closest[i];
-            which[i] = covers || closer ? as : which[i];
+            taken |= covers || closer ? 1u << i : 0u;
         }
-    }
-    [[unroll]] for (uint i = 0u; i < kEdgeSamples; ++i) {
-        if (nothing < 9u && nearest[i] < 0.0) which[i] = nothing;
-    }
+        give(taken, k);
+    } while (seen_first != 0u);
+    uint bare = 0u;
+    [[unroll]] for (uint i = 0u; i < kEdgeSamples; ++i) bare |= nothing < 9u && nearest[i] < 0.0 ? 1u << i : 0u;
+    give(bare, nothing);
 
+    // What a middle of the same surface saw has the luminance of the pixel itself.
     vec3 sum = vec3(0.0);
-    for (uint k = 0u; k < 9u; ++k) {
-        float share = 0.0;
-        [[unroll]] for (uint i = 0u; i < kEdgeSamples; ++i) share += which[i] == k ? 1.0 / float(kEdgeSamples) : 0.0;
-        if (share > 0.0) sum += share * imageLoad(scene_image, pixel + neighbour(k)).rgb;
-    }
+    uint left = kAllPoints, own = 0u;
+    do {
+        const uint k = middle_of(uint(findLSB(left))), points = points_of(k);
+        const ivec2 at = pixel + neighbour(k);
+        left &= ~points;
+        const bool same = k == 0u || (k != nothing && is_same(here, seen_at(at)));
+        own += same ? uint(bitCount(points)) : 0u;
+        if (!same) sum += float(bitCount(points)) / float(kEdgeSamples) * imageLoad(scene_image, at).rgb;
+    } while (left != 0u);
+    if (own != 0u) sum += float(own) / float(kEdgeSamples) * imageLoad(scene_image, pixel).rgb;
     write_texel(means, int(number), vec4(sum, 1.0));
 }

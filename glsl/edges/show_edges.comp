@@ -14,9 +14,11 @@ TEXELS(2, vec4, means);
 layout(binding = 3, rgba32f) uniform image2D scene_image;
 layout(push_constant, scalar) uniform Push { EdgesPush push; };
 
+#include "edges_list.glsl"
+
 void main() {
     const uint number = gl_GlobalInvocationID.x;
     if (number >= texel_at(counts, 3).r) return;
-    const uint index = texel_at(edges, int(number)).r;
-    imageStore(scene_image, ivec2(index % push.size.x, index / push.size.x), texel_at(means, int(number)));
+    const ivec2 pixel = edge_at(texel_at(edges, int(number)).r);
+    imageStore(scene_image, pixel, texel_at(means, int(number)));
 }

@@ -162,6 +162,26 @@ bool shows_an_edge(PassRig& rig, const Scene& wall) {
     return got.r < 2.9f;
 }
 
+// A wall before a farther one, whose level border is a quarter into the pixels beyond it.
+TEST(Edges, LevelBordersAreSeenFromAboveAndFromBelow) {
+    PassRig rig;
+    for (const bool low : {false, true}) {
+        SCOPED_TRACE(low);
+        Scene walls;
+        const uint32_t material = add_material(walls, 0.5f);
+        add_rectangle(walls, material, {-9, low ? -9 : -0.17f, -10}, {18, 0, 0}, {0, 9.17f, 0});
+        add_rectangle(walls, material, {-9, -9, -10.5f}, {18, 0, 0}, {0, 18, 0});
+        std::vector<glm::vec4> light;
+        for (uint32_t i = 0; i < 256; ++i)
+            light.push_back((i / 16 < 8) == low ? glm::vec4(3, 3, 5, 1) : glm::vec4(1, 3, 7, 1));
+        const Edged edged = draw(rig, walls, View::symmetric({16, 16}, 1, glm::dmat4(1)), light);
+        const uint32_t row = low ? 7 : 8;
+        for (uint32_t x = 1; x < 15; ++x) EXPECT_NEAR(edged.got[16 * row + x].r, 2.5f, 2e-6f) << x;
+        EXPECT_EQ(edged.got[16 * (15 - row) + 7].r, 1);
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
 const glm::vec3 kAhead(0, 0, 1);
 glm::vec3 turned(float angle) { return {std::sin(angle), 0, std::cos(angle)}; }
 
@@ -191,6 +211,20 @@ TEST(Edges, AStepIsOneOnEitherPlane) {
     EXPECT_TRUE(shows_an_edge(rig, two_halves(kAhead, turned(-0.05f), 0.01f)));
     EXPECT_FALSE(shows_an_edge(rig, two_halves(turned(0.05f), kAhead, 0.01f)));
     EXPECT_FALSE(shows_an_edge(rig, two_halves(kAhead, turned(0.05f), 0.01f)));
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// Normals that lean by 0.05 take pixels of one half for different surfaces, too, of which the one to the right of pixel
+// 8 is brighter: it shows a quarter of the left half, though that is hardly darker.
+TEST(Edges, ASurfaceThatDiffersWithinAFacetMakesAnEdgeBesideAnother) {
+    PassRig rig;
+    std::vector<glm::vec4> light;
+    for (uint32_t i = 0; i < 256; ++i)
+        light.emplace_back(glm::vec3(i % 16 < 8 ? 1.0f : i % 16 == 8 ? 1.015f : 2.0f), 1);
+    const Edged edged =
+        draw(rig, two_halves(turned(0.05f), turned(0.05f), 0), View::symmetric({16, 16}, 1, glm::dmat4(1)), light);
+    EXPECT_TRUE(reference::is_edge(edged.seen, {8, 7}));
+    EXPECT_NEAR(edged.got[7 * 16 + 8].r, 1.01125f, 1e-6f);
     EXPECT_EQ(rig.complaints(), "");
 }
 

@@ -28,10 +28,7 @@ struct Viewer {
         const double r = differences * step + response(low);
         return sigma * r / (1 - r);
     }
-    double lightness(double differences) const {
-        return std::pow(std::max((luminance(differences) - low) / (high - low), 0.0), 1 / 2.2);
-    }
-    /// d lightness / d differences.
+    /// Of lightness, ((L - low) / (high - low))^(1 / 2.2), by differences.
     double lightness_slope(double differences) const {
         const double l = luminance(differences), rise = linear ? l : step * (l + sigma) * (l + sigma) / sigma;
         return std::pow(std::max((l - low) / (high - low), 1e-6), 1 / 2.2 - 1) / 2.2 * rise / (high - low);

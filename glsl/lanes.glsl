@@ -60,10 +60,8 @@ bool lanes_any(bool value) {
     return lanes_or(value ? 1u : 0u) != 0u;
 }
 
-bool lanes_all(bool value) {
-    if (kLockstep != 0u) return subgroupAll(value);
-    return lanes_or(value ? 0u : 1u) == 0u;
-}
+// A bit for each that tells true.
+uint lanes_mask(bool value) { return lanes_or(value ? 1u << gl_LocalInvocationID.x : 0u); }
 
 float lanes_add(float value) {
     if (kLockstep != 0u) return subgroupAdd(value);

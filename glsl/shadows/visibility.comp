@@ -9,6 +9,8 @@
 // on its list in its shadow map, one lamp per invocation: four of them, and sixteen for a lamp that gives a good part of the
 // block's light. Where these differ, or the block is no plane, all pixels do: one column of them per invocation. Lamps that no
 // pixel of the block sees leave its list.
+// CPU drivers go through what a branch leaves out, with all invocations masked, and leave a loop at the end of its body alone.
+// So loops test there, and hard edges and penumbrae are looked up in loops of their own.
 
 #include "blocks.glsl"
 #include "normal.glsl"
@@ -54,9 +56,10 @@ bool probe_drawn[kProbes];
 shared uint listed[kBlockCapacity];      // their entries
 shared uint found[kBlockCapacity];       // what their blocks see, see below
 shared float brightest[kBlockCapacity];  // the largest illuminance that they give a probe, lx
-shared float way[kBlockCapacity];        // how much of the way from the lamp its light gets, where something stops it
-shared uint chosen[kBlockCapacity];      // places on the list of lamps that all probes look up
-shared uint counted[kBlockSize];         // by columns: see look_up()
+shared float way[kBlockCapacity];        // what Sight::ways holds
+shared uint chosen[kBlockCapacity];      // places on the list of lamps that all probes, and then all pixels, look up
+shared float widths[kSharePlaces];       // of the penumbrae of those that are looked up
+shared uint counted[kBlockSize];         // by columns: see look_up_penumbra()
 
 void read_block(uvec2 corner) {
     const uint column = gl_LocalInvocationID.x;
@@ -72,8 +75,6 @@ void read_block(uvec2 corner) {
         all_drawn = all_drawn && drawn[r];
         nearest = drawn[r] ? min(nearest, surface.z) : nearest;
     }
-    shiny = lanes_any(shines);
-    filled = lanes_all(all_drawn);
     pixel_size = abs(push.grid.ray_scale.y) * -lanes_max(-nearest);
     // The first four are one in each quarter; the last eight are in the corners and near the middle.
     const uint columns[2] = uint[](0x66215152u, 0x44337700u), rows[2] = uint[](0x14636521u, 0x35427070u);
@@ -89,10 +90,15 @@ void read_block(uvec2 corner) {
         const bool level = abs(dot(probe_normal[0], position[r] - probe_position[0])) <= -kMostLift * probe_position[0].z;
         same = same && (!drawn[r] || (level && distance(normal[r], probe_normal[0]) <= kMostTilt));
     }
-    plane = lanes_all(same);
+    const uint flags = lanes_or((shines ? 1u : 0u) | (all_drawn ? 0u : 2u) | (same ? 0u : 4u));
+    shiny = (flags & 1u) != 0u;
+    filled = (flags & 2u) == 0u;
+    plane = (flags & 4u) == 0u;
 }
 
-const uint kLit = 0u, kDark = kShares + 1u, kMixed = kShares + 2u;  // of `found`; between: sixteenths that are seen
+const uint kLit = 0u, kDark = kShares + 1u, kMixed = kShares + 2u;  // what a block sees; between: sixteenths that are seen
+// Of `found`, which holds a Sight: all pixels looked up the lamp. It holds what they see, and from bit 8 on the place of shares.
+const uint kLookedUp = 1u << 31u;
 
 // Whether other pixels may see what the probes do not: of a plane, where these differ.
 bool is_open(uint seen) { return !plane || (seen > kLit && seen < kDark); }
@@ -106,6 +112,7 @@ struct Sight {
 
 uint pack(Sight s) { return uint(s.cosine * 255.0) << 16u | s.facing << 8u | s.seen; }  // but for the ways
 Sight unpack(uint packed, float ways) { return Sight(packed >> 8u & 0xffu, packed & 0xffu, float(packed >> 16u) / 255.0, ways); }
+// What the block sees, by its probes.
 uint found_of(Sight s) {
     if (s.seen == 0u) return kDark;
     return s.seen == s.facing ? kLit : clamp((kShares * s.seen + s.facing / 2u) / s.facing, 1u, kShares - 1u);
@@ -172,59 +179,75 @@ void probe_more(uint number, uint index) {
     way[number] = s.ways;
 }
 
-// What all pixels see: a share of the lamp for each of the column, four bits; and what the block sees. `stops`: how much of
-// the way from the lamp its light gets, where something stops it.
-uint look_up(uint index, float stops, out uint word) {
+// The radius of the penumbra of a lamp, m across the way of the light; 0 where edges are hard. `stops`: how much of the way
+// from the lamp its light gets, where something stops it.
+float penumbra(FetchedMap map, vec3 lamp, float stops) {
+    const float away = distance(lamp, probe_position[0]);
+    const float width = min(map.radius * min(1.0 / max(stops, 1e-3) - 1.0, kWidest), 0.5 * away);
+    return width > max(pixel_size, 2.0 * map.bias * away) ? width : 0.0;
+}
+
+// What all pixels see of a lamp with hard edges: a share of it for each of the column, four bits.
+uint look_up_edges(uint index) {
+    const FetchedMap map = fetch_map(index);
+    const vec3 lamp = texel_at(lamps, int(index * kTexelsPerLamp)).xyz;
+    uint word = 0u;
+    [[unroll]] for (uint r = 0u; r < kBlockSize; ++r)
+        word |= uint(visibility(map, position[r] - lamp, normal[r]) * 15.0) << 4u * r;
+    return word;
+}
+
+// The same of one with penumbrae of this radius.
+uint look_up_penumbra(uint index, float width) {
     const FetchedMap map = fetch_map(index);
     const vec3 lamp = texel_at(lamps, int(index * kTexelsPerLamp)).xyz;
     const uint lane = gl_LocalInvocationID.x;
-    // The radius of the penumbra, m across the way of the light.
-    const float away = distance(lamp, probe_position[0]);
-    const float width = min(map.radius * min(1.0 / max(stops, 1e-3) - 1.0, kWidest), 0.5 * away);
-    const bool soft = width > max(pixel_size, 2.0 * map.bias * away);
-    const bool by_fours = soft && plane && filled && width > 2.0 * pixel_size;
-    uint kinds = 0u;  // 1: some pixel does not see all of it; 2: some sees something
-    word = 0u;
-    if (!soft) {
-        [[unroll]] for (uint r = 0u; r < kBlockSize; ++r)
-            word |= uint(visibility(map, position[r] - lamp, normal[r]) * 15.0) << 4u * r;
-    } else {
-        // Each pixel looks up every second point of the disc; in wide penumbrae each of 2 x 2 another quarter of them.
-        const uint step = by_fours ? 4u : 2u, lookups = kDisc / step;
-        // Rows side by side, so that points of the disc are computed for all of them at once.
-        MapPoint points[kBlockSize];
-        mat2 steps[kBlockSize];
-        uint counts[kBlockSize];
-        [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
-            const vec3 from = position[r] - lamp;
-            points[r] = map_point(map, from, normal[r]);
-            steps[r] = width * texels_across(map, from);
-            counts[r] = 0u;
-        }
-        const uint begin = by_fours ? lane & 1u : 0u;
-        for (uint k = 0u; k < kDisc; k += step) {
-            const vec2 even = disc_point(begin + k), odd = disc_point(begin + k + (by_fours ? 2u : 0u));
-            [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
-                const vec2 aside = steps[r] * ((r & 1u) == 0u ? even : odd);
-                counts[r] += sees(map, points[r], ivec2(floor(points[r].texel + aside))) ? 1u : 0u;
-            }
-        }
-        uint packed = 0u;
-        [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
-            counts[r] = points[r].inside ? counts[r] : lookups;
-            packed |= counts[r] << 4u * r;  // 8 at most, by fours
-        }
-        counted[lane] = packed;
-        lanes_wait();
-        const uint beside = counted[lane ^ 1u];
-        lanes_wait();
-        [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
-            const uint four = counts[r] + counts[r ^ 1u] + (beside >> 4u * r & 15u) + (beside >> 4u * (r ^ 1u) & 15u);
-            // Rounded in four ways, so that the mean of the four is finer than what four bits hold.
-            const uint rounding = ((r & 1u) * 2u + ((lane + r) & 1u)) * (kDisc / 4u) + kDisc / 8u;
-            word |= (by_fours ? (four * 15u + rounding) / kDisc : (counts[r] * 15u + lookups / 2u) / lookups) << 4u * r;
-        }
+    const bool by_fours = plane && filled && width > 2.0 * pixel_size;
+    // Each pixel looks up every second point of the disc; in wide penumbrae each of 2 x 2 another quarter of them.
+    const uint step = by_fours ? 4u : 2u, lookups = kDisc / step;
+    // Rows side by side, so that points of the disc are computed for all of them at once.
+    MapPoint points[kBlockSize];
+    mat2 steps[kBlockSize];
+    uint counts[kBlockSize];
+    [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
+        const vec3 from = position[r] - lamp;
+        points[r] = map_point(map, from, normal[r]);
+        steps[r] = width * texels_across(map, from);
+        counts[r] = 0u;
     }
+    const uint begin = by_fours ? lane & 1u : 0u;
+    uint k = 0u;
+    do {
+        const vec2 even = disc_point(begin + k), odd = disc_point(begin + k + (by_fours ? 2u : 0u));
+        [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
+            const vec2 aside = steps[r] * ((r & 1u) == 0u ? even : odd);
+            counts[r] += sees(map, points[r], ivec2(floor(points[r].texel + aside))) ? 1u : 0u;
+        }
+        k += step;
+    } while (k < kDisc);
+    uint packed = 0u;
+    [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
+        counts[r] = points[r].inside ? counts[r] : lookups;
+        packed |= counts[r] << 4u * r;  // 8 at most, by fours
+    }
+    counted[lane] = packed;
+    lanes_wait();
+    const uint beside = counted[lane ^ 1u];
+    lanes_wait();
+    uint word = 0u;
+    [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
+        const uint four = counts[r] + counts[r ^ 1u] + (beside >> 4u * r & 15u) + (beside >> 4u * (r ^ 1u) & 15u);
+        // Rounded in four ways, so that the mean of the four is finer than what four bits hold.
+        const uint rounding = ((r & 1u) * 2u + ((lane + r) & 1u)) * (kDisc / 4u) + kDisc / 8u;
+        word |= (by_fours ? (four * 15u + rounding) / kDisc : (counts[r] * 15u + lookups / 2u) / lookups) << 4u * r;
+    }
+    return word;
+}
+
+// What the block sees, by what its pixels see.
+uint found_by_all(uint index, uint word) {
+    const vec3 lamp = texel_at(lamps, int(index * kTexelsPerLamp)).xyz;
+    uint kinds = 0u;  // 1: some pixel does not see all of it; 2: some sees something
     [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
         const uint share = word >> 4u * r & 15u;
         const bool before = drawn[r] && dot(normal[r], position[r] - lamp) < 0.0;
@@ -234,82 +257,132 @@ uint look_up(uint index, float stops, out uint word) {
     return kinds == 3u ? kMixed : kinds == 1u ? kDark : kLit;
 }
 
+// Leaves what all pixels see of a lamp at its place on the list, and their shares. Returns how many are mixed, with this one.
+uint leave(uint i, uint index, uint word, uint places, uint mixed) {
+    const uint sees_it = found_by_all(index, word);
+    if (sees_it == kMixed) write_texel(shares, int((places + mixed) * kBlockSize + gl_LocalInvocationID.x), word);
+    if (gl_LocalInvocationID.x == 0u) found[i] = kLookedUp | mixed << 8u | sees_it;
+    return mixed + (sees_it == kMixed ? 1u : 0u);
+}
+
 // Writes what a block sees. Returns how many lamps are lit, dark, mixed, and mixed of little light.
 uvec4 see(uint x, uint y) {
-    const uint lane = gl_LocalInvocationID.x, block = y * push.blocks_x + x;
+    const uint lane = gl_LocalInvocationID.x, before = (1u << lane) - 1u, block = y * push.blocks_x + x;
     const int counts = int(2u * block), first = int(block * push.capacity), last = first + int(push.capacity) - 1;
     const uint cones = block_counts[counts], all_ = cones + block_counts[counts + 1];
     if (cones == kAllLamps || all_ == 0u) return uvec4(0u);
     read_block(uvec2(x, y) * kBlockSize);
 
     float light = 0.0;  // the mean of the block is the sum of all invocations, lx
-    for (uint i = lane; i < all_; i += kBlockSize) {
-        const uint entry = written_texel_at(entries, i < cones ? first + int(i) : last - int(i - cones)).r;
-        listed[i] = entry;
-        light += probe(i, lamp_of(entry), i < cones);
-    }
+    uint begin = 0u;
+    do {
+        const uint i = begin + lane;
+        if (i < all_) {
+            const uint entry = written_texel_at(entries, i < cones ? first + int(i) : last - int(i - cones)).r;
+            listed[i] = entry;
+            light += probe(i, lamp_of(entry), i < cones);
+        }
+        begin += kBlockSize;
+    } while (begin < all_);
     // The light that a lamp must give for more probes to look it up: more than the share shadow_error of the block's mean light.
     float limit = max(push.shadow_error * lanes_add(light), 1e-9);
     uint number = 0u;
-    for (uint begin = 0u; begin < all_; begin += kBlockSize) {
+    begin = 0u;
+    do {
         const uint i = begin + lane;
         const bool more = i < all_ && (brightest[i] * (shiny ? kMostSheen : 1.0) > limit || unpack(found[i], 0.0).facing == 0u);
-        const uint at = number + lanes_add_before(more ? 1u : 0u);
-        if (more) chosen[at] = i;
-        number += lanes_add(more ? 1u : 0u);
-    }
+        const uint those = lanes_mask(more);
+        if (more) chosen[number + bitCount(those & before)] = i;
+        number += bitCount(those);
+        begin += kBlockSize;
+    } while (begin < all_);
     lanes_wait();
-    for (uint c = lane; c < number; c += kBlockSize) {
-        const uint i = chosen[c];
-        probe_more(i, lamp_of(listed[i]));
-    }
+    uint c = 0u;
+    if (number != 0u) do {
+        if (c + lane < number) {
+            const uint i = chosen[c + lane];
+            probe_more(i, lamp_of(listed[i]));
+        }
+        c += kBlockSize;
+    } while (c < number);
     lanes_wait();
-    for (uint i = lane; i < all_; i += kBlockSize) {
-        const Sight s = unpack(found[i], way[i]);
-        found[i] = found_of(s);
-        way[i] = s.facing > s.seen ? s.ways / float(s.facing - s.seen) : 1.0;
-    }
     // And for all pixels to do so, so much that there are places for all such lamps.
-    for (bool fits = false; !fits; limit *= fits ? 1.0 : 2.0) {
-        uint matter = 0u;
-        for (uint i = lane; i < all_; i += kBlockSize) matter += is_open(found[i]) && brightest[i] > limit ? 1u : 0u;
-        fits = lanes_add(matter) <= kSharePlaces;
-    }
+    uint open = 0u;
+    do {
+        open = 0u;
+        begin = 0u;
+        do {
+            const uint i = begin + lane;
+            const bool matters = i < all_ && brightest[i] > limit && is_open(found_of(unpack(found[i], 0.0)));
+            const uint those = lanes_mask(matters);
+            if (matters) chosen[open + bitCount(those & before)] = i;
+            open += bitCount(those);
+            begin += kBlockSize;
+        } while (begin < all_);
+        limit *= 2.0;  // for the next time
+    } while (open > kSharePlaces);
+    lanes_wait();
+    // These, one after another: first, from the front of `chosen`, those with hard edges; then, from its end, the others.
+    uint hard = 0u, soft = 0u;
+    c = 0u;
+    if (open != 0u) do {
+        const bool there = c + lane < open;
+        const uint i = there ? chosen[c + lane] : 0u;
+        const Sight s = unpack(found[i], way[i]);
+        const uint index = lamp_of(listed[i]);
+        const float width = penumbra(fetch_map(index), texel_at(lamps, int(index * kTexelsPerLamp)).xyz,
+                                     s.facing > s.seen ? s.ways / float(s.facing - s.seen) : 1.0);
+        const uint those = lanes_mask(there && width == 0.0), others = lanes_mask(there && width > 0.0);
+        lanes_wait();
+        if (there) {
+            const uint at = width > 0.0 ? soft + bitCount(others & before) : hard + bitCount(those & before);
+            if (width > 0.0) widths[at] = width;
+            chosen[width > 0.0 ? kBlockCapacity - 1u - at : at] = i;
+        }
+        hard += bitCount(those);
+        soft += bitCount(others);
+        c += kBlockSize;
+    } while (c < open);
+    lanes_wait();
+    const uint places = block * kSharePlaces;
+    uint mixed = 0u;
+    c = 0u;
+    if (hard != 0u) do {
+        const uint i = chosen[c], index = lamp_of(listed[i]);
+        mixed = leave(i, index, look_up_edges(index), places, mixed);
+        ++c;
+    } while (c < hard);
+    c = 0u;
+    if (soft != 0u) do {
+        const uint i = chosen[kBlockCapacity - 1u - c], index = lamp_of(listed[i]);
+        mixed = leave(i, index, look_up_penumbra(index, widths[c]), places, mixed);
+        ++c;
+    } while (c < soft);
+    lanes_wait();
 
-    uint lit = 0u, dark = 0u, mixed = 0u, kept = 0u;  // kept: cones, and from bit 16 on others
-    for (uint begin = 0u; begin < all_; begin += kBlockSize) {
+    uint lit = 0u, dark = 0u, kept_cones = 0u, kept_others = 0u;
+    begin = 0u;
+    do {
         const uint i = begin + lane;
         const bool there = i < all_, cone = i < cones;
-        const uint entry = there ? listed[i] : 0u;
-        uint visible = there ? found[i] : kDark, mark = 0u;
-        const bool matters = there && is_open(visible) && brightest[i] > limit;
-        // Lamps that all pixels look up, one after another.
-        uint next = lanes_max(matters ? i + 1u : 0u);
-        while (next != 0u) {
-            const bool mine = i + 1u == next;
-            const uint lamp = lanes_max(mine ? lamp_of(entry) : 0u);
-            uint word;
-            const float stops = lanes_max(mine ? way[i] : 0.0);
-            const uint sees_it = look_up(lamp, stops, word);
-            if (sees_it == kMixed)
-                write_texel(shares, int((block * kSharePlaces + mixed) * kBlockSize + lane), word);
-            visible = mine ? sees_it : visible;
-            mark = mine && sees_it == kMixed ? kMixedBit | mixed << kShareShift : mark;
-            mixed += sees_it == kMixed ? 1u : 0u;
-            next = lanes_max(matters && i + 1u < next ? i + 1u : 0u);
-        }
-        mark = visible < kShares ? visible << kShareShift : mark;
+        const uint packed = there ? found[i] : 0u;
+        const bool looked_up = (packed & kLookedUp) != 0u;
+        const uint visible = !there ? kDark : looked_up ? packed & 0xffu : found_of(unpack(packed, 0.0));
+        const uint mark = visible < kShares ? visible << kShareShift : visible == kMixed ? kMixedBit | (packed >> 8u & 0xffu) << kShareShift : 0u;
         const bool stays = visible != kDark;
-        const uint one = stays ? (cone ? 1u : 1u << 16u) : 0u, before = kept + lanes_add_before(one);
-        if (stays) write_texel(entries, cone ? first + int(before & 0xffffu) : last - int(before >> 16u), entry | mark);
-        kept += lanes_add(one);
+        const uint those = lanes_mask(stays), cone_lanes = (1u << clamp(int(cones) - int(begin), 0, int(kBlockSize))) - 1u;
+        const uint earlier = bitCount(those & before & (cone ? cone_lanes : ~cone_lanes));
+        if (stays) write_texel(entries, cone ? first + int(kept_cones + earlier) : last - int(kept_others + earlier), listed[i] | mark);
+        kept_cones += bitCount(those & cone_lanes);
+        kept_others += bitCount(those & ~cone_lanes);
         lit += visible == kLit ? 1u : 0u;
         dark += there && visible == kDark ? 1u : 0u;
-    }
+        begin += kBlockSize;
+    } while (begin < all_);
     lit = lanes_add(lit), dark = lanes_add(dark);
     if (lane == 0u) {
-        block_counts[counts] = kept & 0xffffu;
-        block_counts[counts + 1] = kept >> 16u;
+        block_counts[counts] = kept_cones;
+        block_counts[counts + 1] = kept_others;
     }
     return uvec4(lit, dark, mixed, all_ - lit - dark - mixed);
 }

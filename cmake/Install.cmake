@@ -26,8 +26,8 @@ function(vesper_pkgconfig PC_NAME PC_LIBS)
     configure_file(${PROJECT_SOURCE_DIR}/cmake/vesper.pc.in ${PROJECT_BINARY_DIR}/${PC_NAME}.pc @ONLY)
 endfunction()
 vesper_pkgconfig(vesper -lvesper-c)
-# Embree has no file for pkg-config.
-vesper_pkgconfig(vesper-static "-lvesper-analysis -lvesper -lembree${EMBREE_VERSION_MAJOR} -lstdc++ -lm" vulkan OpenEXR libpng libjpeg libexif)
+# Embree and meshoptimizer have no files for pkg-config.
+vesper_pkgconfig(vesper-static "-lvesper-analysis -lvesper -lembree${EMBREE_VERSION_MAJOR} -lmeshoptimizer -lstdc++ -lm" vulkan OpenEXR libpng libjpeg libexif)
 vesper_pkgconfig(vesper-roads -lvesper-roads pugixml vesper-static)
 install(FILES ${PROJECT_BINARY_DIR}/vesper.pc ${PROJECT_BINARY_DIR}/vesper-static.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(FILES ${PROJECT_BINARY_DIR}/vesper-roads.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT roads)

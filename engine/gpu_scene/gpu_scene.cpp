@@ -136,6 +136,8 @@ void GpuScene::upload_geometry(const gpu::Device& device, const scene::Scene& sc
         }
     }
     if (indices.empty()) return;
+    add_cells(scene, vertices, indices);
+    of_triangles.resize(vertices.size());
     vertex_count_ = vertices.size(), index_count_ = indices.size();
     vertices_ =
         gpu::upload_buffer(device, arena_, bytes_of(vertices), gpu::kTexelUsage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
@@ -144,11 +146,26 @@ void GpuScene::upload_geometry(const gpu::Device& device, const scene::Scene& sc
         gpu::upload_buffer(device, arena_, bytes_of(indices), gpu::kTexelUsage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
 }
 
+void GpuScene::add_cells(const scene::Scene& scene, std::vector<scene::Vertex>& vertices,
+                         std::vector<uint32_t>& indices) {
+    for (CasterCell& made : caster_cells(scene)) {
+        spend(2 * (made.vertices.size() * sizeof(scene::Vertex) + made.indices.size() * sizeof(uint32_t)));
+        Cell& cell = cells_.emplace_back(Cell{std::move(made.parts), made.origin, made.radius, {}});
+        for (const CasterCell::Level& level : made.levels)
+            cell.levels.push_back({level.error,
+                                   {scene::kNone, uint32_t(indices.size()) + level.first_index, level.index_count,
+                                    int32_t(vertices.size()), glm::vec3(0), float(made.radius)}});
+        for (const glm::vec3 position : made.vertices) vertices.push_back({.position = position});
+        indices.insert(indices.end(), made.indices.begin(), made.indices.end());
+    }
+}
+
 void GpuScene::place(const scene::Scene& scene) {
+    const std::vector<glm::dmat4> world = scene::world_transforms(scene, 0);
     for (uint32_t i = 0; i < scene.nodes.size(); ++i) {
         if (scene.nodes[i].mesh == scene::kNone) continue;
         const auto [first, count] = mesh_parts_[scene.nodes[i].mesh];
-        placements_.push_back({i, first, count});
+        placements_.push_back({i, first, count, world[i]});
         for (uint32_t p = first; p < first + count; ++p) triangles_ += parts_[p].index_count / 3;
     }
 }

@@ -6,6 +6,7 @@
 
 #include "base/digest.h"
 #include "gpu/memory.h"
+#include "gpu_scene/caster_cells.h"
 #include "gpu_scene/textures.h"
 #include "gpu_scene/view.h"
 #include "scene/material.h"
@@ -13,7 +14,8 @@
 
 namespace vesper::scene {
 struct Scene;
-}
+struct Vertex;
+}  // namespace vesper::scene
 
 namespace vesper::gpu_scene {
 
@@ -50,6 +52,18 @@ public:
     struct Placement {
         uint32_t node;
         uint32_t first_part, part_count;
+        glm::dmat4 at_rest;  ///< mesh frame to world, where the scene has it
+    };
+    /// A cell of casters at rest (CasterCell), with its levels as parts: m, from its centre, of no material.
+    struct Cell {
+        std::vector<PlacedPart> parts;  ///< ascending
+        glm::dvec3 centre;              ///< of a sphere around it, m, world
+        double radius;                  ///< m
+        struct Level {
+            double error;  ///< m
+            Part part;
+        };
+        std::vector<Level> levels;  ///< ascending by error
     };
     struct Surface {
         scene::Material material;
@@ -60,6 +74,7 @@ public:
 
     const std::vector<Part>& parts() const { return parts_; }
     const std::vector<Placement>& placements() const { return placements_; }
+    const std::vector<Cell>& cells() const { return cells_; }
     const std::vector<Surface>& surfaces() const { return surfaces_; }
     const gpu::OwnedBuffer& vertices() const { return vertices_; }
     const gpu::OwnedBuffer& indices() const { return indices_; }
@@ -75,6 +90,7 @@ public:
 
 private:
     void upload_geometry(const gpu::Device& device, const scene::Scene& scene);
+    void add_cells(const scene::Scene& scene, std::vector<scene::Vertex>& vertices, std::vector<uint32_t>& indices);
     void place(const scene::Scene& scene);
     void make_surfaces(const scene::Scene& scene);
 
@@ -85,6 +101,7 @@ private:
     std::vector<Part> parts_;
     std::vector<std::pair<uint32_t, uint32_t>> mesh_parts_;  // first part and number of parts of each mesh
     std::vector<Placement> placements_;
+    std::vector<Cell> cells_;
     std::vector<Surface> surfaces_;
     uint64_t triangles_ = 0;
     Digest::Value occluders_;

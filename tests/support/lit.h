@@ -55,7 +55,7 @@ struct Lit {
     /// The light of lamps alone.
     Picture render(const gpu_scene::View& view, bool all_lamps = false) {
         Picture p{.list = gpu_scene::lamp_list(lamps, tables, poses, view)};
-        maps.plan(p.list, poses, view, budget);
+        maps.plan(p.list, poses, view, budget, 0);
         p.levels = directional.plan(p.list, poses, view);
         graph::FrameGraph graph;
         const render::FrameContext frame = rig.frame(graph, view);

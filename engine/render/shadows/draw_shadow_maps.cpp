@@ -17,7 +17,7 @@
 namespace vesper::render {
 namespace {
 
-using gpu_scene::GpuScene;
+using gpu_scene::GpuScene, gpu_scene::PlacedPart;
 using graph::load, graph::sample, graph::update;
 
 constexpr gpu::Shader kStore{"store_distances.comp", store_shadow_maps_comp};
@@ -39,6 +39,8 @@ constexpr VkVertexInputAttributeDescription kMapAttributes[]{
 constexpr gpu::GraphicsShaders kMapShaders{"casters.frag",  casters_vert,     casters_frag,
                                            kCasterTextures, sizeof(MaskPush), VK_SHADER_STAGE_FRAGMENT_BIT,
                                            kMapBuffers,     kMapAttributes};
+
+constexpr double kNear = 25;  // m: nearer to a lamp all casters are drawn as they are
 
 // In a square of this side, texels.
 uint32_t regions_in(uint32_t side) { return side / shared::kRegion * (side / shared::kRegion); }
@@ -113,40 +115,36 @@ struct Drawn {
 // Collects the casters that squares see.
 class Collector {
 public:
-    Collector(const GpuScene& scene, const gpu_scene::SceneFrame& poses, const gpu::Device& device)
+    /// `standing`: of cells, whether they are drawn in place of their parts.
+    Collector(const GpuScene& scene, const gpu_scene::SceneFrame& poses, const gpu::Device& device,
+              const std::vector<bool>& standing)
         : scene_(scene),
           poses_(poses),
           triangles_(has_caster_triangles(device, scene)),
           snap_(map_snap(device)),
-          bounds_(scene.placements().size()) {}
+          bounds_(scene.placements().size()) {
+        for (const GpuScene::Placement& placement : scene.placements()) loose_.push_back(placement.part_count);
+        for (uint32_t i = 0; triangles_ && i < standing.size(); ++i) {
+            if (!standing[i]) continue;
+            const GpuScene::Cell& cell = *cells_.emplace_back(&scene.cells()[i]);
+            in_cells_.insert(in_cells_.end(), cell.parts.begin(), cell.parts.end());
+        }
+        std::ranges::sort(in_cells_);
+        for (const PlacedPart part : in_cells_) --loose_[part.placement];
+    }
 
     void collect(const Square& square, Drawn& drawn) {
-        const ShadowMapLayout& layout = square.map->layout;
-        const MapFrame& frame = square.map->frame;
-        const glm::dvec3 mirror(1, 1, square.second ? -1 : 1);
-        const double texel = 2.0 / (double(layout.side) * double(layout.zoom));  // rad, about
-        const std::vector<Quadrant> quadrants = add_quadrants(square, drawn);
-        for (const uint32_t p : square.map->placements) {
-            const Bounds& bounds = bounds_of(p);
-            if (!is_caster(*square.map, bounds.whole)) continue;
-            const glm::dvec3 middle = mirror * (frame.rotation * (bounds.whole.centre - frame.position));
-            if (middle.z + bounds.whole.radius < 0 || std::ranges::binary_search(square.map->fixture, p)) continue;
-            const GpuScene::Placement& placement = scene_.placements()[p];
-            std::optional<Rows> rows;
-            for (uint32_t i = 0; i < placement.part_count; ++i) {
-                const auto& [centre, radius] = bounds.parts[i];
-                const GpuScene::Part& part = scene_.parts()[placement.first_part + i];
-                if (part.index_count == 0 || scene_.surfaces()[part.material].material.clear ||
-                    !is_caster(*square.map, bounds.parts[i]) ||
-                    radius < 0.25 * texel * glm::distance(centre, frame.position))
-                    continue;
-                const glm::dvec3 c = mirror * (frame.rotation * (centre - frame.position));
-                if (c.z + radius < 0) continue;
-                if (!rows) rows = Rows{rows_to_map(frame, poses_.world[placement.node])};
-                for (const Quadrant& quadrant : quadrants)
-                    if (may_see(quadrant.window, quadrant.signs, c, radius))
-                        add(quadrant, placement.first_part + i, *rows, drawn);
-            }
+        const ShadowMapToDraw& map = *square.map;
+        Seen seen{square, add_quadrants(square, drawn), 2 / (double(map.layout.side) * double(map.layout.zoom)), 0, {}};
+        const bool by_cells = !map.tile && map.caster_error > 0;
+        if (by_cells)
+            for (const GpuScene::Cell* cell : cells_) collect_cell(seen, *cell, drawn);
+        for (const uint32_t p : map.placements) {
+            const auto& [node, first, count, at_rest] = scene_.placements()[p];
+            if ((by_cells && loose_[p] == 0) || !sees(seen, bounds_of(p).whole) || is_fixture(map, p)) continue;
+            for (uint32_t part = first; part < first + count; ++part)
+                if (!by_cells || loose_[p] == count || !std::ranges::binary_search(in_cells_, PlacedPart{p, part}))
+                    collect_part(seen, {p, part}, drawn);
         }
     }
 
@@ -172,17 +170,6 @@ private:
         return bounds;
     }
 
-    static bool is_caster(const ShadowMapToDraw& map, const gpu_scene::WorldSphere& sphere) {
-        const glm::dvec3 to = sphere.centre - map.frame.position;
-        const double far = double(map.layout.range) + sphere.radius;
-        return glm::dot(to, to) <= far * far && (!map.is_caster || map.is_caster(sphere));
-    }
-
-    static glm::mat4 rows_to_map(const MapFrame& frame, const glm::dmat4& world) {
-        const glm::dmat4 from_lamp = glm::translate(glm::dmat4(1), -frame.position) * world;
-        return glm::transpose(glm::mat4(glm::dmat4(frame.rotation) * from_lamp));
-    }
-
     // Of a square, in the image.
     struct Quadrant {
         MapWindow window;
@@ -195,6 +182,81 @@ private:
         glm::mat4 rows;
         std::optional<uint32_t> number{};  // among those of opaque triangles
     };
+
+    // What the casters of a square are found with.
+    struct Seen {
+        const Square& square;
+        std::vector<Quadrant> quadrants;
+        double texel;  // rad, about
+        uint32_t placement;
+        std::optional<Rows> rows;  // of this placement
+    };
+
+    // In the frame of the map, mirrored for its second hemisphere.
+    static glm::dvec3 in_map(const Seen& seen, glm::dvec3 place) {
+        const MapFrame& frame = seen.square.map->frame;
+        return glm::dvec3(1, 1, seen.square.second ? -1 : 1) * (frame.rotation * (place - frame.position));
+    }
+    static bool sees(const Seen& seen, const gpu_scene::WorldSphere& sphere) {
+        return is_caster(*seen.square.map, sphere) && in_map(seen, sphere.centre).z + sphere.radius >= 0;
+    }
+    static bool is_fixture(const ShadowMapToDraw& map, uint32_t placement) {
+        return std::ranges::binary_search(map.fixture, placement);
+    }
+
+    // Where the lamp sees no difference, fewer triangles than those of its parts.
+    void collect_cell(Seen& seen, const GpuScene::Cell& cell, Drawn& drawn) {
+        const ShadowMapToDraw& map = *seen.square.map;
+        const gpu_scene::WorldSphere bounds{cell.centre, cell.radius};
+        if (!sees(seen, bounds)) return;
+        const double away = glm::distance(cell.centre, map.frame.position) - cell.radius;
+        const double error = away > kNear ? map.caster_error * seen.texel * away : 0;
+        const auto coarser = std::ranges::find_if(cell.levels, [&](const auto& level) { return level.error > error; });
+        const bool has_fixture = std::ranges::any_of(map.fixture, [&](uint32_t own) {
+            return std::ranges::binary_search(cell.parts, own, {}, &PlacedPart::placement);
+        });
+        if (coarser == cell.levels.begin() || has_fixture) {
+            for (const PlacedPart part : cell.parts)
+                if (!is_fixture(map, part.placement)) collect_part(seen, part, drawn);
+            return;
+        }
+        Rows rows{rows_to_map(map.frame, glm::translate(glm::dmat4(1), cell.centre))};
+        add_seen(seen, bounds, (coarser - 1)->part, false, rows, drawn);
+    }
+
+    void collect_part(Seen& seen, PlacedPart placed, Drawn& drawn) {
+        const GpuScene::Placement& placement = scene_.placements()[placed.placement];
+        const GpuScene::Part& part = scene_.parts()[placed.part];
+        const ShadowMapToDraw& map = *seen.square.map;
+        const gpu_scene::WorldSphere& bounds = bounds_of(placed.placement).parts[placed.part - placement.first_part];
+        if (part.index_count == 0 || scene_.surfaces()[part.material].material.clear || !sees(seen, bounds) ||
+            bounds.radius < 0.25 * seen.texel * glm::distance(bounds.centre, map.frame.position))
+            return;
+        if (!seen.rows || seen.placement != placed.placement)
+            seen.rows = Rows{rows_to_map(map.frame, poses_.world[placement.node])}, seen.placement = placed.placement;
+        const bool masked = scene_.surfaces()[part.material].material.alpha == scene::Material::Alpha::Mask;
+        add_seen(seen, bounds, part, masked, *seen.rows, drawn);
+    }
+
+    // To all quadrants that may see it.
+    void add_seen(const Seen& seen, const gpu_scene::WorldSphere& bounds, const GpuScene::Part& part, bool masked,
+                  Rows& rows, Drawn& drawn) const {
+        const glm::dvec3 centre = in_map(seen, bounds.centre);
+        for (const Quadrant& quadrant : seen.quadrants)
+            if (may_see(quadrant.window, quadrant.signs, centre, bounds.radius))
+                add(quadrant, part, masked, rows, drawn);
+    }
+
+    static bool is_caster(const ShadowMapToDraw& map, const gpu_scene::WorldSphere& sphere) {
+        const glm::dvec3 to = sphere.centre - map.frame.position;
+        const double far = double(map.layout.range) + sphere.radius;
+        return glm::dot(to, to) <= far * far && (!map.is_caster || map.is_caster(sphere));
+    }
+
+    static glm::mat4 rows_to_map(const MapFrame& frame, const glm::dmat4& world) {
+        const glm::dmat4 from_lamp = glm::translate(glm::dmat4(1), -frame.position) * world;
+        return glm::transpose(glm::mat4(glm::dmat4(frame.rotation) * from_lamp));
+    }
 
     std::vector<Quadrant> add_quadrants(const Square& square, Drawn& drawn) const {
         const ShadowMapLayout& layout = square.map->layout;
@@ -223,11 +285,10 @@ private:
         return quadrants;
     }
 
-    void add(const Quadrant& quadrant, uint32_t part, Rows& rows, Drawn& drawn) const {
+    void add(const Quadrant& quadrant, const GpuScene::Part& part, bool masked, Rows& rows, Drawn& drawn) const {
         const shared::MapQuadrant& to = quadrant.drawn;
-        const GpuScene::Part& of = scene_.parts()[part];
-        if (!triangles_ || scene_.surfaces()[of.material].material.alpha == scene::Material::Alpha::Mask) {
-            drawn.parts.push_back(part);
+        if (!triangles_ || masked) {
+            drawn.parts.push_back(uint32_t(&part - scene_.parts().data()));
             drawn.instances.push_back({.row_x = rows.rows[0],
                                        .row_y = rows.rows[1],
                                        .row_z = to.mirror * rows.rows[2],
@@ -238,14 +299,17 @@ private:
             return;
         }
         if (!rows.number) rows.number = drawn.opaque.add_rows(rows.rows);
-        drawn.opaque.add(of, *rows.number, quadrant.number);
+        drawn.opaque.add(part, *rows.number, quadrant.number);
     }
 
     const GpuScene& scene_;
     const gpu_scene::SceneFrame& poses_;
-    bool triangles_;              // opaque parts are drawn by them
-    float snap_;                  // texels, see map_snap
-    std::vector<Bounds> bounds_;  // of placements
+    bool triangles_;                            // opaque parts are drawn by them
+    float snap_;                                // texels, see map_snap
+    std::vector<Bounds> bounds_;                // of placements
+    std::vector<const GpuScene::Cell*> cells_;  // that stand
+    std::vector<PlacedPart> in_cells_;          // their parts, ascending
+    std::vector<uint32_t> loose_;               // of placements: how many parts are in none
 };
 
 uint32_t saved_word(const std::optional<MapTile>& tile) {
@@ -284,10 +348,21 @@ MaskedParts masked_parts(const Drawn& drawn, const GpuScene& scene) {
 
 }  // namespace
 
+std::vector<bool> standing_cells(const GpuScene& scene, std::span<const uint32_t> still,
+                                 const gpu_scene::SceneFrame& poses) {
+    std::vector<bool> stands(scene.placements().size());
+    for (const uint32_t p : still) stands[p] = poses.world[scene.placements()[p].node] == scene.placements()[p].at_rest;
+    std::vector<bool> cells;
+    for (const GpuScene::Cell& cell : scene.cells())
+        cells.push_back(std::ranges::all_of(cell.parts, [&](const auto& part) { return stands[part.placement]; }));
+    return cells;
+}
+
 void add_shadow_maps(const FrameContext& frame, const GpuScene& scene, const gpu_scene::SceneFrame& poses,
-                     std::span<const ShadowMapToDraw> maps, graph::Resource distances, ShadowMapScratch& scratch) {
+                     const std::vector<bool>& standing, std::span<const ShadowMapToDraw> maps,
+                     graph::Resource distances, ShadowMapScratch& scratch) {
     graph::FrameGraph& graph = frame.graph;
-    Collector collector(scene, poses, frame.kernels.device());
+    Collector collector(scene, poses, frame.kernels.device(), standing);
     const std::vector<Square> squares = place_squares(maps, scratch);
     for (auto begin = squares.begin(); begin != squares.end();) {
         const auto in_other_image = [&](const Square& square) {

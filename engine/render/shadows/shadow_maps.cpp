@@ -39,9 +39,11 @@ ShadowMaps::ShadowMaps(const gpu::Device& device, const gpu_scene::GpuScene& res
 }
 
 void ShadowMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses, const gpu_scene::View& view,
-                      uint64_t budget) {
+                      uint64_t budget, double caster_error) {
     report_ = {};
     maps_to_draw_.clear();
+    if (std::exchange(caster_error_, caster_error) != caster_error)
+        for (uint32_t lamp = 0; lamp < maps_.size(); ++lamp) maps_[lamp].drawn &= !is_whole(lamp);
     update_view(view, poses);
     const uint64_t most_texels = budget == kUnlimited ? budget : budget / 2 * ShadowAtlas::kTileTexels;
     std::vector<bool> moving;
@@ -225,6 +227,7 @@ ShadowMapToDraw ShadowMaps::map_of(uint32_t lamp, const gpu_scene::SceneFrame& p
             is_whole(lamp) ? std::span<const uint32_t>(everything_) : moving_.still(),
             {},
             {},
+            is_whole(lamp) ? caster_error_ : 0,
             lamp};
 }
 
@@ -283,7 +286,9 @@ void ShadowMaps::declare_maps(Declared& to) {
         maps_[lamp] = {
             .drawn = true, .whole = maps_[lamp].whole, .culled = whole && culls(), .version = moving_.version()};
     }
-    add_shadow_maps(to.frame, resident_, to.poses, maps, to.distances, to.scratch);
+    std::vector<bool> standing;
+    if (!maps.empty()) standing = standing_cells(resident_, moving_.still(), to.poses);
+    add_shadow_maps(to.frame, resident_, to.poses, standing, maps, to.distances, to.scratch);
     cached_.read_back(to.frame.graph, to.distances);
     maps_to_draw_.clear();
 }
@@ -300,7 +305,7 @@ void ShadowMaps::declare_tiles(Declared& to) {
         map.tile = MapTile{id.second, {id.x, id.y}, tile.saved, tile.save};
         tiles.push_back(std::move(map));
     }
-    add_shadow_maps(to.frame, resident_, to.poses, tiles, to.distances, to.scratch);
+    add_shadow_maps(to.frame, resident_, to.poses, {}, tiles, to.distances, to.scratch);
     for (const auto& [id, tile] : tiles_to_draw_)
         if (tile.placements.empty()) {
             atlas_.release(tile.saved);

@@ -41,8 +41,9 @@ public:
     /// that hold nothing yet apart; a whole map counts as its tiles, but at least as 128, and a quarter of the budget
     /// is for these alone. What gives the picture most comes first, the rest is counted as deferred. Host work only.
     /// Throws Error where the maps of all lamps do not fit.
+    /// `caster_error`: texels, see ShadowMapToDraw; where it is another one than before, all maps are drawn anew.
     void plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses, const gpu_scene::View& view,
-              uint64_t budget);
+              uint64_t budget, double caster_error);
     /// Declares the work that plan() found, with its arguments; declared again, nothing is left to draw. Returns the
     /// maps of the lamps of the list.
     FrameShadowMaps declare(const FrameContext& frame, const gpu_scene::LampList& list,
@@ -126,6 +127,7 @@ private:
     std::vector<Map> maps_;  // of lamps
     gpu_scene::View view_;   // of the last plan()
     ViewCulling culling_ = ViewCulling::Off;
+    double caster_error_ = 0;             // texels
     bool current_ = true;                 // no map is ever out of date
     Tiles tiles_;                         // that hold moving placements
     std::vector<uint32_t> maps_to_draw_;  // lamps

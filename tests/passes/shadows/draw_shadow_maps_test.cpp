@@ -21,9 +21,9 @@
 namespace vesper::test::draw_shadow_maps_test {
 namespace {
 
-// `maps` with all placements.
+// `maps` with all placements, at rest but for nodes that `world` puts elsewhere.
 std::vector<float> draw(PassRig& rig, const scene::Scene& scene, std::span<const render::ShadowMapToDraw> given,
-                        uint32_t texels) {
+                        uint32_t texels, const std::vector<glm::dmat4>& world) {
     const gpu_scene::GpuScene resident(rig.device(), scene);
     std::vector<render::ShadowMapToDraw> maps(given.begin(), given.end());
     std::vector<uint32_t> all(resident.placements().size());
@@ -31,9 +31,14 @@ std::vector<float> draw(PassRig& rig, const scene::Scene& scene, std::span<const
     for (render::ShadowMapToDraw& map : maps) map.placements = all;
     return drawn_texels(rig, texels, [&](const render::FrameContext& frame, graph::Resource words) {
         render::ShadowMapScratch scratch = render::add_shadow_map_scratch(frame, resident);
-        render::add_shadow_maps(frame, resident, {scene::world_transforms(scene, 0), {}, {}, {}, {}}, maps, words,
+        const gpu_scene::SceneFrame poses{world, {}, {}, {}, {}};
+        render::add_shadow_maps(frame, resident, poses, render::standing_cells(resident, all, poses), maps, words,
                                 scratch);
     });
+}
+std::vector<float> draw(PassRig& rig, const scene::Scene& scene, std::span<const render::ShadowMapToDraw> given,
+                        uint32_t texels) {
+    return draw(rig, scene, given, texels, scene::world_transforms(scene, 0));
 }
 
 OccluderScene room() {
@@ -131,6 +136,53 @@ TEST(ShadowMap, HoldsTheFirstSurfaceAlongEachRay) {
                         snaps_coarsely(rig.device()));
         }
     EXPECT_EQ(rig.complaints(), "");
+}
+
+// Boxes of 2 m, 30 to 60 m away, some of them in one cell; the lamp's own, and one that has moved, are drawn by parts.
+TEST(ShadowMap, CellsHideWhatTheirPartsHide) {
+    PassRig rig;
+    OccluderScene s;
+    for (int i = 0; i < 60; ++i) {
+        const double turn = 2.4 * i, out = 30 + 0.5 * i;
+        s.box({float(out * std::cos(turn)), float(i % 5 * 2 - 4), float(out * std::sin(turn))}, glm::vec3(1));
+    }
+    std::vector<glm::dmat4> world = scene::world_transforms(s.scene(), 0);
+    const render::ShadowMapLayout layout{
+        .side = 256, .hemispheres = 1, .zoom = 1, .range = 200, .radius = 0, .first = 0};
+    const uint32_t own[] = {7};
+    for (const bool moved : {false, true}) {
+        SCOPED_TRACE(moved);
+        if (moved) world[12] = glm::translate(world[12], glm::dvec3(0, 5, 0));
+        const RayCaster rays(s.scene(), world);
+        for (const double error : {0.0, 0.5}) {
+            const render::ShadowMapToDraw map{
+                .layout = layout, .frame = render::map_frame(glm::dmat4(1)), .fixture = own, .caster_error = error};
+            const std::vector<float> drawn = draw(rig, s.scene(), {&map, 1}, layout.texels(), world);
+            expect_rays(rays, map, false, drawn.data(), std::max(2.5 * snapped(rig.device()), 0.01),
+                        snaps_coarsely(rig.device()));
+        }
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// A finely curved wall, 5 mm off a plane: as the plane from afar, as it is from near.
+TEST(ShadowMap, FarCellsAreSimplifiedByLessThanTheErrorOfTheMap) {
+    PassRig rig;
+    OccluderScene s;
+    for (int i = 0; i < 60; ++i)
+        s.plate({-6 + 0.2f * float(i), 0, -40 - 0.005f * float(i % 2)}, {0.1f, 0, 0}, {0, 6, 0});
+    const render::ShadowMapLayout layout{
+        .side = 64, .hemispheres = 1, .zoom = 4, .range = 200, .radius = 0, .first = 0};
+    const gpu_scene::GpuScene resident(rig.device(), s.scene());
+    ASSERT_EQ(resident.cells().size(), 2u);  // on both sides of x = 0
+    const RayCaster rays(s.scene(), scene::world_transforms(s.scene(), 0));
+    for (const double z : {0.0, -30.0}) {
+        const glm::dmat4 lamp = glm::translate(glm::dmat4(1), glm::dvec3(0, 0, z));
+        const render::ShadowMapToDraw map{.layout = layout, .frame = render::map_frame(lamp), .caster_error = 0.5};
+        const std::vector<float> drawn = draw(rig, s.scene(), {&map, 1}, layout.texels());
+        expect_rays(rays, map, false, drawn.data(), std::max(2.5 * snapped(rig.device()), 0.01),
+                    snaps_coarsely(rig.device()));
+    }
 }
 
 // 40 maps, of which some have the same place in an image.

@@ -17,12 +17,8 @@ scene::Bounds world_bounds(const scene::Scene& scene, const SceneFrame& frame) {
         if (scene.nodes[i].mesh == scene::kNone) continue;
         for (const scene::Primitive& primitive : scene.meshes[scene.nodes[i].mesh].primitives) {
             if (primitive.bounds.empty()) continue;
-            for (int corner = 0; corner < 8; ++corner) {
-                const glm::vec3 c(corner & 1 ? primitive.bounds.high.x : primitive.bounds.low.x,
-                                  corner & 2 ? primitive.bounds.high.y : primitive.bounds.low.y,
-                                  corner & 4 ? primitive.bounds.high.z : primitive.bounds.low.z);
-                bounds.add(glm::vec3(frame.world[i] * glm::dvec4(c, 1)));
-            }
+            for (const glm::dvec3 corner : scene::placed_corners(primitive.bounds, frame.world[i]))
+                bounds.add(glm::vec3(corner));
         }
     }
     return bounds;

@@ -50,12 +50,8 @@ std::vector<Source> sources_of(const scene::Scene& scene) {
             if (primitive.indices.empty() || !casts_by_triangles(scene.materials[primitive.material])) continue;
             Source source{{number, first_parts[mesh] + i}, &primitive, world[node], glm::dvec3(INFINITY), {}};
             source.high = -source.low;
-            for (int corner = 0; corner < 8; ++corner) {
-                const glm::bvec3 high(corner & 1, corner & 2, corner & 4);
-                const glm::dvec4 at(glm::mix(primitive.bounds.low, primitive.bounds.high, high), 1);
-                const glm::dvec3 place(source.to_world * at);
-                source.low = glm::min(source.low, place), source.high = glm::max(source.high, place);
-            }
+            for (const glm::dvec3 corner : scene::placed_corners(primitive.bounds, world[node]))
+                source.low = glm::min(source.low, corner), source.high = glm::max(source.high, corner);
             if (std::isfinite(glm::length(source.high - source.low))) sources.push_back(source);
         }
     }

@@ -51,12 +51,7 @@ void check_size(Application& application) {
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
         if (scene.nodes[i].mesh == kNone) continue;
         for (const Primitive& primitive : scene.meshes[scene.nodes[i].mesh].primitives)
-            for (int corner = 0; corner < 8; ++corner) {
-                const Bounds& b = primitive.bounds;
-                const glm::vec4 point(corner & 1 ? b.high.x : b.low.x, corner & 2 ? b.high.y : b.low.y,
-                                      corner & 4 ? b.high.z : b.low.z, 1);
-                bounds.add(glm::vec3(world[i] * glm::dvec4(point)));
-            }
+            for (const glm::dvec3 corner : placed_corners(primitive.bounds, world[i])) bounds.add(glm::vec3(corner));
     }
     if (bounds.empty()) return;
     const glm::vec3 size = bounds.high - bounds.low;

@@ -1,6 +1,7 @@
 // Boxes around parts of a scene. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <limits>
 
 #include <glm/glm.hpp>
@@ -15,5 +16,15 @@ struct Bounds {
     void add(glm::vec3 point) { low = glm::min(low, point), high = glm::max(high, point); }
     bool empty() const { return !(low.x <= high.x); }
 };
+
+/// The corners of a box, m, after a transform.
+inline std::array<glm::dvec3, 8> placed_corners(const Bounds& box, const glm::dmat4& to_world) {
+    std::array<glm::dvec3, 8> corners;
+    for (int k = 0; k < 8; ++k) {
+        const glm::dvec3 at(glm::mix(box.low, box.high, glm::bvec3(k & 1, k & 2, k & 4)));
+        corners[size_t(k)] = glm::dvec3(to_world * glm::dvec4(at, 1));
+    }
+    return corners;
+}
 
 }  // namespace vesper::scene

@@ -12,10 +12,8 @@ constexpr double kHousing = 0.75;                        // m
 bool is_near(const Scene& scene, uint32_t node, const glm::dmat4& world, glm::dvec3 place) {
     return std::ranges::all_of(scene.meshes[scene.nodes[node].mesh].primitives, [&](const Primitive& primitive) {
         if (primitive.bounds.empty()) return true;
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::bvec3 high(corner & 1, corner & 2, corner & 4);
-            const glm::dvec3 at(glm::mix(primitive.bounds.low, primitive.bounds.high, high));
-            const glm::dvec3 from = glm::dvec3(world * glm::dvec4(at, 1)) - place;
+        for (const glm::dvec3 corner : placed_corners(primitive.bounds, world)) {
+            const glm::dvec3 from = corner - place;
             if (std::hypot(from.x, from.z) >= kFarthestAside || std::abs(from.y) >= kFarthestUp) return false;
         }
         return true;

@@ -101,7 +101,7 @@ void main() {
     [[unroll]] for (uint i = 0u; i < kEdgeSamples; ++i) bare |= nothing < 9u && nearest[i] < 0.0 ? 1u << i : 0u;
     give(bare, nothing);
 
-    // What a middle of the same surface saw has the luminance of the pixel itself.
+    // A middle of the same surface counts with the luminance of the pixel itself.
     vec3 sum = vec3(0.0);
     uint left = kAllPoints, own = 0u;
     do {

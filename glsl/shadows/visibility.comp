@@ -112,7 +112,7 @@ struct Sight {
 
 uint pack(Sight s) { return uint(s.cosine * 255.0) << 16u | s.facing << 8u | s.seen; }  // but for the ways
 Sight unpack(uint packed, float ways) { return Sight(packed >> 8u & 0xffu, packed & 0xffu, float(packed >> 16u) / 255.0, ways); }
-// What the block sees, by its probes.
+// Sight of the block, by its probes.
 uint found_of(Sight s) {
     if (s.seen == 0u) return kDark;
     return s.seen == s.facing ? kLit : clamp((kShares * s.seen + s.facing / 2u) / s.facing, 1u, kShares - 1u);
@@ -187,7 +187,7 @@ float penumbra(FetchedMap map, vec3 lamp, float stops) {
     return width > max(pixel_size, 2.0 * map.bias * away) ? width : 0.0;
 }
 
-// What all pixels see of a lamp with hard edges: a share of it for each of the column, four bits.
+// Shares of a lamp with hard edges that the pixels of the column see, four bits each.
 uint look_up_edges(uint index) {
     const FetchedMap map = fetch_map(index);
     const vec3 lamp = texel_at(lamps, int(index * kTexelsPerLamp)).xyz;
@@ -244,7 +244,7 @@ uint look_up_penumbra(uint index, float width) {
     return word;
 }
 
-// What the block sees, by what its pixels see.
+// Sight of the block, by that of its pixels.
 uint found_by_all(uint index, uint word) {
     const vec3 lamp = texel_at(lamps, int(index * kTexelsPerLamp)).xyz;
     uint kinds = 0u;  // 1: some pixel does not see all of it; 2: some sees something

@@ -183,7 +183,7 @@ private:
         std::optional<uint32_t> number{};  // among those of opaque triangles
     };
 
-    // What the casters of a square are found with.
+    // The search for the casters of a square.
     struct Seen {
         const Square& square;
         std::vector<Quadrant> quadrants;
@@ -204,7 +204,7 @@ private:
         return std::ranges::binary_search(map.fixture, placement);
     }
 
-    // Where the lamp sees no difference, fewer triangles than those of its parts.
+    // The coarsest level within the error; near the lamp, or with its fixture, the parts.
     void collect_cell(Seen& seen, const GpuScene::Cell& cell, Drawn& drawn) {
         const ShadowMapToDraw& map = *seen.square.map;
         const gpu_scene::WorldSphere bounds{cell.centre, cell.radius};

@@ -9,6 +9,7 @@
 
 #include "base/budget.h"
 #include "base/parallel.h"
+#include "scene/fixtures.h"
 #include "scene/placement.h"
 #include "scene/scene.h"
 
@@ -59,10 +60,10 @@ std::vector<Source> sources_of(const scene::Scene& scene) {
 }
 
 // By cubes; what is larger than one is alone.
-std::vector<std::vector<Source>> grouped(std::vector<Source> sources) {
+std::vector<std::vector<Source>> grouped(const std::vector<Source>& sources) {
     std::map<std::tuple<double, double, double>, std::vector<Source>> cubes;
     std::vector<std::vector<Source>> groups;
-    for (Source& source : sources) {
+    for (const Source& source : sources) {
         const glm::dvec3 size = source.high - source.low;
         const glm::dvec3 cube = glm::floor(0.5 * (source.low + source.high) / kCellSide);
         if (std::max({size.x, size.y, size.z}) > kCellSide)
@@ -121,12 +122,16 @@ CasterCell simplified(CasterCell cell) {
 }  // namespace
 
 std::vector<CasterCell> caster_cells(const scene::Scene& scene) {
-    const std::vector<std::vector<Source>> groups = grouped(sources_of(scene));
+    if (scene::nodes_with_lamps(scene).empty()) return {};
+    const std::vector<Source> sources = sources_of(scene);
+    uint64_t triangles = 0;
+    for (const Source& source : sources) triangles += source.primitive->indices.size() / 3;
+    if (triangles > kMostCellTriangles) return {};
+    const std::vector<std::vector<Source>> groups = grouped(sources);
     std::vector<CasterCell> cells(groups.size());
-    for (const std::vector<Source>& group : groups)
-        for (const Source& source : group)
-            spend(source.primitive->vertices.size() * sizeof(glm::vec3) +
-                  2 * source.primitive->indices.size() * sizeof(uint32_t));
+    for (const Source& source : sources)
+        spend(source.primitive->vertices.size() * sizeof(glm::vec3) +
+              2 * source.primitive->indices.size() * sizeof(uint32_t));
     in_parallel(groups.size(), 1, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) cells[i] = simplified(merged(groups[i]));
     });

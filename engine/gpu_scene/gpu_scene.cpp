@@ -136,9 +136,9 @@ void GpuScene::upload_geometry(const gpu::Device& device, const scene::Scene& sc
         }
     }
     if (indices.empty()) return;
+    vertex_count_ = vertices.size();
     add_cells(scene, vertices, indices);
-    of_triangles.resize(vertices.size());
-    vertex_count_ = vertices.size(), index_count_ = indices.size();
+    caster_vertex_count_ = vertices.size(), index_count_ = indices.size();
     vertices_ =
         gpu::upload_buffer(device, arena_, bytes_of(vertices), gpu::kTexelUsage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
     facets_ = gpu::upload_buffer(device, arena_, bytes_of(of_triangles), gpu::kTexelUsage);

@@ -80,8 +80,9 @@ public:
     const gpu::OwnedBuffer& indices() const { return indices_; }
     /// shared::Facet for each vertex, of the triangle that it is the first of (ProvokingVertices).
     const gpu::OwnedBuffer& facets() const { return facets_; }
-    uint64_t vertex_count() const { return vertex_count_; }
-    uint64_t index_count() const { return index_count_; }
+    uint64_t vertex_count() const { return vertex_count_; }                ///< of parts
+    uint64_t caster_vertex_count() const { return caster_vertex_count_; }  ///< and, after these, of cells
+    uint64_t index_count() const { return index_count_; }                  ///< of both
     /// Depth of the farthest point of any instance along the view axis, m; at least 0.
     float farthest_depth(const SceneFrame& frame, const View& view) const;
     uint64_t triangles() const { return triangles_; }              ///< of all placements
@@ -96,7 +97,7 @@ private:
 
     gpu::Arena arena_;
     gpu::OwnedBuffer vertices_, indices_, facets_;
-    uint64_t vertex_count_ = 0, index_count_ = 0;
+    uint64_t vertex_count_ = 0, caster_vertex_count_ = 0, index_count_ = 0;
     TextureStore textures_;
     std::vector<Part> parts_;
     std::vector<std::pair<uint32_t, uint32_t>> mesh_parts_;  // first part and number of parts of each mesh

@@ -1,4 +1,4 @@
-// What stands still, merged and simplified: all parts once, where they are, and no farther off than a level says.
+// Casters at rest, merged and simplified: all parts once, where they are, no farther off than a level says.
 // SPDX-License-Identifier: MIT
 #include "gpu_scene/caster_cells.h"
 
@@ -36,6 +36,11 @@ scene::Mesh square(uint32_t material) {
     return grid(1, material, [](double u, double v) { return glm::vec3(u, 0, v); });
 }
 
+void add_lamp(scene::Scene& s) {
+    s.lamps.emplace_back();
+    s.nodes.emplace_back().lamp = 0;
+}
+
 uint32_t add_node(scene::Scene& s, uint32_t mesh, glm::vec3 at) {
     scene::Node& node = s.nodes.emplace_back();
     node.mesh = mesh, node.translation = at;
@@ -58,7 +63,8 @@ TEST(CasterCells, HoldEachOpaquePartAtRestOnce) {
     for (uint32_t material = 0; material < 3; ++material) s.meshes.push_back(square(material));
     s.meshes.push_back({"", {s.meshes[1].primitives[0], s.meshes[0].primitives[0]}});  // parts 3, masked, and 4
     for (const uint32_t mesh : {0u, 1u, 2u, 3u, 0u}) add_node(s, mesh, glm::vec3(float(s.nodes.size()), 0, 1));
-    s.nodes.emplace_back();  // of no mesh
+    EXPECT_TRUE(gpu_scene::caster_cells(s).empty()) << "nothing casts a shadow";
+    add_lamp(s);
     add_node(s, 0, {17, 0, 1});
     add_node(s, 0, {18, 0, 1});
     s.channels.push_back({.node = add_node(s, 0, {7, 0, 1}), .times = {0}, .values = {{7, 0, 1, 0}}});
@@ -80,6 +86,7 @@ TEST(CasterCells, APlaneBecomesTwoTriangles) {
     s.materials.resize(1);
     s.meshes.push_back(grid(40, 0, [](double u, double v) { return glm::vec3(60 * u, 3, 60 * v); }));
     add_node(s, 0, {1000, 0, -1000});
+    add_lamp(s);
     const std::vector<CasterCell> cells = gpu_scene::caster_cells(s);
     ASSERT_EQ(cells.size(), 1u);
     ASSERT_EQ(cells[0].levels.size(), 2u);
@@ -104,6 +111,7 @@ TEST(CasterCells, ASphereIsNoFartherOffThanItsLevelSays) {
             kRadius * glm::dvec3(std::sin(polar) * std::cos(turn), std::cos(polar), std::sin(polar) * std::sin(turn)));
     }));
     add_node(s, 0, {8, 8, 8});
+    add_lamp(s);
     const std::vector<CasterCell> cells = gpu_scene::caster_cells(s);
     ASSERT_EQ(cells.size(), 1u);
     ASSERT_GE(cells[0].levels.size(), 4u);

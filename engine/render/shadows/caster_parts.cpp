@@ -45,9 +45,9 @@ ShadowMapScratch add_shadow_map_scratch(const FrameContext& frame, const gpu_sce
     scratch.triangles = graph.reserved(
         "shadow triangles", graph::buffer_shape(uint64_t{ShadowMapScratch::kMostTriangles} * 3 * sizeof(glm::vec3)),
         {Access::Store, Access::Vertices});
-    if (scene.vertex_count() > 0) {
+    if (scene.caster_vertex_count() > 0) {
         scratch.vertices = graph.external("vertices of casters", scene.vertices(),
-                                          scene.vertex_count() * sizeof(scene::Vertex), VK_FORMAT_R32G32_SFLOAT);
+                                          scene.caster_vertex_count() * sizeof(scene::Vertex), VK_FORMAT_R32G32_SFLOAT);
         scratch.indices = graph.external("indices of casters", scene.indices(), scene.index_count() * sizeof(uint32_t),
                                          VK_FORMAT_R32_UINT);
     }

@@ -34,7 +34,7 @@ constexpr size_t kMostRuns = 65535;
 }  // namespace
 
 bool has_caster_triangles(const gpu::Device& device, const gpu_scene::GpuScene& scene) {
-    return scene.vertex_count() * shared::kTexelsPerVertex <= device.most_texels(sizeof(glm::vec2)) &&
+    return scene.caster_vertex_count() * shared::kTexelsPerVertex <= device.most_texels(sizeof(glm::vec2)) &&
            scene.index_count() <= device.most_texels(sizeof(uint32_t));
 }
 

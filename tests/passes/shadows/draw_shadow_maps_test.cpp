@@ -146,6 +146,7 @@ TEST(ShadowMap, CellsHideWhatTheirPartsHide) {
         const double turn = 2.4 * i, out = 30 + 0.5 * i;
         s.box({float(out * std::cos(turn)), float(i % 5 * 2 - 4), float(out * std::sin(turn))}, glm::vec3(1));
     }
+    s.lamp({}, {});
     std::vector<glm::dmat4> world = scene::world_transforms(s.scene(), 0);
     const render::ShadowMapLayout layout{
         .side = 256, .hemispheres = 1, .zoom = 1, .range = 200, .radius = 0, .first = 0};
@@ -171,6 +172,7 @@ TEST(ShadowMap, FarCellsAreSimplifiedByLessThanTheErrorOfTheMap) {
     OccluderScene s;
     for (int i = 0; i < 60; ++i)
         s.plate({-6 + 0.2f * float(i), 0, -40 - 0.005f * float(i % 2)}, {0.1f, 0, 0}, {0, 6, 0});
+    s.lamp({}, {});
     const render::ShadowMapLayout layout{
         .side = 64, .hemispheres = 1, .zoom = 4, .range = 200, .radius = 0, .first = 0};
     const gpu_scene::GpuScene resident(rig.device(), s.scene());

@@ -91,7 +91,7 @@ OwnedPipeline make_pipeline(const Device& device, const GraphicsShaders& shaders
 }  // namespace
 
 GraphicsPipeline::GraphicsPipeline(const Device& device, const GraphicsShaders& shaders, const GraphicsVariant& variant)
-    : set_(make_set_layout(device, shaders.bindings, VK_SHADER_STAGE_FRAGMENT_BIT)),
+    : set_(make_set_layout(device, shaders.bindings, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT)),
       layout_(make_pipeline_layout(device, set_.get(), shaders.push_bytes, shaders.push_stages)),
       pipeline_(make_pipeline(device, shaders, variant, layout_.get())) {}
 

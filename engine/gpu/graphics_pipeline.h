@@ -17,7 +17,7 @@ namespace vesper::gpu {
 struct GraphicsShaders {
     const char* name;  ///< for messages
     EmbeddedCode vertex, fragment;
-    std::span<const VkDescriptorType> bindings;  ///< of the fragment shader; binding i is the i-th
+    std::span<const VkDescriptorType> bindings;  ///< of both shaders; binding i is the i-th
     uint32_t push_bytes;
     VkShaderStageFlags push_stages;
     std::span<const VkVertexInputBindingDescription> buffers = {};

@@ -29,17 +29,19 @@ constexpr FeatureField in_core(size_t offset) {
 
 constexpr FeatureField kIndependentBlend = in_core(offsetof(VkPhysicalDeviceFeatures, independentBlend));
 constexpr FeatureField kClipDistance = in_core(offsetof(VkPhysicalDeviceFeatures, shaderClipDistance));
+constexpr FeatureField kFragmentStores = in_core(offsetof(VkPhysicalDeviceFeatures, fragmentStoresAndAtomics));
 constexpr FeatureField kAnisotropy = in_core(offsetof(VkPhysicalDeviceFeatures, samplerAnisotropy));
 constexpr VkStructureType k12 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
                           k13 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES;
 
-// Of a shader stage: shade.comp takes 15 storage buffers where its texels are in them, cull_triangles.comp 6 where they
+// Of a shader stage: shade.comp takes 15 storage buffers where its texels are in them, cull_triangles.comp 7 where they
 // are not; acuity.comp takes 8 images. Histograms are made by workgroups of a thread for each bin.
-constexpr uint32_t kStorageBuffers = 16, kFewStorageBuffers = 6, kStorageImages = 8, kInvocations = 256;
+constexpr uint32_t kStorageBuffers = 16, kFewStorageBuffers = 7, kStorageImages = 8, kInvocations = 256;
 
 constexpr Feature kFeatures[] = {
     {"independentBlend", {kIndependentBlend, kIndependentBlend}},
     {"shaderClipDistance", {kClipDistance, kClipDistance}},
+    {"fragmentStoresAndAtomics", {kFragmentStores, kFragmentStores}},
     {"scalarBlockLayout",
      {{{k12, offsetof(VkPhysicalDeviceVulkan12Features, scalarBlockLayout)},
        {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES,

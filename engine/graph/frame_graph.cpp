@@ -188,7 +188,9 @@ void check_targets(const PassInfo& pass, const std::vector<ResourceInfo>& resour
         if (use.access == Access::DepthTarget && ++depths > 1)
             fail(pass, "has a second depth target, " + in_quotes(r.name));
     }
-    if (!first) fail(pass, "has no target");
+    const bool has_extent = pass.extent.width > 0 && pass.extent.height > 0;
+    if (!first && !has_extent) fail(pass, "has no target");
+    if (first && has_extent) fail(pass, "has a target, " + in_quotes(first->name) + ", and an extent of its own");
 }
 
 /// A copy, without its commands, among so many resources.
@@ -349,8 +351,8 @@ void FrameGraph::dispatch_indirect(std::string_view name, const gpu::KernelInter
     add_pass(std::move(pass));
 }
 
-void FrameGraph::raster(std::string_view name, std::vector<Use> uses, Record record) {
-    add_pass({std::string(name), PassKind::Raster, std::move(uses), nullptr, {}, {}, 0, std::move(record)});
+void FrameGraph::raster(std::string_view name, std::vector<Use> uses, Record record, VkExtent2D extent) {
+    add_pass({std::string(name), PassKind::Raster, std::move(uses), nullptr, {}, {}, 0, std::move(record), extent});
 }
 
 void FrameGraph::clear(std::string_view name, Resource buffer) {
@@ -361,6 +363,24 @@ void FrameGraph::clear(std::string_view name, Resource buffer) {
     if (r.shape.bytes % 4 != 0) fail(pass, "clears " + in_quotes(r.name) + ", whose size is not a multiple of 4 bytes");
     pass.record = [buffer, bytes = r.shape.bytes](const Recording& frame) {
         vkCmdFillBuffer(frame.commands(), frame.buffer(buffer), frame.offset(buffer), bytes, 0);
+    };
+    add_pass(std::move(pass));
+}
+
+void FrameGraph::fill(std::string_view name, Resource buffer, uint32_t word, std::vector<Region> regions) {
+    PassInfo pass{std::string(name), PassKind::Transfer, {{buffer, Access::CopyPart}}, nullptr, {}, {}, 0, {}};
+    if (buffer.index >= resources_.size()) fail(pass, "has no valid resource to fill");
+    const ResourceInfo& r = resources_[buffer.index];
+    if (r.shape.is_image()) fail(pass, "fills the image " + in_quotes(r.name) + "; only buffers can be");
+    for (const Region& region : regions)
+        if (region.to % 4 != 0 || region.bytes % 4 != 0 || region.bytes == 0 || region.bytes > r.shape.bytes ||
+            region.to > r.shape.bytes - region.bytes)
+            fail(pass, "fills " + std::to_string(region.bytes) + " bytes at " + std::to_string(region.to) + " of " +
+                           in_quotes(r.name) + ", which has " + std::to_string(r.shape.bytes));
+    pass.record = [buffer, word, regions = std::move(regions)](const Recording& frame) {
+        for (const Region& region : regions)
+            vkCmdFillBuffer(frame.commands(), frame.buffer(buffer), frame.offset(buffer) + region.to, region.bytes,
+                            word);
     };
     add_pass(std::move(pass));
 }

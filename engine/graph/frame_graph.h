@@ -107,6 +107,7 @@ public:
     virtual VkImageView view(Resource) const = 0;
     virtual VkBuffer buffer(Resource) const = 0;
     virtual uint64_t offset(Resource) const = 0;  ///< of a buffer resource within buffer(), bytes
+    virtual uint64_t bytes(Resource) const = 0;   ///< of it
 };
 using Record = std::function<void(const Recording&)>;
 
@@ -150,6 +151,7 @@ public:
         Groups groups;
         uint64_t arguments_offset = 0;  ///< of an indirect dispatch, bytes
         Record record;                  ///< of a raster or transfer pass
+        VkExtent2D extent{};            ///< of a raster pass without targets, px
 
         bool is_indirect() const { return !uses.empty() && uses.back().access == Access::Arguments; }
     };
@@ -202,10 +204,17 @@ public:
                   Groups groups) {
         dispatch(name, kernel, uses, std::span<const std::byte>{}, groups);
     }
-    /// A raster pass: its targets are bound, cleared on their first use, and `record` draws.
-    void raster(std::string_view name, std::vector<Use> uses, Record record);
+    void dispatch(std::string_view name, const gpu::KernelInterface& kernel, std::initializer_list<Use> uses,
+                  Arguments arguments) {
+        dispatch_indirect(name, kernel, uses, {}, arguments);
+    }
+    /// A raster pass: its targets are bound, cleared on their first use, and `record` draws. `extent`: of one without
+    /// targets, px.
+    void raster(std::string_view name, std::vector<Use> uses, Record record, VkExtent2D extent = {});
     /// Fills a buffer with zeros.
     void clear(std::string_view name, Resource buffer);
+    /// Fills parts of a buffer (Region::to, bytes) with a word, and keeps the rest.
+    void fill(std::string_view name, Resource buffer, uint32_t word, std::vector<Region> regions);
     /// Copies an image or buffer, tightly packed, into a buffer of the same size; or a buffer into an image; or the
     /// bits of an image into another of the same extent and bytes.
     void copy(std::string_view name, Resource from, Resource to);

@@ -16,6 +16,7 @@ public:
     VkImageView view(Resource r) const override { return executor_.resources_[r.index].view; }
     VkBuffer buffer(Resource r) const override { return executor_.resources_[r.index].buffer->get(); }
     uint64_t offset(Resource r) const override { return executor_.resources_[r.index].offset; }
+    uint64_t bytes(Resource r) const override { return executor_.resources_[r.index].bytes; }
 
 private:
     const Executor& executor_;
@@ -133,7 +134,7 @@ void Executor::record_raster(const FrameGraph& graph, const Plan::Step& step) co
     const FrameGraph::PassInfo& pass = graph.passes()[step.pass];
     std::vector<VkRenderingAttachmentInfo> colors;
     VkRenderingAttachmentInfo depth{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    VkExtent2D extent{};
+    VkExtent2D extent = pass.extent;
     for (size_t i = 0; i < pass.uses.size(); ++i) {
         const Use& use = pass.uses[i];
         if (use.access != Access::ColorTarget && use.access != Access::DepthTarget) continue;

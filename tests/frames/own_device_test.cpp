@@ -421,7 +421,7 @@ TEST(BorrowedDevice, FeaturesMayBeAskedForInEitherWay) {
     VkPhysicalDeviceTimelineSemaphoreFeatures timeline{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES,
                                                        &layout, VK_TRUE};
     VkPhysicalDeviceFeatures core{};
-    core.independentBlend = core.shaderClipDistance = VK_TRUE;
+    core.independentBlend = core.shaderClipDistance = core.fragmentStoresAndAtomics = VK_TRUE;
     const HostDevice host(
         [&](HostFeatures&, VkDeviceCreateInfo& info) { info.pNext = &timeline, info.pEnabledFeatures = &core; });
     const VesperHostDevice lent = host.lent();

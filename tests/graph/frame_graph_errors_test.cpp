@@ -226,6 +226,11 @@ TEST(FrameGraphErrors, Targets) {
     expect_error([&] { f.draw("r", {depth(a)}); }, "has 'a' as a target its format does not fit");
     expect_error([&] { f.draw("r", {depth(z), depth(y)}); }, "has a second depth target, 'y'");
     expect_error([&] { f.graph.raster("r", {color(a)}, {}); }, "pass 'r' records nothing");
+    expect_error(
+        [&] {
+            f.graph.raster("r", {color(a)}, [](const graph::Recording&) {}, {64, 64});
+        },
+        "pass 'r' has a target, 'a', and an extent of its own");
 }
 
 TEST(FrameGraphErrors, CopiesAndClears) {
@@ -235,6 +240,8 @@ TEST(FrameGraphErrors, CopiesAndClears) {
                    odd = f.buffer("odd", 10);
     const Resource exact = f.graph.readback("exact", 64 * 32 * 4), short_ = f.graph.readback("short", 100);
     f.compute("write", {store(image), store(odd)});
+    expect_error([&] { f.graph.fill("f", image, 1, {{0, 0, 4}}); }, "fills the image 'image'; only buffers can be");
+    expect_error([&] { f.graph.fill("f", short_, 1, {{0, 98, 4}}); }, "fills 4 bytes at 98 of 'short', which has 100");
     expect_error([&] { f.graph.copy("c", image, short_); },
                  "pass 'c' copies 8192 bytes of 'image' to 'short', which has 100");
     expect_error([&] { f.graph.copy("c", odd, exact); }, "copies 10 bytes of 'odd' to 'exact', which has 8192");

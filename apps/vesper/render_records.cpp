@@ -58,16 +58,21 @@ void print_statistics(const RenderArguments& arguments, const gpu::Device& devic
           double(renderer.device_bytes()) / (1 << 20));
     print("clusters: to %.0f m, at most %u lamps in a froxel, %u froxels overflowed (and looked at every lamp)\n",
           double(frame.far), frame.clusters.longest, frame.clusters.overflowed);
-    if (const auto& [lit, dark, mixed, faint] = frame.visibility; lit + dark + mixed + faint > 0)
+    const auto& [lit, dark, mixed, faint, unshadowed, unshadowed_light] = frame.visibility;
+    if (lit + dark + mixed + faint > 0)
         print(
             "shadows: of pairs of a block of pixels and a lamp, %u lit, %u dark, %u mixed, %u mixed of little light\n",
             lit, dark, mixed, faint);
+    if (unshadowed > 0)
+        print("shadows: %u lamps that move cast none; together they give %.3g %% of the light\n", unshadowed,
+              1e-4 * unshadowed_light);
     if (arguments.settings.shadows)
         print(
-            "shadow maps: %u, %.0f MiB; for this frame %u were drawn anew, %u taken from the cache, and %u tiles of "
-            "others drawn; %u are out of date\n",
+            "shadow maps: %u, %.0f MiB; for this frame %u were drawn anew, %u taken from the cache, and bodies that "
+            "move "
+            "drawn %u times over others; %u are out of date\n",
             frame.maps.lamps, double(frame.maps.bytes) / (1 << 20), frame.maps.maps, frame.maps.cached,
-            frame.maps.tiles, frame.maps.deferred);
+            frame.maps.bodies, frame.maps.deferred);
     if (frame.directional_levels > 0)
         print("maps of directional lights: %u levels were drawn for this frame\n", frame.directional_levels);
     print("adaptation luminance %.4g cd/m^2, foveal level %u, %u of %u pixels not finite\n",

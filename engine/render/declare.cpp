@@ -42,11 +42,6 @@ SceneLight declare(const FrameContext& frame, ResidentScene& scene, const Prepar
     const TableTexels tables{data.table_texels.declare(graph, "intensity tables"), data.tables.roads,
                              data.tables.roads != 0};
     ShadeSettings shading = prepared.shading;
-    FrameClipmaps directional;
-    if (prepared.shadows) {
-        shading.maps = scene.maps->declare(frame, prepared.lamps, poses);
-        if (scene.directional) directional = scene.directional->declare(frame, prepared.lamps, poses, view);
-    }
     SkyTexels sky;
     if (prepared.outside) {
         shading.retro = data.retro.declare(graph, "retroreflection");
@@ -56,6 +51,12 @@ SceneLight declare(const FrameContext& frame, ResidentScene& scene, const Prepar
     const GBuffer surfaces = add_gbuffer(frame, data.resident, poses, prepared.small_emitters.parts);
     const Clusters clusters = add_clusters(frame, surfaces.surface, prepared.lamps, tables, prepared.clusters);
     Blocks blocks = add_blocks(frame, surfaces, clusters);
+    FrameClipmaps directional;
+    if (prepared.shadows) {
+        const BlockLists lists{surfaces, clusters, blocks};
+        shading.maps = scene.maps->declare(frame, prepared.lamps, poses, &lists, prepared.unshadowed_share);
+        if (scene.directional) directional = scene.directional->declare(frame, prepared.lamps, poses, view);
+    }
     blocks = add_visibility(frame, surfaces, clusters, blocks, shading.maps, shading.shadow_error);
     blocks = add_directional_visibility(frame, surfaces, clusters, blocks, directional);
     blocks = add_merging(frame, surfaces, clusters, blocks, shading.merge_error);

@@ -20,6 +20,7 @@ void prepare_shadows(Prepared& frame, ResidentScene& scene, const gpu::Device& d
     }
     const uint64_t budget = settings.samples > 1 ? kUnlimited : settings.shadow_budget;
     scene.maps->plan(frame.lamps, poses, view, budget, settings.caster_error);
+    if (settings.samples == 1) frame.unshadowed_share = settings.unshadowed_share;
     frame.shadows = true, frame.maps = scene.maps->report();
     if (frame.lamps.counts.directional == 0) return;
     if (!scene.directional)

@@ -4,7 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 
 // Shadow maps, opaque triangles, one run per workgroup (shared/shadow_map.h). Those that cover no middle of a texel of their
-// quadrant are left out, small ones are drawn here, and the others are kept for rasterizing: what a far lamp sees is mostly of
+// quadrant are left out, small ones are drawn here, and the others are listed for rasterizing: what a far lamp sees is mostly of
 // a few texels or less, for which that takes much longer.
 
 #include "texels.glsl"
@@ -12,23 +12,27 @@
 #include "shared/edges.h"
 
 layout(local_size_x_id = 0) in;
+layout(constant_id = 2) const uint kOver = 0u;  // see nearer.glsl
 
 TEXELS(0, vec2, vertices);
 TEXELS(1, uint, indices);
 layout(binding = 2, scalar) readonly buffer Rows { mat3x4 rows[]; };  // in its columns
 layout(binding = 3, scalar) readonly buffer Runs { TriangleRun runs[]; };
 layout(binding = 4, scalar) readonly buffer Quadrants { MapQuadrant quadrants[]; };
-layout(binding = 5, scalar) buffer Draws { uvec4 draws[]; };              // VkDrawIndirectCommand, one for each quadrant
-layout(binding = 6, scalar) writeonly buffer Triangles { float kept[]; };  // corners in the frame of the map, m
-layout(binding = 7, scalar) buffer Small { uint small[]; };                // kMapNear / distance, bits of a float, of the image
+layout(binding = 5, scalar) buffer Draws { uint draws[]; };                    // VkDrawIndirectCommand
+layout(binding = 6, scalar) writeonly buffer Large { LargeCorner large[]; };
+layout(binding = 7, scalar) buffer Words { uint words[]; };                    // texels that are drawn, see nearer.glsl
+TEXELS(8, vec4, maps);                                                         // of the lamps of the frame
+layout(binding = 9, scalar) buffer Changed { uint changed[]; };
 
 #include "quadrant.glsl"
+#include "nearer.glsl"
 
 // Texels: vertices are snapped to that when they are rasterized, and rounded before. What is drawn here is wider by that, so
 // that no gap is left beside what is rasterized.
 layout(constant_id = 1) const float kSnap = 1.0 / 256.0;
 
-// Corners in the image, texels, and the texels whose middles they may cover, within the hemisphere or tile.
+// Corners in the hemisphere, texels, and the texels whose middles they may cover.
 struct InImage {
     vec2 corners[3];
     vec2 first, last;
@@ -36,15 +40,15 @@ struct InImage {
 
 InImage in_image(InQuadrant at[3], MapQuadrant quadrant) {
     InImage image;
-    [[unroll]] for (int k = 0; k < 3; ++k) image.corners[k] = (at[k].position.xy / at[k].position.w * 0.5 + 0.5) * quadrant.side;
+    [[unroll]] for (int k = 0; k < 3; ++k) image.corners[k] = (at[k].position.xy / at[k].position.w * 0.5 + 0.5) * float(quadrant.side);
     const vec2 low = min(image.corners[0], min(image.corners[1], image.corners[2]));
     const vec2 high = max(image.corners[0], max(image.corners[1], image.corners[2]));
-    image.first = max(ceil(low - kSnap - 0.5), quadrant.corner);
-    image.last = min(floor(high + kSnap - 0.5), quadrant.corner + quadrant.width - 1.0);
+    image.first = max(ceil(low - kSnap - 0.5), vec2(0.0));
+    image.last = min(floor(high + kSnap - 0.5), vec2(float(quadrant.side) - 1.0));
     return image;
 }
 
-void draw_small(InImage image, InQuadrant at[3], uint side) {
+void draw_small(InImage image, InQuadrant at[3], MapQuadrant quadrant) {
     const vec2 a = image.corners[1] - image.corners[0], b = image.corners[2] - image.corners[0];
     const float area = a.x * b.y - a.y * b.x, turn = area < 0.0 ? -1.0 : 1.0;
     // Distances from the lines along the edges, of the texel's middle; not less than the margin inside.
@@ -62,15 +66,19 @@ void draw_small(InImage image, InQuadrant at[3], uint side) {
     const vec2 slope = per_area * vec2(rise.x * b.y - rise.y * a.y, rise.y * a.x - rise.x * b.x);
     const uint width = uint(image.last.x - image.first.x) + 1u, count = width * (uint(image.last.y - image.first.y) + 1u);
     uvec2 place = uvec2(0u);
-    for (uint n = 0u; n < count; ++n) {
+    uint n = 0u;
+    do {
         const vec2 texel = image.first + vec2(place), middle = texel + 0.5;
         bool covered = true;
         [[unroll]] for (int k = 0; k < 3; ++k) covered = covered && dot(edges[k].xy, middle) + edges[k].z >= 0.0;
         const float value = clamp(inverse.x + dot(slope, middle - image.corners[0]), least, most);
-        if (covered) atomicMax(small[uint(texel.y) * side + uint(texel.x)], floatBitsToUint(value));
+        keep_nearer(covered, quadrant.first + uint(texel.y) * quadrant.side + uint(texel.x), value);
         const bool ends = ++place.x == width;
         place = ends ? uvec2(0u, place.y + 1u) : place;
-    }
+    } while (++n < count);
+    if (kOver == 0u) return;
+    for (uint corner = 0u; corner < 4u; ++corner)
+        list_changed(quadrant.first, quadrant.side, uvec2((corner & 1u) == 0u ? image.first.x : image.last.x, corner < 2u ? image.first.y : image.last.y));
 }
 
 // `number`: of the quadrant.
@@ -81,25 +89,26 @@ void draw(uint number, MapQuadrant quadrant, vec3 q[3], InQuadrant at[3]) {
     const InImage image = in_image(at, quadrant);
     if (whole && any(greaterThan(image.first, image.last))) return;
     const bool is_small = whole && all(lessThan(image.last - image.first, vec2(float(kSmallTriangle))));
-    for (uint once = 0u; once < (is_small ? 1u : 0u); ++once) draw_small(image, at, uint(quadrant.side));  // a CPU device skips loops, not branches
+    for (uint once = 0u; once < (is_small ? 1u : 0u); ++once) draw_small(image, at, quadrant);  // a CPU device skips loops, not branches
     if (is_small) return;
-    const uint vertex = quadrant.first * 3u + atomicAdd(draws[number].x, 3u);
-    [[unroll]] for (uint k = 0u; k < 3u; ++k)
-        [[unroll]] for (int c = 0; c < 3; ++c) kept[3u * (vertex + k) + uint(c)] = q[k][c];
+    const uint corner = atomicAdd(draws[0], 3u);
+    [[unroll]] for (uint k = 0u; k < 3u; ++k) large[corner + k] = LargeCorner(q[k], number);
 }
 
 void main() {
     const TriangleRun run = runs[gl_WorkGroupID.x];
     const mat3x4 to_map = rows[run.rows];
     const MapQuadrant quadrant = quadrants[run.quadrant];
-    for (uint triangle = gl_LocalInvocationID.x; triangle < run.triangles; triangle += gl_WorkGroupSize.x) {
+    const bool casts = quadrant.lamp == kCastsAlways || texel_at(maps, int(quadrant.lamp * kShadowMapTexels) + 1).y != 0.0;
+    const uint triangles = casts ? run.triangles : 0u;
+    for (uint triangle = gl_LocalInvocationID.x; triangle < triangles; triangle += gl_WorkGroupSize.x) {
         vec3 q[3];
         InQuadrant at[3];
         [[unroll]] for (uint k = 0u; k < 3u; ++k) {
             const int first = int((run.first_vertex + texel_at(indices, int(run.first_index + 3u * triangle + k)).r) * kTexelsPerVertex);
             const vec4 p = vec4(texel_at(vertices, first).xy, texel_at(vertices, first + 1).x, 1.0);
             q[k] = vec3(dot(to_map[0], p), dot(to_map[1], p), dot(to_map[2], p) * quadrant.mirror);
-            at[k] = to_quadrant(q[k], quadrant.place, quadrant.window, quadrant.y_sign, quadrant.overlap);
+            at[k] = to_quadrant(q[k], quadrant);
         }
         bool out_of_sight = max(at[0].position.w, max(at[1].position.w, at[2].position.w)) < kMapNear;
         [[unroll]] for (int i = 0; i < 7; ++i)

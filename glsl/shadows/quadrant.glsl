@@ -1,23 +1,30 @@
-// From the frame of a map to a quadrant of a hemisphere in the image (shared/shadow_map.h).
+// From the frame of a map to a quadrant of a hemisphere (shared/shadow_map.h).
 
 struct InQuadrant {
-    vec4 position;      // clip space; w is the norm
-    float outside[7];   // less than 0: not in the quadrant, or beside the window
+    vec4 position;      // clip space of the whole hemisphere; w is the norm
+    float outside[7];   // less than 0: not in the quadrant, or beside the square
 };
 
-// `place`, `window`, `y_sign`, `overlap` as in MapInstance.
-InQuadrant to_quadrant(vec3 q, vec4 place, vec4 window, float y_sign, float overlap) {
-    const float x = y_sign == 0.0 ? 0.0 : place.w < 0.0 ? -q.x : q.x, y = y_sign * q.y;
+// `q`: mirrored as the quadrant is.
+InQuadrant to_quadrant(vec3 q, MapQuadrant quadrant) {
+    const float x = quadrant.y_sign == 0.0 ? 0.0 : quadrant.zoom < 0.0 ? -q.x : q.x, y = quadrant.y_sign * q.y;
     const float norm = x + y + q.z;
-    const vec2 square = abs(place.w) * vec2(q.x + q.y, q.x - q.y);
+    const vec2 square = abs(quadrant.zoom) * vec2(q.x + q.y, q.x - q.y);
     InQuadrant at;
-    at.position = vec4(place.x * square + norm * place.yz, kMapNear, norm);
-    at.outside[0] = x + overlap * norm;
-    at.outside[1] = y + overlap * norm;
-    at.outside[2] = q.z + overlap * norm;
-    at.outside[3] = square.x - window.x * norm;
-    at.outside[4] = square.y - window.y * norm;
-    at.outside[5] = window.z * norm - square.x;
-    at.outside[6] = window.w * norm - square.y;
+    at.position = vec4(square, kMapNear, norm);
+    at.outside[0] = x + quadrant.overlap * norm;
+    at.outside[1] = y + quadrant.overlap * norm;
+    at.outside[2] = q.z + quadrant.overlap * norm;
+    at.outside[3] = norm + square.x;
+    at.outside[4] = norm + square.y;
+    at.outside[5] = norm - square.x;
+    at.outside[6] = norm - square.y;
     return at;
+}
+
+// The same where it is rasterized: all hemispheres lie in the corner of one square of this side, texels.
+const float kRasterSide = 2048.0;
+vec4 in_raster(InQuadrant at, MapQuadrant quadrant) {
+    const float part = float(quadrant.side) / kRasterSide;
+    return vec4((at.position.xy + at.position.w) * part - at.position.w, at.position.zw);
 }

@@ -12,10 +12,7 @@ SHARED_BEGIN
 
 const uint kShadowMapTexels = 2u;  // rgba32f per lamp, see ShadowMap
 const uint kMapUnit = 64u;         // maps begin at multiples of that many texels
-const uint kRegion = 64u;          // texels, side of what a workgroup stores; the smallest side of a map
-const uint kGroup = 4u;            // texels, side of what an invocation stores
-const uint kNotSaved = 0x7fffffffu;
-const uint kSaveNow = 0x80000000u; // the texels of the map are to be saved first
+const uint kRegion = 64u;          // texels, side of a tile, and the smallest side of a map
 // How far a surface may be off its plane, or a distance off the truth, before it counts as before the surface: kMapBias (m)
 // and, times the distance, half a texel and kMapRounding, what halves take. Nothing nearer than this to a surface shades it.
 const float kMapBias = 0.015625;
@@ -33,43 +30,27 @@ struct ShadowMap {
 };
 SHARED_SIZE(ShadowMap, 32)
 
-// One square of kRegion texels of a hemisphere that was drawn. Where moving casters alone were drawn, over still ones, the
-// texels without them are saved in a tile.
-struct MapRegion {
-    uint drawn_x, drawn_y;    // its corner in the image, texels
-    uint x, y;                // and in the hemisphere, texels
-    uint side;                // of the hemisphere, texels
-    uint first;               // texel of the hemisphere, in units of kMapUnit
-    uint saved;               // kNotSaved: all was drawn; or the first texel of those saved, in units of kMapUnit, and kSaveNow
-    uint unused;
+// A quadrant of a hemisphere that is drawn into.
+struct MapQuadrant {
+    float zoom;        // negative in quadrants of x < 0
+    float y_sign;      // of the quadrant; 0: the map is flat and has no quadrants
+    float mirror;      // -1 in the second hemisphere: z is mirrored there; 1
+    float overlap;     // part of the norm by which quadrants overlap, so that no texel on their borders is left to neither side
+    uint side;         // of the hemisphere, texels
+    uint first;        // its first texel, of those that are drawn into
+    uint lamp;         // its number in the list of lamps; kCastsAlways: it casts shadows in any case
 };
-SHARED_SIZE(MapRegion, 32)
+SHARED_SIZE(MapQuadrant, 28)
+const uint kCastsAlways = 0xffffffffu;
 
-// One instance of a part, drawn into a quadrant of a hemisphere.
+// One instance of a part that is rasterized, in a quadrant.
 struct MapInstance {
-    vec4 row_x;        // rows of the matrix from its mesh to the frame of the map, m
+    vec4 row_x;        // rows of the matrix from its mesh to the frame of the map, mirrored as the quadrant is, m
     vec4 row_y;
     vec4 row_z;
-    vec4 place;        // clip space: scale of (u, v); middle of the square (2); zoom, negative in quadrants of x < 0
-    vec4 window;       // least and greatest (u, v) of what is drawn of the square
-    float y_sign;      // of the quadrant; 0: the map is flat and has no quadrants
-    float overlap;     // part of the norm by which quadrants overlap, so that no texel on their borders is left to neither side
+    uint quadrant;
 };
-SHARED_SIZE(MapInstance, 88)
-
-// Opaque parts are drawn by their triangles. A quadrant of a hemisphere, or of a tile of it, in the image:
-struct MapQuadrant {
-    vec4 place;        // as in MapInstance
-    vec4 window;
-    float y_sign;
-    uint first;        // its first triangle among those that are kept
-    float mirror;      // -1 in the second hemisphere: z is mirrored there; 1
-    float side;        // of the image, texels
-    vec2 corner;       // of the hemisphere or tile in the image, texels
-    float width;       // its own side, texels
-    float overlap;     // as in MapInstance
-};
-SHARED_SIZE(MapQuadrant, 64)
+SHARED_SIZE(MapInstance, 52)
 
 // Triangles of one part, for one quadrant; at most kTrianglesOfRun.
 struct TriangleRun {
@@ -82,6 +63,31 @@ struct TriangleRun {
 SHARED_SIZE(TriangleRun, 20)
 const uint kTrianglesOfRun = 128u;
 const uint kSmallTriangle = 16u;  // texels: triangles in boxes of that side are drawn by cull_triangles.comp itself
+
+// A corner of one of the others, which are rasterized.
+struct LargeCorner {
+    vec3 position;     // in the frame of the map, mirrored as the quadrant is, m
+    uint quadrant;
+};
+SHARED_SIZE(LargeCorner, 16)
+
+// A tile of a map that moving casters were drawn into. The list of them has kChangedHead words before its flags, one for each
+// tile of all maps, and the tiles; the first word of the head is their number, and the workgroups that put them back.
+struct ChangedTile {
+    uint tile;         // number of its flag: its first texel over the texels of a tile, as if they were side by side
+    uint word;         // of its corner, of all maps
+    uint stride;       // words from row to row
+};
+SHARED_SIZE(ChangedTile, 12)
+const uint kChangedHead = 4u;
+const uint kTileTexels = kRegion * kRegion;
+
+// Texels of a whole map, as many as a tile has, that were drawn.
+struct DrawnTexels {
+    uint from;         // first, of those that were drawn
+    uint to;           // word of all maps
+};
+SHARED_SIZE(DrawnTexels, 8)
 
 SHARED_END
 #endif

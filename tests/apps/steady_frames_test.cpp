@@ -22,13 +22,13 @@ TEST(SteadyFrames, AreOneSubmissionAndMakeNothing) {
     auto radiosity = transport::gather_radiosity(session.scenery().scene(), rest.world, rest.moving, coarse);
     ASSERT_TRUE(radiosity);
     session.set_radiosity(std::make_shared<const transport::Radiosity>(std::move(*radiosity)));
-    uint32_t maps = 0, tiles = 0;
+    uint32_t maps = 0, bodies = 0;
     for (int i = 0; i < kFrames; ++i) {
         const gpu::DeviceUse before = device.use();
         for (int steps = 0; steps < 4; ++steps) session.step({.throttle = 0.7});
         const render::Frame frame = session.render(VkExtent2D{160, 100}, {.display = true});
         const gpu::DeviceUse& after = device.use();
-        maps += frame.maps.maps, tiles += frame.maps.tiles;
+        maps += frame.maps.maps, bodies += frame.maps.bodies;
         ASSERT_FALSE(frame.timings.empty());
         if (i < kFirst) continue;
         EXPECT_EQ(after.submissions - before.submissions, 1u) << i;
@@ -50,7 +50,7 @@ TEST(SteadyFrames, AreOneSubmissionAndMakeNothing) {
         while (session.renderer().unfinished() > 1) ASSERT_TRUE(session.finish_oldest(true));
     }
     EXPECT_GT(maps, uint32_t{kFrames});  // headlamps move
-    EXPECT_GT(tiles, uint32_t{kFrames});
+    EXPECT_GT(bodies, uint32_t{kFrames});
 }
 
 }  // namespace

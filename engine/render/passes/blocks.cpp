@@ -3,6 +3,7 @@
 #include "shaders/blocks/cull_lamps.comp.inc"
 #include "shaders/blocks/merge_lamps.comp.inc"
 #include "shared/blocks.h"
+#include "shared/visibility.h"
 
 namespace vesper::render {
 namespace {
@@ -40,11 +41,14 @@ Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clus
         frame.kernels.device().limits().maxComputeWorkGroupCount[0])
         throw Error("an image of " + std::to_string(extent.width) + " x " + std::to_string(extent.height) +
                     " has more blocks than the device can shade in one dispatch");
-    const Blocks blocks{.columns = grid.x,
-                        .count = count,
-                        .capacity = shared::kBlockCapacity,
-                        .counts = words(graph, "block counts", count * 2),
-                        .entries = words(graph, "block entries", uint64_t(count) * shared::kBlockCapacity)};
+    const Blocks blocks{
+        .columns = grid.x,
+        .count = count,
+        .capacity = shared::kBlockCapacity,
+        .counts = words(graph, "block counts", count * 2),
+        .entries = words(graph, "block entries", uint64_t(count) * shared::kBlockCapacity),
+        .visibility = graph.transient("visibility report", graph::buffer_shape(sizeof(shared::VisibilityReport)))};
+    graph.clear("clear visibility report", blocks.visibility);
 
     const gpu::Kernel& cull = frame.kernels.get(kCullLamps, {kinds.powers, kinds.tables});
     graph.dispatch(

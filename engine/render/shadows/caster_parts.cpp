@@ -1,12 +1,11 @@
 #include "render/shadows/caster_parts.h"
 
 #include <algorithm>
-#include <string>
 #include <tuple>
 
-#include "base/error.h"
 #include "render/shadows/shadow_map_layout.h"
 #include "scene/scene.h"
+#include "shared/shadow_map.h"
 
 namespace vesper::render {
 
@@ -18,33 +17,25 @@ gpu::OwnedBuffer make_shadow_texels(const gpu::Device& device, gpu::Arena& arena
     return buffer;
 }
 
-const ShadowMapScratch::Image& ShadowMapScratch::image_for(uint32_t side) const {
-    for (const Image& image : images)
-        if (side <= image.side) return image;
-    throw Error("a map of " + std::to_string(side) + " texels a side is too large");
-}
-
-ShadowMapScratch add_shadow_map_scratch(const FrameContext& frame, const gpu_scene::GpuScene& scene) {
+ShadowMapScratch add_shadow_map_scratch(const FrameContext& frame, const gpu_scene::GpuScene& scene,
+                                        graph::Resource changed) {
     using graph::Access;
     graph::FrameGraph& graph = frame.graph;
     ShadowMapScratch scratch;
-    uint32_t side = kMostMapSide / 2;
-    for (ShadowMapScratch::Image& image : scratch.images) {
-        const std::string which = " of " + std::to_string(side);
-        const uint64_t texels = uint64_t{side} * side;
-        image = {side,
-                 graph.reserved("drawn shadow maps" + which, graph::image_shape(kDepthFormat, {side, side}),
-                                {Access::DepthTarget, Access::Sample}),
-                 graph.reserved("small shadow casters" + which, graph::buffer_shape(texels * sizeof(float)),
-                                {Access::CopyTarget, Access::Update, Access::Load})};
-        side *= 2;
+    scratch.changed = changed;
+    if (!changed) {
+        scratch.changed = graph.transient("no changed tiles", graph::buffer_shape(sizeof(uint32_t)));
+        graph.clear("clear no changed tiles", scratch.changed);
     }
-    scratch.draws = graph.reserved(
-        "shadow draws", graph::buffer_shape(ShadowMapScratch::kMostQuadrants * sizeof(VkDrawIndirectCommand)),
-        {Access::CopyPart, Access::Update, Access::Arguments});
-    scratch.triangles = graph.reserved(
-        "shadow triangles", graph::buffer_shape(uint64_t{ShadowMapScratch::kMostTriangles} * 3 * sizeof(glm::vec3)),
+    scratch.draws = graph.reserved("shadow draws", graph::buffer_shape(sizeof(VkDrawIndirectCommand)),
+                                   {Access::CopyPart, Access::CopyTarget, Access::Update, Access::Arguments});
+    scratch.large = graph.reserved(
+        "large shadow casters",
+        graph::buffer_shape(uint64_t{ShadowMapScratch::kMostTriangles} * 3 * sizeof(shared::LargeCorner)),
         {Access::Store, Access::Vertices});
+    scratch.drawn = graph.reserved("drawn shadow maps",
+                                   graph::buffer_shape(uint64_t{ShadowMapScratch::kMostTexels} * sizeof(float)),
+                                   {Access::CopyPart, Access::Update, Access::Load});
     if (scene.caster_vertex_count() > 0) {
         scratch.vertices = graph.external("vertices of casters", scene.vertices(),
                                           scene.caster_vertex_count() * sizeof(scene::Vertex), VK_FORMAT_R32G32_SFLOAT);
@@ -69,8 +60,9 @@ std::vector<uint32_t> order_by_part(std::span<const uint32_t> parts, const gpu_s
 }
 
 void record_casters(const graph::Recording& recording, const gpu::GraphicsPipelineCache& pipelines,
-                    const gpu::GraphicsShaders& shaders, const gpu_scene::GpuScene& scene, graph::Resource instances,
-                    const std::vector<CasterBatch>& batches) {
+                    const gpu::GraphicsShaders& shaders, gpu::GraphicsVariant variant, const gpu_scene::GpuScene& scene,
+                    graph::Resource instances, const std::vector<CasterBatch>& batches,
+                    std::span<const VkWriteDescriptorSet> others) {
     if (batches.empty()) return;
     const VkCommandBuffer commands = recording.commands();
     const VkBuffer buffers[] = {scene.vertices().get(), recording.buffer(instances)};
@@ -86,17 +78,18 @@ void record_casters(const graph::Recording& recording, const gpu::GraphicsPipeli
         const gpu_scene::GpuScene::Surface& surface = scene.surfaces()[part.material];
         const scene::Material& m = surface.material;
         const bool mask = m.alpha == scene::Material::Alpha::Mask;
-        const gpu::GraphicsPipeline* pipeline =
-            &pipelines.get(shaders, {.targets = {}, .depth = kDepthFormat, .constants = {mask ? 1u : 0u}});
+        variant.constants[1] = mask ? 1 : 0;
+        const gpu::GraphicsPipeline* pipeline = &pipelines.get(shaders, variant);
         if (pipeline != last_pipeline)
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline());
         if (part.material != last_material) {
-            VkWriteDescriptorSet write{.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                                       .dstBinding = 0,
-                                       .descriptorCount = 1,
-                                       .descriptorType = kCasterTextures[0],
-                                       .pImageInfo = &surface.textures[0]};
-            recording.bind(*pipeline, {&write, 1});
+            std::vector<VkWriteDescriptorSet> writes(others.begin(), others.end());
+            writes.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                              .dstBinding = uint32_t(others.size()),
+                              .descriptorCount = 1,
+                              .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+                              .pImageInfo = &surface.textures[0]});
+            recording.bind(*pipeline, writes);
             const MaskPush push{m.base_colour.a, m.alpha_cutoff};
             vkCmdPushConstants(commands, pipeline->layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push, &push);
         }

@@ -1,7 +1,6 @@
-// Parts of a scene that cast shadows, and the images that they are drawn into. SPDX-License-Identifier: MIT
+// Parts of a scene that cast shadows, and what they are drawn with. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -13,27 +12,23 @@ namespace vesper::render {
 /// A buffer for so many texels of shadow maps, halves, two a word; at least one word. Bound in `arena`.
 gpu::OwnedBuffer make_shadow_texels(const gpu::Device& device, gpu::Arena& arena, uint64_t texels);
 
-/// Images and buffers in which shadow maps of lamps are drawn, one image after the other; reserved in every frame that
-/// has maps, drawn or not.
+/// Buffers with which shadow maps of lamps are drawn; reserved in every frame that has maps, drawn or not.
 struct ShadowMapScratch {
-    struct Image {
-        uint32_t side;          ///< texels
-        graph::Resource depth;  ///< d32
-        graph::Resource small;  ///< of small triangles, a float a texel
-    };
-    std::array<Image, 2> images;        ///< the smaller first
     graph::Resource vertices, indices;  ///< of the scene, as texels
-    graph::Resource draws;              ///< VkDrawIndirectCommand, kMostQuadrants
-    graph::Resource triangles;          ///< corners, m, kMostTriangles
-    uint32_t drawn = 0;                 ///< images so far
+    graph::Resource lamps;              ///< maps of the lamps of the frame: those that keep none are not drawn; or none
+    graph::Resource changed;  ///< tiles that are listed as changed, see shared::ChangedTile; a word where none is
+    graph::Resource draws;    ///< VkDrawIndirectCommand
+    graph::Resource large;    ///< shared::LargeCorner, of kMostTriangles
+    graph::Resource drawn;    ///< texels of whole maps as they are drawn, floats, kMostTexels
 
-    static constexpr uint32_t kMostQuadrants = 4096, kMostTriangles = 1u << 19u;  ///< of a dispatch
-    /// The smallest image that holds a square of this side; throws Error if there is none.
-    const Image& image_for(uint32_t side) const;
+    static constexpr uint32_t kMostTriangles = 1u << 19u;  ///< of a dispatch
+    static constexpr uint32_t kMostTexels = 1u << 23u;     ///< of maps that are drawn at once: of the largest
 };
-ShadowMapScratch add_shadow_map_scratch(const FrameContext& frame, const gpu_scene::GpuScene& scene);
+/// `changed`: for maps over which something is drawn.
+ShadowMapScratch add_shadow_map_scratch(const FrameContext& frame, const gpu_scene::GpuScene& scene,
+                                        graph::Resource changed = {});
 
-/// Of casters.frag: the opacity of a masked material.
+/// Of clipmap.frag and masked_casters.frag: the opacity of a masked material.
 struct MaskPush {
     float base_opacity, cutoff;
 };
@@ -54,10 +49,11 @@ inline void add_to_batches(std::vector<CasterBatch>& batches, uint32_t part, uin
     ++batches.back().instance_count;
 }
 
-/// Draws from both sides. `shaders`: with casters.frag, MaskPush and kCasterTextures; buffers of vertices and
-/// `instances`.
+/// Draws from both sides. `shaders`: of MaskPush, with `others` at the first bindings and then a texture; buffers of
+/// vertices and `instances`. `variant`: of their pipelines; constant 1 is whether a material is masked.
 void record_casters(const graph::Recording& recording, const gpu::GraphicsPipelineCache& pipelines,
-                    const gpu::GraphicsShaders& shaders, const gpu_scene::GpuScene& scene, graph::Resource instances,
-                    const std::vector<CasterBatch>& batches);
+                    const gpu::GraphicsShaders& shaders, gpu::GraphicsVariant variant, const gpu_scene::GpuScene& scene,
+                    graph::Resource instances, const std::vector<CasterBatch>& batches,
+                    std::span<const VkWriteDescriptorSet> others = {});
 
 }  // namespace vesper::render

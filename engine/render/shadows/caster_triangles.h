@@ -8,6 +8,7 @@
 #include "gpu_scene/gpu_scene.h"
 #include "render/frame_context.h"
 #include "render/shadows/caster_parts.h"
+#include "render/shadows/map_bindings.h"
 #include "shared/shadow_map.h"
 
 namespace vesper::render {
@@ -15,32 +16,23 @@ namespace vesper::render {
 /// Whether the device has room for texel buffers of all vertices and indices of the scene.
 bool has_caster_triangles(const gpu::Device& device, const gpu_scene::GpuScene& scene);
 
-/// The step to which vertices are snapped in maps, texels: at most 1/16. 1/256 where it is finer.
+/// The step to which a device snaps vertices that it rasterizes, texels; at least 1/256, which a distance from an edge
+/// in 32 bits allows.
 float map_snap(const gpu::Device& device);
 
-/// The opaque casters of an image: runs of triangles in quadrants.
+/// Collects casters of the quadrants of maps, and draws them.
 class CasterTriangles {
 public:
-    void add_quadrant(const shared::MapQuadrant& quadrant);
-    uint32_t quadrants() const { return uint32_t(quadrants_.size()); }
-    /// The number of the rows of a matrix from a mesh to the frame of a map, m, for add().
+    /// Rows of the matrix from a mesh to the frame of a map, m: the columns of `rows`. Returns their number.
     uint32_t add_rows(const glm::mat4& rows);
-    /// All triangles of a part.
+    /// A part, for the quadrant of that number.
     void add(const gpu_scene::GpuScene::Part& part, uint32_t rows, uint32_t quadrant);
 
-    /// Draws into a depth image, and small triangles into words of a buffer, a float for each of its texels: kMapNear
-    /// over the distance, where that is more than is there.
-    struct Image {
-        std::string name;  ///< of what is uploaded for it
-        graph::Resource depth, small;
-    };
-    void draw(const FrameContext& frame, const Image& image, const ShadowMapScratch& scratch) const;
+    /// Draws them. `name` follows those of passes.
+    void draw(const FrameContext& frame, const std::string& name, const MapTargets& to,
+              const ShadowMapScratch& scratch) const;
 
 private:
-    // Of one dispatch, in the order of quadrants.
-    void dispatch(const FrameContext& frame, const Image& image, const ShadowMapScratch& scratch) const;
-
-    std::vector<shared::MapQuadrant> quadrants_;
     std::vector<glm::mat3x4> rows_;
     std::vector<shared::TriangleRun> runs_;
 };

@@ -7,7 +7,7 @@
 
 #include "render/shadows/caster_parts.h"
 #include "scene/scene.h"
-#include "shaders/shadows/casters.frag.inc"
+#include "shaders/shadows/clipmap.frag.inc"
 #include "shaders/shadows/clipmap.vert.inc"
 #include "shaders/shadows/store_clipmaps.comp.inc"
 #include "shared/gbuffer.h"
@@ -30,7 +30,7 @@ constexpr VkVertexInputAttributeDescription kLevelAttributes[]{
     {4, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_y)},
     {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_z)}};
 
-constexpr gpu::GraphicsShaders kLevelShaders{"clipmap.vert",  clipmap_vert,     casters_frag,
+constexpr gpu::GraphicsShaders kLevelShaders{"clipmap.vert",  clipmap_vert,     clipmap_frag,
                                              kCasterTextures, sizeof(MaskPush), VK_SHADER_STAGE_FRAGMENT_BIT,
                                              kLevelBuffers,   kLevelAttributes};
 
@@ -99,12 +99,13 @@ void add_clipmaps(const FrameContext& frame, const GpuScene& scene, const gpu_sc
         if (instances.empty()) instances.emplace_back();  // an upload is never empty
 
         const graph::Resource placed = graph.upload("clipmap casters" + which, instances);
-        graph.raster("clipmap casters",
-                     {{placed, graph::Access::Vertices}, {scratch, graph::Access::DepthTarget, {}, true}},
-                     [&pipelines = frame.pipelines, &scene, placed,
-                      batches = std::move(batches)](const graph::Recording& recording) {
-                         record_casters(recording, pipelines, kLevelShaders, scene, placed, batches);
-                     });
+        graph.raster(
+            "clipmap casters", {{placed, graph::Access::Vertices}, {scratch, graph::Access::DepthTarget, {}, true}},
+            [&pipelines = frame.pipelines, &scene, placed,
+             batches = std::move(batches)](const graph::Recording& recording) {
+                record_casters(recording, pipelines, kLevelShaders,
+                               {.targets = {}, .depth = kDepthFormat, .constants = {0, 0}}, scene, placed, batches);
+            });
         const shared::StoreClipmapPush push{.first = uint32_t(level.first),
                                             .side = side,
                                             .farthest = float(seen.farthest),

@@ -3,24 +3,23 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <string>
 
 #include "render/shadows/caster_parts.h"
 #include "render/shadows/caster_triangles.h"
 #include "scene/scene.h"
-#include "shaders/shadows/casters.frag.inc"
-#include "shaders/shadows/casters.vert.inc"
+#include "shaders/shadows/masked_casters.frag.inc"
+#include "shaders/shadows/masked_casters.vert.inc"
 #include "shaders/shadows/store_shadow_maps.comp.inc"
 
 namespace vesper::render {
 namespace {
 
 using gpu_scene::GpuScene, gpu_scene::PlacedPart;
-using graph::load, graph::sample, graph::update;
+using graph::load, graph::update;
 
-constexpr gpu::Shader kStore{"store_distances.comp", store_shadow_maps_comp};
+constexpr gpu::Shader kStore{"store_shadow_maps.comp", store_shadow_maps_comp};
 
 constexpr VkVertexInputBindingDescription kMapBuffers[]{
     {0, sizeof(scene::Vertex), VK_VERTEX_INPUT_RATE_VERTEX},
@@ -32,87 +31,32 @@ constexpr VkVertexInputAttributeDescription kMapAttributes[]{
     {3, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, row_x)},
     {4, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, row_y)},
     {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, row_z)},
-    {6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, place)},
-    {7, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::MapInstance, window)},
-    {8, 1, VK_FORMAT_R32_SFLOAT, offsetof(shared::MapInstance, y_sign)},
-    {9, 1, VK_FORMAT_R32_SFLOAT, offsetof(shared::MapInstance, overlap)}};
-constexpr gpu::GraphicsShaders kMapShaders{"casters.frag",  casters_vert,     casters_frag,
-                                           kCasterTextures, sizeof(MaskPush), VK_SHADER_STAGE_FRAGMENT_BIT,
-                                           kMapBuffers,     kMapAttributes};
+    {6, 1, VK_FORMAT_R32_UINT, offsetof(shared::MapInstance, quadrant)}};
+constexpr VkDescriptorType kBindings[]{kMapBindings[0], kMapBindings[1], kMapBindings[2],
+                                       VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER};
+constexpr gpu::GraphicsShaders kMapShaders{
+    "masked_casters.frag", masked_casters_vert,          masked_casters_frag, kBindings,
+    sizeof(MaskPush),      VK_SHADER_STAGE_FRAGMENT_BIT, kMapBuffers,         kMapAttributes};
 
 constexpr double kNear = 25;  // m: nearer to a lamp all casters are drawn as they are
 
-// In a square of this side, texels.
-uint32_t regions_in(uint32_t side) { return side / shared::kRegion * (side / shared::kRegion); }
-
-// A hemisphere of a map or a tile of one, and its corner in the image.
-struct Square {
-    const ShadowMapToDraw* map;
-    bool second;        // hemisphere
-    glm::uvec2 corner;  // in the hemisphere, texels
-    uint32_t side;      // texels
-    // Its image: its side, texels; its number among those of this side; and the square's corner in it, texels.
-    uint32_t image_side = 0, image = 0;
-    glm::uvec2 place{0};
+// A hemisphere of a map.
+struct Hemisphere {
+    const ShadowMapToDraw& map;
+    bool second;
+    uint32_t first;  // texel, of those that are drawn into
 };
 
-// The place of the n-th region along a curve that fills squares of powers of two one after another (Morton 1966).
-glm::uvec2 region_place(uint32_t n) {
-    glm::uvec2 place(0);
-    for (uint32_t bit = 0; bit < 16; ++bit) place |= glm::uvec2(n >> 2 * bit & 1u, n >> (2 * bit + 1) & 1u) << bit;
-    return place * shared::kRegion;
-}
-
-std::vector<Square> squares_of(std::span<const ShadowMapToDraw> maps) {
-    std::vector<Square> all;
-    for (const ShadowMapToDraw& map : maps)
-        if (map.tile) {
-            all.push_back({&map, map.tile->second, map.tile->corner, shared::kRegion});
-        } else {
-            for (uint32_t h = 0; h < map.layout.hemispheres && map.layout.side > 0; ++h)
-                all.push_back({&map, h == 1, glm::uvec2(0), map.layout.side});
-        }
-    return all;
-}
-
-// The first of the regions, of `count`, that a square is drawn into: lamps are scattered (Knuth 1998, 6.4), and tiles
-// that are side by side seldom meet.
-uint32_t first_region(const Square& square, uint32_t count) {
-    const uint32_t each = regions_in(square.side), places = count / each,
-                   number = 2 * square.map->lamp + (square.second ? 1 : 0);
-    const auto scattered = uint32_t(uint64_t(number * 2654435761u) * places >> 32u);
-    const glm::uvec2 tile = square.map->tile ? square.corner / shared::kRegion : glm::uvec2(0);
-    return (scattered + tile.x + 7 * tile.y) % places * each;
-}
-
-// All squares, image by image, the largest first, each in its place in the first image where that is free.
-std::vector<Square> place_squares(std::span<const ShadowMapToDraw> maps, const ShadowMapScratch& scratch) {
-    std::vector<Square> all = squares_of(maps);
-    std::ranges::stable_sort(all, std::greater(), &Square::side);
-    std::map<uint32_t, std::vector<std::vector<bool>>> taken;  // regions, by sides of images and their numbers
-    for (Square& square : all) {
-        square.image_side = scratch.image_for(square.side).side;
-        const uint32_t regions = regions_in(square.image_side), first = first_region(square, regions);
-        square.place = region_place(first);
-        std::vector<std::vector<bool>>& images = taken[square.image_side];
-        const auto image = std::ranges::find_if(images, [&](const std::vector<bool>& of) { return !of[first]; });
-        square.image = uint32_t(image - images.begin());
-        if (image == images.end()) images.emplace_back(regions);
-        std::fill_n(images[square.image].begin() + first, regions_in(square.side), true);
-    }
-    std::ranges::stable_sort(all, {}, [](const Square& square) { return std::pair(~square.image_side, square.image); });
-    return all;
-}
-
-// The casters of an image: triangles of opaque parts; and of masked ones, or of all where there is no room for these,
-// parts and an instance each, side by side.
+// Casters: triangles of opaque parts; and of masked ones, or of all where there is no room for these, parts and an
+// instance each, side by side.
 struct Drawn {
+    std::vector<shared::MapQuadrant> quadrants;
     CasterTriangles opaque;
     std::vector<uint32_t> parts;
     std::vector<shared::MapInstance> instances;
 };
 
-// Collects the casters that squares see.
+// Collects the casters that hemispheres see.
 class Collector {
 public:
     /// `standing`: of cells, whether they are drawn in place of their parts.
@@ -133,10 +77,22 @@ public:
         for (const PlacedPart part : in_cells_) --loose_[part.placement];
     }
 
-    void collect(const Square& square, Drawn& drawn) {
-        const ShadowMapToDraw& map = *square.map;
-        Seen seen{square, add_quadrants(square, drawn), 2 / (double(map.layout.side) * double(map.layout.zoom)), 0, {}};
-        const bool by_cells = !map.tile && map.caster_error > 0;
+    /// `first`: texel of the map, of those that are drawn into.
+    void collect(const ShadowMapToDraw& map, uint32_t first, Drawn& drawn) {
+        const uint32_t side = map.layout.side;
+        for (uint32_t h = 0; h < map.layout.hemispheres && side > 0; ++h)
+            collect({map, h == 1, first + h * side * side}, drawn);
+    }
+
+private:
+    void collect(const Hemisphere& hemisphere, Drawn& drawn) {
+        const ShadowMapToDraw& map = hemisphere.map;
+        Seen seen{hemisphere,
+                  add_quadrants(hemisphere, drawn),
+                  2 / (double(map.layout.side) * double(map.layout.zoom)),
+                  0,
+                  {}};
+        const bool by_cells = map.caster_error > 0;
         if (by_cells)
             for (const GpuScene::Cell* cell : cells_) collect_cell(seen, *cell, drawn);
         for (const uint32_t p : map.placements) {
@@ -148,7 +104,6 @@ public:
         }
     }
 
-private:
     // Of a placement in the world, and of its parts.
     struct Bounds {
         gpu_scene::WorldSphere whole{glm::dvec3(0), -1};
@@ -170,12 +125,9 @@ private:
         return bounds;
     }
 
-    // Of a square, in the image.
     struct Quadrant {
-        MapWindow window;
         glm::dvec2 signs;
-        uint32_t number;  // among those of opaque triangles
-        shared::MapQuadrant drawn;
+        uint32_t number;  // among those that are drawn
     };
     // Of the matrix of a placement to a map.
     struct Rows {
@@ -183,9 +135,9 @@ private:
         std::optional<uint32_t> number{};  // among those of opaque triangles
     };
 
-    // The search for the casters of a square.
+    // The search for the casters of a hemisphere.
     struct Seen {
-        const Square& square;
+        const Hemisphere& of;
         std::vector<Quadrant> quadrants;
         double texel;  // rad, about
         uint32_t placement;
@@ -194,11 +146,11 @@ private:
 
     // In the frame of the map, mirrored for its second hemisphere.
     static glm::dvec3 in_map(const Seen& seen, glm::dvec3 place) {
-        const MapFrame& frame = seen.square.map->frame;
-        return glm::dvec3(1, 1, seen.square.second ? -1 : 1) * (frame.rotation * (place - frame.position));
+        const MapFrame& frame = seen.of.map.frame;
+        return glm::dvec3(1, 1, seen.of.second ? -1 : 1) * (frame.rotation * (place - frame.position));
     }
     static bool sees(const Seen& seen, const gpu_scene::WorldSphere& sphere) {
-        return is_caster(*seen.square.map, sphere) && in_map(seen, sphere.centre).z + sphere.radius >= 0;
+        return is_caster(seen.of.map, sphere) && in_map(seen, sphere.centre).z + sphere.radius >= 0;
     }
     static bool is_fixture(const ShadowMapToDraw& map, uint32_t placement) {
         return std::ranges::binary_search(map.fixture, placement);
@@ -206,7 +158,7 @@ private:
 
     // The coarsest level within the error; near the lamp, or with its fixture, the parts.
     void collect_cell(Seen& seen, const GpuScene::Cell& cell, Drawn& drawn) {
-        const ShadowMapToDraw& map = *seen.square.map;
+        const ShadowMapToDraw& map = seen.of.map;
         const gpu_scene::WorldSphere bounds{cell.centre, cell.radius};
         if (!sees(seen, bounds)) return;
         const double away = glm::distance(cell.centre, map.frame.position) - cell.radius;
@@ -227,7 +179,7 @@ private:
     void collect_part(Seen& seen, PlacedPart placed, Drawn& drawn) {
         const GpuScene::Placement& placement = scene_.placements()[placed.placement];
         const GpuScene::Part& part = scene_.parts()[placed.part];
-        const ShadowMapToDraw& map = *seen.square.map;
+        const ShadowMapToDraw& map = seen.of.map;
         const gpu_scene::WorldSphere& bounds = bounds_of(placed.placement).parts[placed.part - placement.first_part];
         if (part.index_count == 0 || scene_.surfaces()[part.material].material.clear || !sees(seen, bounds) ||
             bounds.radius < 0.25 * seen.texel * glm::distance(bounds.centre, map.frame.position))
@@ -243,8 +195,8 @@ private:
                   Rows& rows, Drawn& drawn) const {
         const glm::dvec3 centre = in_map(seen, bounds.centre);
         for (const Quadrant& quadrant : seen.quadrants)
-            if (may_see(quadrant.window, quadrant.signs, centre, bounds.radius))
-                add(quadrant, part, masked, rows, drawn);
+            if (may_see(double(seen.of.map.layout.zoom), quadrant.signs, centre, bounds.radius))
+                add(quadrant.number, part, masked, rows, drawn);
     }
 
     static bool is_caster(const ShadowMapToDraw& map, const gpu_scene::WorldSphere& sphere) {
@@ -258,48 +210,36 @@ private:
         return glm::transpose(glm::mat4(glm::dmat4(frame.rotation) * from_lamp));
     }
 
-    std::vector<Quadrant> add_quadrants(const Square& square, Drawn& drawn) const {
-        const ShadowMapLayout& layout = square.map->layout;
-        const double zoom = double(layout.zoom), per_texel = 2.0 / double(layout.side);
-        const glm::dvec2 low = per_texel * glm::dvec2(square.corner) - 1.0;
-        const MapWindow window{zoom, low, low + per_texel * double(square.side)};
-        const float image = float(square.image_side), scale = float(layout.side) / image;
-        const glm::vec2 corner = glm::vec2(square.place) - glm::vec2(square.corner);
-        const glm::vec2 middle = (corner + 0.5f * float(layout.side)) * (2.0f / image) - 1.0f;
+    std::vector<Quadrant> add_quadrants(const Hemisphere& hemisphere, Drawn& drawn) const {
+        const ShadowMapLayout& layout = hemisphere.map.layout;
+        const uint32_t side = layout.side;
         // Both sides of a border may be off by half a step; less than half a texel, so that no middle is drawn twice.
-        const float overlap = snap_ > 1.0f / 256 ? 4 * snap_ / (layout.zoom * float(layout.side)) : 1e-5f;
+        const float overlap = snap_ > 1.0f / 256 ? 4 * snap_ / (layout.zoom * float(side)) : 1e-5f;
         std::vector<Quadrant> quadrants;
         for (const glm::dvec2 signs : quadrants_of(layout)) {
-            const shared::MapQuadrant quadrant{.place = glm::vec4(scale, middle, float(signs.x < 0 ? -zoom : zoom)),
-                                               .window = glm::vec4(window.low, window.high),
-                                               .y_sign = float(signs.y),
-                                               .first = 0,
-                                               .mirror = square.second ? -1.0f : 1.0f,
-                                               .side = image,
-                                               .corner = glm::vec2(square.place),
-                                               .width = float(square.side),
-                                               .overlap = overlap};
-            quadrants.push_back({window, signs, drawn.opaque.quadrants(), quadrant});
-            drawn.opaque.add_quadrant(quadrant);
+            quadrants.push_back({signs, uint32_t(drawn.quadrants.size())});
+            drawn.quadrants.push_back({.zoom = signs.x < 0 ? -layout.zoom : layout.zoom,
+                                       .y_sign = float(signs.y),
+                                       .mirror = hemisphere.second ? -1.0f : 1.0f,
+                                       .overlap = overlap,
+                                       .side = side,
+                                       .first = hemisphere.first,
+                                       .lamp = hemisphere.map.number});
         }
         return quadrants;
     }
 
-    void add(const Quadrant& quadrant, const GpuScene::Part& part, bool masked, Rows& rows, Drawn& drawn) const {
-        const shared::MapQuadrant& to = quadrant.drawn;
+    void add(uint32_t quadrant, const GpuScene::Part& part, bool masked, Rows& rows, Drawn& drawn) const {
         if (!triangles_ || masked) {
             drawn.parts.push_back(uint32_t(&part - scene_.parts().data()));
             drawn.instances.push_back({.row_x = rows.rows[0],
                                        .row_y = rows.rows[1],
-                                       .row_z = to.mirror * rows.rows[2],
-                                       .place = to.place,
-                                       .window = to.window,
-                                       .y_sign = to.y_sign,
-                                       .overlap = to.overlap});
+                                       .row_z = drawn.quadrants[quadrant].mirror * rows.rows[2],
+                                       .quadrant = quadrant});
             return;
         }
         if (!rows.number) rows.number = drawn.opaque.add_rows(rows.rows);
-        drawn.opaque.add(part, *rows.number, quadrant.number);
+        drawn.opaque.add(part, *rows.number, quadrant);
     }
 
     const GpuScene& scene_;
@@ -311,24 +251,6 @@ private:
     std::vector<PlacedPart> in_cells_;          // their parts, ascending
     std::vector<uint32_t> loose_;               // of placements: how many parts are in none
 };
-
-uint32_t saved_word(const std::optional<MapTile>& tile) {
-    if (!tile) return shared::kNotSaved;
-    return tile->saved / shared::kMapUnit | (tile->save ? shared::kSaveNow : 0u);
-}
-
-std::vector<shared::MapRegion> regions_of(std::span<const Square> squares) {
-    std::vector<shared::MapRegion> regions;
-    for (const Square& square : squares) {
-        const ShadowMapLayout& layout = square.map->layout;
-        const uint32_t first = (layout.first + (square.second ? layout.side * layout.side : 0)) / shared::kMapUnit;
-        for (uint32_t y = 0; y < square.side; y += shared::kRegion)
-            for (uint32_t x = 0; x < square.side; x += shared::kRegion)
-                regions.push_back({square.place.x + x, square.place.y + y, square.corner.x + x, square.corner.y + y,
-                                   layout.side, first, saved_word(square.map->tile), 0});
-    }
-    return regions;
-}
 
 // Masked parts, in an order in which few states change.
 struct MaskedParts {
@@ -342,8 +264,35 @@ MaskedParts masked_parts(const Drawn& drawn, const GpuScene& scene) {
         add_to_batches(parts.batches, drawn.parts[i], uint32_t(parts.instances.size()));
         parts.instances.push_back(drawn.instances[i]);
     }
-    if (parts.instances.empty()) parts.instances.emplace_back();  // an upload is never empty
     return parts;
+}
+
+void rasterize_parts(const FrameContext& frame, const GpuScene& scene, const Drawn& drawn, const std::string& name,
+                     const MapTargets& to) {
+    if (drawn.parts.empty()) return;
+    MaskedParts parts = masked_parts(drawn, scene);
+    const graph::Resource placed = frame.graph.upload("shadow casters" + name, parts.instances);
+    frame.graph.raster(
+        "masked shadow casters", map_uses(to, {{placed, graph::Access::Vertices}}),
+        [&pipelines = frame.pipelines, &scene, placed, to,
+         batches = std::move(parts.batches)](const graph::Recording& recording) {
+            MapBindings bindings(recording, to);
+            record_casters(recording, pipelines, kMapShaders, {.targets = {}, .constants = {to.over ? 1u : 0u, 0}},
+                           scene, placed, batches, bindings.writes());
+        },
+        kMapRaster);
+}
+
+void draw(const FrameContext& frame, const GpuScene& scene, const Drawn& drawn, const std::string& name, MapTargets to,
+          const ShadowMapScratch& scratch) {
+    if (drawn.quadrants.empty()) return;
+    to.quadrants = frame.graph.upload("shadow quadrants" + name, drawn.quadrants);
+    rasterize_parts(frame, scene, drawn, name, to);
+    drawn.opaque.draw(frame, name, to, scratch);
+}
+
+std::string of_target(const graph::FrameGraph& graph, graph::Resource distances) {
+    return " of " + graph.resources()[distances.index].name;
 }
 
 }  // namespace
@@ -360,38 +309,38 @@ std::vector<bool> standing_cells(const GpuScene& scene, std::span<const uint32_t
 
 void add_shadow_maps(const FrameContext& frame, const GpuScene& scene, const gpu_scene::SceneFrame& poses,
                      const std::vector<bool>& standing, std::span<const ShadowMapToDraw> maps,
-                     graph::Resource distances, ShadowMapScratch& scratch) {
+                     graph::Resource distances, const ShadowMapScratch& scratch) {
     graph::FrameGraph& graph = frame.graph;
     Collector collector(scene, poses, frame.kernels.device(), standing);
-    const std::vector<Square> squares = place_squares(maps, scratch);
-    for (auto begin = squares.begin(); begin != squares.end();) {
-        const auto in_other_image = [&](const Square& square) {
-            return square.image_side != begin->image_side || square.image != begin->image;
-        };
-        const std::span<const Square> of_image(begin, std::find_if(begin, squares.end(), in_other_image));
-        const std::string which = " " + std::to_string(scratch.drawn++);
-        const auto [side, depth, small] = scratch.image_for(begin->image_side);
-        begin += std::ptrdiff_t(of_image.size());
+    uint32_t round = 0;
+    for (auto map = maps.begin(); map != maps.end();) {
         Drawn drawn;
-        for (const Square& square : of_image) collector.collect(square, drawn);
-        MaskedParts parts = masked_parts(drawn, scene);
-
-        const graph::Resource placed = graph.upload("shadow casters" + which, parts.instances);
-        graph.raster("masked shadow casters",
-                     {{placed, graph::Access::Vertices}, {depth, graph::Access::DepthTarget, {}, true}},
-                     [&pipelines = frame.pipelines, &scene, placed,
-                      batches = std::move(parts.batches)](const graph::Recording& recording) {
-                         record_casters(recording, pipelines, kMapShaders, scene, placed, batches);
-                     });
-        graph.clear("clear small shadow casters", small);
-        drawn.opaque.draw(frame, {which, depth, small}, scratch);
-
-        const std::vector<shared::MapRegion> regions = regions_of(of_image);
-        const graph::Resource list = graph.upload("shadow map regions" + which, regions);
-        graph.dispatch("store shadow maps", frame.kernels.get(kStore),
-                       {sample(depth), load(list), update(distances), load(small)},
-                       graph::Groups{uint32_t(regions.size()), 1, 1});
+        std::vector<shared::DrawnTexels> list;
+        uint32_t texels = 0;
+        for (; map != maps.end() && texels + map->layout.texels() <= ShadowMapScratch::kMostTexels; ++map) {
+            collector.collect(*map, texels, drawn);
+            for (uint32_t k = 0; k < map->layout.texels(); k += shared::kTileTexels)
+                list.push_back({texels + k, (map->layout.first + k) / 2});
+            texels += map->layout.texels();
+        }
+        if (list.empty()) return;
+        const std::string name = of_target(graph, distances) + "." + std::to_string(round++);
+        graph.fill("clear drawn shadow maps", scratch.drawn, 0, {{0, 0, texels * sizeof(float)}});
+        draw(frame, scene, drawn, name, {{}, scratch.drawn, scratch.changed}, scratch);
+        graph.dispatch("store shadow maps", frame.kernels.get(kStore, {frame.lockstep() ? 8u : 64u}),
+                       {load(scratch.drawn), load(graph.upload("drawn texels" + name, list)), update(distances)},
+                       graph::Groups{uint32_t(list.size()), 1, 1});
     }
+}
+
+void add_over_shadow_maps(const FrameContext& frame, const GpuScene& scene, const gpu_scene::SceneFrame& poses,
+                          std::span<const ShadowMapToDraw> maps, graph::Resource distances,
+                          const ShadowMapScratch& scratch) {
+    Collector collector(scene, poses, frame.kernels.device(), {});
+    Drawn drawn;
+    for (const ShadowMapToDraw& map : maps) collector.collect(map, map.layout.first, drawn);
+    draw(frame, scene, drawn, of_target(frame.graph, distances) + ", bodies", {{}, distances, scratch.changed, true},
+         scratch);
 }
 
 void add_shadow_map_shaders(Digest& digest) {

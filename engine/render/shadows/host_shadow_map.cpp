@@ -29,7 +29,7 @@ std::vector<float> drawn_norms(gpu::Device& device, const gpu_scene::GpuScene& r
     graph::FrameGraph graph;
     const graph::Resource distances = graph.persistent("map distances", buffer, bytes);
     const FrameContext frame{graph, kernels, pipelines, {}};
-    ShadowMapScratch scratch = add_shadow_map_scratch(frame, resident);
+    const ShadowMapScratch scratch = add_shadow_map_scratch(frame, resident);
     add_shadow_maps(frame, resident, poses, {}, {&map, 1}, distances, scratch);
     const graph::Resource wanted = graph.readback("read distances", bytes);
     graph.copy("fetch distances", distances, wanted);

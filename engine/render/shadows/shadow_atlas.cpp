@@ -4,12 +4,13 @@
 #include <bit>
 #include <functional>
 #include <numeric>
+#include <optional>
 
 namespace vesper::render {
 namespace {
 
 // Pieces of the buffer are powers of two of the least map, which has one tile.
-constexpr uint32_t kPiece = ShadowAtlas::kTileTexels;
+constexpr uint32_t kPiece = shared::kTileTexels;
 constexpr uint64_t kBytesOfTexel = sizeof(uint16_t);
 static_assert(kLeastMapSide == shared::kRegion);
 
@@ -30,9 +31,7 @@ ShadowAtlas::ShadowAtlas(std::vector<ShadowMapLayout> layouts, double scale)
     : layouts_(std::move(layouts)),
       scale_(scale),
       texels_(std::clamp<uint64_t>(largest_texels(layouts_), kPiece, kMostMapTexels)),
-      places_(uint32_t(texels_ / kPiece)) {
-    for (uint32_t k = kTiles; k-- > 0;) free_tiles_.push_back(uint32_t(texels_) + k * kTileTexels);
-}
+      places_(uint32_t(texels_ / kPiece)) {}
 
 ShadowAtlas::Change ShadowAtlas::fit(const gpu_scene::LampList& list, uint64_t most_texels,
                                      const std::vector<bool>& moving) {
@@ -103,13 +102,6 @@ bool ShadowAtlas::place(std::vector<uint32_t> lamps) {
         layouts_[lamp].first = *at * kPiece;
     }
     return true;
-}
-
-std::optional<uint32_t> ShadowAtlas::allocate() {
-    if (free_tiles_.empty()) return std::nullopt;
-    const uint32_t first = free_tiles_.back();
-    free_tiles_.pop_back();
-    return first;
 }
 
 }  // namespace vesper::render

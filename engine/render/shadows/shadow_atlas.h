@@ -1,7 +1,6 @@
 // The atlas: shadow maps of all lamps in one buffer of texels. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "gpu/buddy_allocator.h"
@@ -10,17 +9,14 @@
 
 namespace vesper::render {
 
-/// Allocates maps, with sides that depend on the view; and, beside them, single tiles of shared::kRegion texels square.
+/// Allocates maps, with sides that depend on the view.
 class ShadowAtlas {
 public:
-    static constexpr uint32_t kTiles = 2048;  ///< 16 MiB
-    static constexpr uint32_t kTileTexels = shared::kRegion * shared::kRegion;
-
     /// `scale`: of sides, see choose_sides.
     ShadowAtlas(std::vector<ShadowMapLayout> layouts, double scale);
 
     const ShadowMapLayout& operator[](uint32_t lamp) const { return layouts_[lamp]; }
-    uint64_t texels() const { return texels_ + uint64_t(kTiles) * kTileTexels; }  ///< of the buffer
+    uint64_t texels() const { return texels_; }  ///< of the buffer
 
     struct Change {
         std::vector<uint32_t> lamps;       ///< whose maps have another side, and hold nothing
@@ -32,10 +28,6 @@ public:
     /// all lamps do not fit kMostMapTexels.
     Change fit(const gpu_scene::LampList& list, uint64_t most_texels, const std::vector<bool>& moving);
 
-    /// First texel of a free tile; nothing if there is none.
-    std::optional<uint32_t> allocate();
-    void release(uint32_t first) { free_tiles_.push_back(first); }
-
 private:
     bool place(std::vector<uint32_t> lamps);
     Change place_all(const gpu_scene::LampList& list, const std::vector<ShadowMapLayout>& wanted,
@@ -43,9 +35,8 @@ private:
 
     std::vector<ShadowMapLayout> layouts_;  // of each lamp; side 0: it has no place
     double scale_;
-    uint64_t texels_;  // of maps; tiles follow
+    uint64_t texels_;
     gpu::BuddyAllocator places_;
-    std::vector<uint32_t> free_tiles_;  // first texels, the next one last
 };
 
 }  // namespace vesper::render

@@ -6,7 +6,7 @@ namespace vesper::render {
 namespace {
 
 // To be raised whenever code on the host draws other texels: layouts, frames, levels of masks, what is left out.
-constexpr uint64_t kMapVersion = 3;
+constexpr uint64_t kMapVersion = 4;
 
 constexpr uint64_t kTexelBytes = sizeof(uint16_t);
 
@@ -30,7 +30,6 @@ Digest::Value shadow_map_key(const Digest::Value& surroundings, const ShadowMapT
     digest.add_value(layout.zoom), digest.add_value(layout.range), digest.add_value(layout.flat);
     digest.add_value(map.frame.position), digest.add_value(map.frame.rotation);
     digest.add_list(map.fixture);
-    digest.add_value(map.lamp);
     return digest.value();
 }
 

@@ -178,38 +178,11 @@ std::span<const glm::dvec2> quadrants_of(const ShadowMapLayout& layout) {
     return kFour;
 }
 
-bool may_see(const MapWindow& window, glm::dvec2 signs, glm::dvec3 centre, double radius) {
+bool may_see(double zoom, glm::dvec2 signs, glm::dvec3 centre, double radius) {
     const auto outside = [&](glm::dvec3 inward) { return glm::dot(inward, centre) < -radius * glm::length(inward); };
-    const glm::dvec3 norm(signs, 1), u(window.zoom, window.zoom, 0), v(window.zoom, -window.zoom, 0);
-    return !outside({signs.x, 0, 0}) && !outside({0, signs.y, 0}) && !outside({0, 0, 1}) &&
-           !outside(u - window.low.x * norm) && !outside(v - window.low.y * norm) &&
-           !outside(window.high.x * norm - u) && !outside(window.high.y * norm - v);
-}
-
-std::vector<glm::uvec2> tiles_of(const ShadowMapLayout& layout, glm::dvec3 centre, double radius) {
-    // u and v of a direction change by at most sqrt(5) times its angle: at the axes of x and y.
-    constexpr double kSteepest = 2.24;
-    const double away = glm::length(centre), zoom = double(layout.zoom);
-    glm::dvec2 low(-1), high(1);
-    if (away > radius && !layout.flat) {
-        const glm::dvec3 o(centre.x, centre.y, std::abs(centre.z));  // what is behind is no nearer to what is before
-        const glm::dvec2 middle = zoom / (std::abs(o.x) + std::abs(o.y) + o.z) * glm::dvec2(o.x + o.y, o.x - o.y);
-        const double reach = kSteepest * zoom * std::asin(radius / away);
-        low = glm::max(low, middle - reach), high = glm::min(high, middle + reach);
-    }
-    std::vector<glm::uvec2> tiles;
-    if (low.x >= high.x || low.y >= high.y || layout.side == 0) return tiles;
-    const double count = double(layout.side / shared::kRegion), width = 2 / count;
-    const glm::uvec2 first(glm::floor((0.5 * low + 0.5) * count)), end(glm::ceil((0.5 * high + 0.5) * count));
-    for (uint32_t y = first.y; y < end.y; ++y)
-        for (uint32_t x = first.x; x < end.x; ++x) {
-            const glm::dvec2 corner = width * glm::dvec2(x, y) - 1.0;
-            const MapWindow window{zoom, corner, corner + width};
-            if (std::ranges::any_of(quadrants_of(layout),
-                                    [&](glm::dvec2 signs) { return may_see(window, signs, centre, radius); }))
-                tiles.push_back(glm::uvec2(x, y) * shared::kRegion);
-        }
-    return tiles;
+    const glm::dvec3 norm(signs, 1), u(zoom, zoom, 0), v(zoom, -zoom, 0);
+    return !outside({signs.x, 0, 0}) && !outside({0, signs.y, 0}) && !outside({0, 0, 1}) && !outside(norm + u) &&
+           !outside(norm + v) && !outside(norm - u) && !outside(norm - v);
 }
 
 glm::vec4 rotation_to_map(const glm::dmat3& rotation, const gpu_scene::View& view) {

@@ -64,19 +64,12 @@ struct MapFrame {
 /// Of a lamp at a node of this pose.
 MapFrame map_frame(const glm::dmat4& world);
 
-/// A part of the square of a hemisphere, seen from the lamp.
-struct MapWindow {
-    double zoom = 1;
-    glm::dvec2 low{-1}, high{1};  ///< (u, v) of shared/shadow_map.h
-};
 /// Signs of x and y of the quadrants that a hemisphere is drawn in one by one; zeros of a flat map.
 std::span<const glm::dvec2> quadrants_of(const ShadowMapLayout& layout);
-/// Whether something of a sphere may be seen through a window, within the quadrant of x and y of these signs; 0 for a
-/// flat map. The sphere is in the frame of the map, z mirrored for the second hemisphere, m. Never false where it is
-/// seen.
-bool may_see(const MapWindow& window, glm::dvec2 signs, glm::dvec3 centre, double radius);
-/// Corners (texels) of the tiles of a hemisphere, shared::kRegion texels square, that may see something of a sphere.
-std::vector<glm::uvec2> tiles_of(const ShadowMapLayout& layout, glm::dvec3 centre, double radius);
+/// Whether the square of a hemisphere with this zoom may see something of a sphere, within the quadrant of x and y of
+/// these signs; 0 for a flat map. The sphere is in the frame of the map, z mirrored for the second hemisphere, m. Never
+/// false where it is seen.
+bool may_see(double zoom, glm::dvec2 signs, glm::dvec3 centre, double radius);
 
 /// The quaternion from the frame of a view to that of a map with this rotation, as shaders take it.
 glm::vec4 rotation_to_map(const glm::dmat3& rotation, const gpu_scene::View& view);

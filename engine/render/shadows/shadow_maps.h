@@ -4,12 +4,12 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "base/cache.h"
 #include "render/light_settings.h"
+#include "render/shadows/casting_lamps.h"
 #include "render/shadows/draw_shadow_maps.h"
 #include "render/shadows/moving_placements.h"
 #include "render/shadows/shadow_atlas.h"
@@ -22,11 +22,11 @@ namespace vesper::render {
 
 /// Owns the maps on the device: finds on the host which are out of date, and declares passes that bring them up to date
 /// in the graph of a frame. A map holds what stands still around its lamp, drawn when its lamp moves or the view wants
-/// another size; and over it, tile by tile, what moves: a placement whose node is animated, said to move by a frame, or
-/// was seen to have moved. A placement does not hide lamps that give less than 1/100 of the light at it while it moves.
-/// The map of a lamp that moves has half the side, and holds what hides the lamp from the view and would get 0.1 lx of
-/// it undimmed. Sizes depend on the view; what a view sees of the maps depends on the scene, and on what has moved
-/// once. Not thread-safe.
+/// another size; and over it what moves, drawn in each frame: a placement whose node is animated, said to move by a
+/// frame, or was seen to have moved. A placement does not hide lamps that give less than 1/100 of the light at it while
+/// it moves. The map of a lamp that moves has half the side, and holds what hides the lamp from the view and would get
+/// 0.1 lx of it undimmed. Sizes depend on the view; what a view sees of the maps depends on the scene, and on what has
+/// moved once. Not thread-safe.
 class ShadowMaps {
 public:
     /// Refers to all of these. `resolution`: of the sides that the plan chooses, as a factor.
@@ -37,17 +37,19 @@ public:
     /// draws all. The cache must outlive its use here.
     void use(Cache* cache) { cache_ = cache; }
 
-    /// Finds what is out of date for a frame. `budget`: of tiles of shared::kRegion texels square that are drawn, maps
-    /// that hold nothing yet apart; a whole map counts as its tiles, but at least as 128, and a quarter of the budget
-    /// is for these alone. What gives the picture most comes first, the rest is counted as deferred. Host work only.
-    /// Throws Error where the maps of all lamps do not fit.
-    /// `caster_error`: texels, see ShadowMapToDraw; where it is another one than before, all maps are drawn anew.
+    /// Finds what is out of date for a frame. `budget`: of maps that are drawn, those that hold nothing yet apart, in
+    /// tiles of shared::kRegion texels square; a map counts as its tiles, but at least as 128. What gives the picture
+    /// most comes first, the rest is counted as deferred. Host work only. Throws Error where the maps of all lamps do
+    /// not fit. `caster_error`: texels, see ShadowMapToDraw; where it is another one than before, all maps are drawn
+    /// anew.
     void plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses, const gpu_scene::View& view,
               uint64_t budget, double caster_error);
-    /// Declares the work that plan() found, with its arguments; declared again, nothing is left to draw. Returns the
-    /// maps of the lamps of the list.
+    /// Declares the work that plan() found, with its arguments; declared again, nothing is left to draw. Lamps that
+    /// move cast none where one view alone asks and they give little light, together `unshadowed_share`
+    /// (add_casting_lamps); without `lists` all do. Returns the maps of the lamps of the list.
     FrameShadowMaps declare(const FrameContext& frame, const gpu_scene::LampList& list,
-                            const gpu_scene::SceneFrame& poses);
+                            const gpu_scene::SceneFrame& poses, const BlockLists* lists = nullptr,
+                            float unshadowed_share = 0);
     /// A frame that was declared has failed: all maps are drawn anew.
     void forget();
     /// Gives maps of a finished frame to the cache. Returns why the cache keeps no more, once.
@@ -61,61 +63,47 @@ private:
     /// The content of a lamp's map.
     struct Map {
         bool drawn = false;    // it holds what stands still
-        bool whole = false;    // it is drawn as that of a lamp that moves
-        bool culled = false;   // it holds casters of one view alone
-        uint64_t version = 0;  // of what moves, in maps that are drawn as a whole
+        bool culled = false;   // of a lamp that moves: it holds casters of one view alone
+        uint64_t version = 0;  // of what moves, in maps of lamps that move
     };
-    /// Whether maps that are drawn as a whole hold the casters of one view alone. Frames at the same poses from other
+    /// Whether maps of lamps that move hold the casters of one view alone. Frames at the same poses from other
     /// places are known only after the first: a moment is drawn for one view if the moment before had one.
     enum class ViewCulling {
         Off,      // this moment has several views
         Pending,  // one until now, the moment before had several
         On        // one until now, as the moment before
     };
-    struct TileId {
-        uint32_t lamp;
-        bool second;    // hemisphere
-        uint32_t x, y;  // corner, texels
-        auto operator<=>(const TileId&) const = default;
-    };
-    /// A tile over which moving placements are drawn.
-    struct DynamicTile {
-        std::vector<std::pair<uint32_t, uint64_t>> placements;  // and their versions
-        double priority = 0;
-        uint32_t saved = 0;  // first texel of the still content
-        bool save = false;   // which is not saved yet
-    };
-    using Tiles = std::map<TileId, DynamicTile>;
+    /// For lamps that stand still, the placements that move and hide them, and their versions.
+    using Bodies = std::map<uint32_t, std::vector<std::pair<uint32_t, uint64_t>>>;
 
     /// The maps in the graph of a frame.
     struct Declared {
         const FrameContext& frame;
         const gpu_scene::LampList& list;
         const gpu_scene::SceneFrame& poses;
-        graph::Resource distances;
+        graph::Resource still, distances;
         ShadowMapScratch scratch;
     };
 
+    void declare_restoring(const Declared& to);
     void declare_moves(const Declared& to);
-    void declare_maps(Declared& to);
-    void declare_tiles(Declared& to);
+    void declare_still_maps(const Declared& to);
+    void declare_what_moves(const Declared& to);
     void find_cached(const gpu_scene::SceneFrame& poses);
     ShadowMapToDraw map_of(uint32_t lamp, const gpu_scene::SceneFrame& poses) const;
+    static uint32_t number_of(uint32_t lamp, const gpu_scene::LampList& list);
+    graph::Resource lamps_of(const Declared& to, const BlockLists* lists, float unshadowed_share) const;
     IsCaster casters_of(uint32_t lamp, const Declared& to) const;
     void update_view(const gpu_scene::View& view, const gpu_scene::SceneFrame& poses);
     void forget_still(const std::vector<uint32_t>& placements);
     bool moves(uint32_t lamp) const { return moving_.moves(lamps_[lamp].node); }
-    bool is_whole(uint32_t lamp) const { return maps_[lamp].whole || moves(lamp); }
     bool is_out_of_date(const Map& map) const {
         return map.version != moving_.version() || (map.culled && culling_ != ViewCulling::On);
     }
     bool culls() const { return current_ && culling_ == ViewCulling::On; }
-    void release_tiles(uint32_t lamp);
     void plan_new_maps(const gpu_scene::LampList& list, uint64_t& budget);
     void plan_moved_maps(const gpu_scene::LampList& list, uint64_t budget);
-    Tiles dynamic_tiles(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses,
-                        const gpu_scene::View& view) const;
-    void plan_tiles(Tiles wanted, const gpu_scene::LampList& list, uint64_t& budget);
+    Bodies bodies_in_light(const gpu_scene::LampList& list, const gpu_scene::View& view) const;
 
     const gpu_scene::GpuScene& resident_;
     const std::vector<gpu_scene::PlacedLamp>& lamps_;
@@ -123,17 +111,20 @@ private:
     ShadowAtlas atlas_;
     MovingPlacements moving_;
     gpu::Arena arena_;
-    gpu::OwnedBuffer distances_;
-    std::vector<Map> maps_;  // of lamps
-    gpu_scene::View view_;   // of the last plan()
+    gpu::OwnedBuffer still_;      // texels of all maps, with what stands still alone
+    gpu::OwnedBuffer distances_;  // the same, with what moves
+    gpu::OwnedBuffer changed_;    // tiles that differ between the two (shared::ChangedTile)
+    bool lists_nothing_ = true;   // `changed_` is to be emptied
+    std::vector<Map> maps_;       // of lamps
+    gpu_scene::View view_;        // of the last plan()
     ViewCulling culling_ = ViewCulling::Off;
     double caster_error_ = 0;             // texels
     bool current_ = true;                 // no map is ever out of date
-    Tiles tiles_;                         // that hold moving placements
+    Bodies bodies_, drawn_bodies_;        // wanted, and in the maps
+    bool draws_bodies_ = false;           // in this frame
     std::vector<uint32_t> maps_to_draw_;  // lamps
-    std::vector<std::pair<TileId, DynamicTile>> tiles_to_draw_;
-    std::vector<graph::Region> moves_;           // of texels, to be made before, bytes
-    std::map<TileId, uint32_t> deferred_tiles_;  // and for how many frames
+    std::vector<uint32_t> copied_;        // likewise: still maps that are new
+    std::vector<graph::Region> moves_;    // of texels, to be made before, bytes
     std::map<uint32_t, uint32_t> deferred_maps_;
     ShadowReport report_;
     Cache* cache_ = nullptr;

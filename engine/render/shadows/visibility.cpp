@@ -14,15 +14,9 @@ constexpr gpu::Shader kVisibility{"visibility.comp", visibility_comp, visibility
 Blocks add_visibility(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, Blocks blocks,
                       const FrameShadowMaps& maps, float shadow_error) {
     graph::FrameGraph& graph = frame.graph;
-    if (!maps.lamps) {
-        blocks.visibility = graph.upload("visibility report", std::vector<shared::VisibilityReport>(1));
-        return blocks;
-    }
+    if (!maps.lamps) return blocks;
     const VkExtent2D extent = frame.view.extent;
     const LampKinds kinds = lamp_kinds(clusters);
-    blocks.visibility =
-        graph.transient("visibility report", graph::buffer_shape(sizeof(shared::VisibilityReport), VK_FORMAT_R32_UINT));
-    graph.clear("clear visibility report", blocks.visibility);
     const gpu::Kernel& kernel = frame.kernels.get(kVisibility, {kinds.powers, kinds.tables, frame.lockstep()});
     const uint32_t rows = blocks.count / blocks.columns;
     blocks.shares = graph.transient(

@@ -30,7 +30,7 @@ std::vector<float> draw(PassRig& rig, const scene::Scene& scene, std::span<const
     std::iota(all.begin(), all.end(), 0u);
     for (render::ShadowMapToDraw& map : maps) map.placements = all;
     return drawn_texels(rig, texels, [&](const render::FrameContext& frame, graph::Resource words) {
-        render::ShadowMapScratch scratch = render::add_shadow_map_scratch(frame, resident);
+        const render::ShadowMapScratch scratch = render::add_shadow_map_scratch(frame, resident);
         const gpu_scene::SceneFrame poses{world, {}, {}, {}, {}};
         render::add_shadow_maps(frame, resident, poses, render::standing_cells(resident, all, poses), maps, words,
                                 scratch);
@@ -108,7 +108,7 @@ TEST(ShadowMap, HoldsTheFirstSurfaceAlongEachRay) {
     const glm::dmat4 tilted = glm::translate(glm::dmat4(1), glm::dvec3(0.2, 1, -0.3)) *
                               glm::mat4_cast(glm::angleAxis(-1.4, glm::normalize(glm::dvec3(1, 0.1, 0.2))));
     const uint32_t own[] = {3};  // the box above is its fixture
-    // Two hemispheres, two beams, the second on a flat map, and a lamp with a fixture, in one image.
+    // Two hemispheres, two beams, the second on a flat map, and a lamp with a fixture, drawn together.
     render::ShadowMapToDraw maps[] = {
         {{.side = 64, .hemispheres = 2, .zoom = 1, .range = 100, .radius = 0, .first = 0},
          render::map_frame(tilted),
@@ -126,7 +126,6 @@ TEST(ShadowMap, HoldsTheFirstSurfaceAlongEachRay) {
          render::map_frame(glm::translate(glm::dmat4(1), glm::dvec3(0.5, 1.9, 0.3))),
          own,
          {}}};
-    for (uint32_t i = 0; i < 4; ++i) maps[i].lamp = i;
     const std::vector<float> drawn = draw(rig, s.scene(), maps, 32768 + 16384);
     for (const render::ShadowMapToDraw& map : maps)
         for (uint32_t h = 0; h < map.layout.hemispheres; ++h) {
@@ -187,8 +186,7 @@ TEST(ShadowMap, FarCellsAreSimplifiedByLessThanTheErrorOfTheMap) {
     }
 }
 
-// 40 maps, of which some have the same place in an image.
-TEST(ShadowMap, ManyMapsTakeSeveralImages) {
+TEST(ShadowMap, ManyMapsAreDrawnAtOnce) {
     PassRig rig;
     OccluderScene s;
     s.box({0, 0, 0}, glm::vec3(10));  // all around, at 10 m along the axes
@@ -200,7 +198,6 @@ TEST(ShadowMap, ManyMapsTakeSeveralImages) {
                         render::map_frame(glm::dmat4(1)),
                         {},
                         {}});
-        maps.back().lamp = i / 2;
         first += side * side;
     }
     const std::vector<float> drawn = draw(rig, s.scene(), maps, first);
@@ -229,7 +226,6 @@ TEST(ShadowMap, TexelsDoNotDependOnWhatElseIsDrawn) {
                         render::map_frame(glm::mat4_cast(glm::dquat(turned))),
                         {},
                         {}});
-        maps.back().lamp = i;
         first += 2 * side * side;
     }
     const std::vector<float> together = draw(rig, s.scene(), maps, first);
@@ -238,7 +234,7 @@ TEST(ShadowMap, TexelsDoNotDependOnWhatElseIsDrawn) {
         size_t differ = 0;
         for (size_t i = map.layout.first; i < map.layout.first + map.layout.texels(); ++i)
             differ += alone[i] != together[i] ? 1 : 0;
-        EXPECT_EQ(differ, 0u) << "lamp " << map.lamp;
+        EXPECT_EQ(differ, 0u) << "map from " << map.layout.first;
     }
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -360,8 +356,8 @@ TEST(ShadowMap, SheetsOfSmallAndLargeTrianglesHaveNoGaps) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
-// Each map has the leaves that its lamp sees, and none of those of its neighbours in the image.
-TEST(ShadowMap, LeavesHideWhatTheyHideInEveryMapOfAnImage) {
+// Each map has the leaves that its lamp sees, and none of those of others.
+TEST(ShadowMap, LeavesHideWhatTheyHideInEveryMap) {
     PassRig rig;
     OccluderScene s = leaves();
     s.box({0, 0, 0}, glm::vec3(9));
@@ -386,7 +382,6 @@ TEST(ShadowMap, LeavesHideWhatTheyHideInEveryMapOfAnImage) {
                         render::map_frame(pose),
                         {},
                         {}});
-        maps.back().lamp = i;
         first += maps.back().layout.texels();
     }
     const std::vector<float> drawn = draw(rig, s.scene(), maps, first);
@@ -394,7 +389,7 @@ TEST(ShadowMap, LeavesHideWhatTheyHideInEveryMapOfAnImage) {
     for (const render::ShadowMapToDraw& map : maps)
         for (uint32_t h = 0; h < map.layout.hemispheres; ++h) {
             const uint32_t side = map.layout.side, begin = map.layout.first + h * side * side;
-            SCOPED_TRACE("map of lamp " + std::to_string(map.lamp));
+            SCOPED_TRACE("map from " + std::to_string(begin));
             // Where opacity passes the cutoff between two corners float may have it beside: 1 of 5,000.
             expect_rays(rays, map, h == 1, &drawn[begin], std::max(2.5 * snapped(rig.device()), 0.01),
                         snaps_coarsely(rig.device()), 1 + side * side / 5000);

@@ -13,13 +13,14 @@ layout(location = 2) in vec4 colour;
 layout(location = 3) in vec4 row_x;
 layout(location = 4) in vec4 row_y;
 layout(location = 5) in vec4 row_z;
-layout(location = 6) in vec4 place;
-layout(location = 7) in vec4 window;
-layout(location = 8) in float y_sign;
-layout(location = 9) in float overlap;
+layout(location = 6) in uint number;
 
-layout(location = 0) out vec2 texture_uv;
-layout(location = 1) out float opacity;
+layout(binding = 0, scalar) readonly buffer Quadrants { MapQuadrant quadrants[]; };
+
+layout(location = 0) flat out uint first;
+layout(location = 1) flat out uint side;
+layout(location = 2) out vec2 texture_uv;
+layout(location = 3) out float opacity;
 
 out float gl_ClipDistance[7];
 
@@ -27,9 +28,12 @@ out float gl_ClipDistance[7];
 
 void main() {
     const vec4 p = vec4(position, 1.0);
-    const InQuadrant at = to_quadrant(vec3(dot(row_x, p), dot(row_y, p), dot(row_z, p)), place, window, y_sign, overlap);
-    gl_Position = at.position;
+    const MapQuadrant quadrant = quadrants[number];
+    const InQuadrant at = to_quadrant(vec3(dot(row_x, p), dot(row_y, p), dot(row_z, p)), quadrant);
+    gl_Position = in_raster(at, quadrant);
     for (int i = 0; i < 7; ++i) gl_ClipDistance[i] = at.outside[i];
+    first = quadrant.first;
+    side = quadrant.side;
     texture_uv = uv;
     opacity = colour.a;
 }

@@ -16,6 +16,6 @@ if(DOXYGEN_FOUND)
     set(DOXYGEN_WARN_AS_ERROR FAIL_ON_WARNINGS)
     set(DOXYGEN_EXCLUDE_SYMBOLS VESPER_VESPER_H VESPER_VULKAN_H VESPER_VISION_H VESPER_VESPER_HPP VESPER_ROADS_HPP VESPER_ROAD_LIGHTING_HPP)
     doxygen_add_docs(docs ${PROJECT_SOURCE_DIR}/engine/include/vesper ${PROJECT_SOURCE_DIR}/docs/embedding.md
-                     ${PROJECT_SOURCE_DIR}/docs/embedding-device.md ${PROJECT_SOURCE_DIR}/docs/embedding-vision.md ${PROJECT_SOURCE_DIR}/docs/quality.md ${PROJECT_SOURCE_DIR}/docs/tone-settings.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
+                     ${PROJECT_SOURCE_DIR}/docs/embedding-device.md ${PROJECT_SOURCE_DIR}/docs/embedding-vision.md ${PROJECT_SOURCE_DIR}/docs/quality.md ${PROJECT_SOURCE_DIR}/docs/quality-errors.md ${PROJECT_SOURCE_DIR}/docs/tone-settings.md ${PROJECT_SOURCE_DIR}/CHANGELOG.md
                      COMMENT "Reference documentation")
 endif()

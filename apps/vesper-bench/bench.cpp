@@ -82,6 +82,8 @@ std::vector<Planned> planned_runs(const BenchArguments& a) {
         s.tone_operator = apps::name_of(run.plan.render.tone_operator), s.glare = glare, s.channels = channels;
         s.width = apps::parse_size(size).width, s.height = apps::parse_size(size).height;
         apps::apply_settings(a.light, run.plan.render);
+        if (channels > 1 && run.plan.render.scale < 1)
+            throw Error("--scale: channels have sizes of their own (--channels)");
         s.light = apps::recorded_settings(a.light.quality, run.plan.render);
         if (!a.cache.empty()) run.plan.map_cache = apps::cache_of(a.cache);
         runs.push_back(std::move(run));
@@ -241,7 +243,7 @@ void add_bench(apps::Command program) {
     apps::add_cache_option(program, a->cache, "off; one that is empty at first for the timing of starts");
     apps::add_quality_option(program, a->light);
     a->light.own.set("indirect", 0);
-    apps::add_setting_options(program, a->light, {"display_average", "scale"});
+    apps::add_setting_options(program, a->light, {"display_average"});
     program.add_option("--device", a->run.device,
                        "Part of a name, cpu, or an index of vesper devices (also VESPER_DEVICE)");
     apps::add_thread_option(program, a->threads);

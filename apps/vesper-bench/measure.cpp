@@ -14,6 +14,7 @@
 #include "machine.h"
 #include "print.h"
 #include "render/seen_triangles.h"
+#include "scaled_picture.h"
 #include "scene/placement.h"
 
 namespace vesper::bench {
@@ -62,6 +63,7 @@ public:
         : plan_(plan),
           scene_(scene),
           seconds_(scene::animation_length(scene) > 0 ? scene::animation_length(scene) : kStanding),
+          scaled_(plan.extent(), plan.render.scale),
           renderer_(device, scene) {
         renderer_.keep_maps(plan.map_cache);
         apps::give_indirect(renderer_, plan.render, scene, scene::world_transforms(scene, 0),
@@ -73,12 +75,11 @@ public:
         Stopwatch whole, watch;
         const double began = processor_ms();
         const gpu_scene::SceneFrame moment{scene::world_transforms(scene_, part * seconds_)};
-        const std::vector<gpu_scene::View> views = channel_views(
-            gpu_scene::camera_view(scene_, moment, plan_.camera, plan_.extent()), plan_.settings.channels);
+        const std::vector<gpu_scene::View> views = views_at(moment);
         std::array<double, kHostParts.size()> host{watch.lap()};
         std::vector<graph::Timing> timings;
         for (const gpu_scene::View& view : views) {
-            last_ = renderer_.render(plan_.render, view, moment, float(step / double(views.size())), {});
+            last_ = renderer_.render(plan_.render, view, moment, float(step / double(views.size())), outputs());
             apps::print_cache_note(last_.maps.note);
             const graph::HostTimes& times = last_.host_times;
             const double parts[]{times.declare, times.plan, times.record, times.submit, times.wait};
@@ -95,10 +96,10 @@ public:
         for (uint32_t i = 0; i < frames; ++i) {
             const double part = double(i) / frames;
             const gpu_scene::SceneFrame moment{scene::world_transforms(scene_, part * seconds_)};
-            const std::vector<gpu_scene::View> views = channel_views(
-                gpu_scene::camera_view(scene_, moment, plan_.camera, plan_.extent()), plan_.settings.channels);
+            const std::vector<gpu_scene::View> views = views_at(moment);
             for (const gpu_scene::View& view : views)
-                renderer_.submit(plan_.render, view, moment, float(seconds_ / frames / double(views.size())), {}, {});
+                renderer_.submit(plan_.render, view, moment, float(seconds_ / frames / double(views.size())), outputs(),
+                                 {});
         }
         renderer_.finish();
         return 1000 * frames / watch.milliseconds();
@@ -106,8 +107,7 @@ public:
     /// What all channels draw and see at a part of the path.
     void count_triangles(const render::TriangleCounter& counter, double part, double weight, RunResult& result) {
         const gpu_scene::SceneFrame moment{scene::world_transforms(scene_, part * seconds_)};
-        const gpu_scene::View camera = gpu_scene::camera_view(scene_, moment, plan_.camera, plan_.extent());
-        for (const gpu_scene::View& view : channel_views(camera, plan_.settings.channels)) {
+        for (const gpu_scene::View& view : views_at(moment)) {
             const render::SeenTriangles counts = counter.count(renderer_.scene(), moment, view);
             result.parts.in_view += weight * double(counts.parts),
                 result.parts.seen += weight * double(counts.seen_parts);
@@ -120,6 +120,11 @@ public:
     render::Frame& last() { return last_; }
 
 private:
+    std::vector<gpu_scene::View> views_at(const gpu_scene::SceneFrame& moment) const {
+        const gpu_scene::View camera = gpu_scene::camera_view(scene_, moment, plan_.camera, plan_.extent());
+        return channel_views(scaled_.rendered(camera), plan_.settings.channels);
+    }
+    render::Outputs outputs() const { return {.projection = scaled_.enlargement()}; }
     void count_lamps(const gpu_scene::View& view, RunSamples& samples) const {
         const shared::VisibilityReport& pairs = last_.visibility;
         const graph::Groups blocks =
@@ -132,6 +137,7 @@ private:
     const RunPlan& plan_;
     const scene::Scene& scene_;
     double seconds_;
+    apps::ScaledPicture scaled_;
     render::Renderer renderer_;
     render::Frame last_;
 };

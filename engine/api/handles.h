@@ -97,6 +97,8 @@ template <class T>
 constexpr size_t kFirstSize = sizeof(T);
 template <>
 inline constexpr size_t kFirstSize<VesperToneSettings> = offsetof(VesperToneSettings, options);
+template <>
+inline constexpr size_t kFirstSize<VesperSetting> = offsetof(VesperSetting, interactive);
 
 /// Copies a caller's structure. Fields that an older caller lacks are zero; fields that only a newer caller has are
 /// ignored.

@@ -70,9 +70,10 @@ VesperResult vesper_setting_at(uint32_t index, VesperSetting* setting, VesperErr
                                  .help = named.help.c_str(),
                                  .low = row.low,
                                  .high = row.high,
-                                 .draft = row.value(render::Quality::Draft),
+                                 .fast = row.value(render::Quality::Fast),
                                  .standard = row.value(render::Quality::Standard),
-                                 .exact = row.value(render::Quality::Exact)},
+                                 .exact = row.value(render::Quality::Exact),
+                                 .interactive = row.value(render::Quality::Interactive)},
                    setting);
     });
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "base/error.h"
@@ -36,7 +37,8 @@ Quality quality_named(std::string_view name) {
     if (found != kQualityNames.end()) return Quality(found - kQualityNames.begin());
     std::string names;
     for (const std::string_view known : kQualityNames) names += (names.empty() ? "" : ", ") + std::string(known);
-    throw Error("there is no quality " + one_line(std::string(name), 40) + ": " + names + " are known");
+    const std::string now = name == "draft" ? " any more, it is fast now" : "";
+    throw Error("there is no quality " + one_line(std::string(name), 40) + now + ": " + names + " are known");
 }
 
 std::string Setting::option() const {
@@ -45,7 +47,7 @@ std::string Setting::option() const {
     return made;
 }
 
-bool Setting::differs() const { return values[0] != values[1] || values[1] != values[2]; }
+bool Setting::differs() const { return std::ranges::adjacent_find(values, std::not_equal_to()) != values.end(); }
 
 double Setting::rounded(double value) const { return kind == SettingKind::Float ? double(float(value)) : value; }
 

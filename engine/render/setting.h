@@ -13,8 +13,8 @@
 namespace vesper::render {
 
 /// Named sets of values for all settings of light, from the fastest to the most exact.
-enum class Quality : uint8_t { Draft, Standard, Exact };
-constexpr std::array<std::string_view, 3> kQualityNames{"draft", "standard", "exact"};
+enum class Quality : uint8_t { Fast, Interactive, Standard, Exact };
+constexpr std::array<std::string_view, 4> kQualityNames{"fast", "interactive", "standard", "exact"};
 /// Throws Error, which lists the names.
 Quality quality_named(std::string_view name);
 
@@ -27,7 +27,7 @@ struct Setting {
     double low = 0, high = 1;                     ///< infinity: unlimited
     std::span<const std::string_view> choices{};  ///< of a Choice, whose value is the index of one
     SettingKind kind = SettingKind::Switch;
-    std::array<double, 3> values{};  ///< by Quality; switches are 0 and 1
+    std::array<double, kQualityNames.size()> values{};  ///< by Quality; switches are 0 and 1
 
     double value(Quality quality) const { return values[size_t(quality)]; }
     std::string option() const;      ///< "shadow-error"

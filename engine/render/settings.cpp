@@ -8,13 +8,13 @@
 namespace vesper::render {
 namespace {
 
-#define VESPER_IS_MOST(type, name, unit, low, high, draft, standard, exact, help) \
+#define VESPER_IS_MOST(type, name, unit, low, high, fast, interactive, standard, exact, help) \
     static_assert(std::string_view(#name) != "samples" || double(high) == kMostSamples);
 VESPER_LIGHT_SETTINGS(VESPER_IS_MOST)
 #undef VESPER_IS_MOST
 
 template <class Member>
-LightSetting row_of_light(const Setting& row, const std::array<double, 3>& values, Member member) {
+LightSetting row_of_light(const Setting& row, const decltype(Setting::values)& values, Member member) {
     LightSetting made = setting_of<LightSettings>(row, member);
     made.values = values;
     return made;
@@ -25,10 +25,10 @@ LightSetting row_of_light(const Setting& row, const std::array<double, 3>& value
 std::span<const LightSetting> light_rows() {
     static const auto kRows = [] {
         std::vector<LightSetting> rows;
-#define VESPER_ROW(type, name, unit, low, high, draft, standard, exact, help)        \
-    rows.push_back(row_of_light(                                                     \
-        {#name, unit, help, "Light", number_of(low), number_of(high)},               \
-        {number_of(type(draft)), number_of(type(standard)), number_of(type(exact))}, \
+#define VESPER_ROW(type, name, unit, low, high, fast, interactive, standard, exact, help)                         \
+    rows.push_back(row_of_light(                                                                                  \
+        {#name, unit, help, "Light", number_of(low), number_of(high)},                                            \
+        {number_of(type(fast)), number_of(type(interactive)), number_of(type(standard)), number_of(type(exact))}, \
         [](auto& settings) -> auto& { return settings.name; }));
         VESPER_LIGHT_SETTINGS(VESPER_ROW)
 #undef VESPER_ROW

@@ -32,18 +32,26 @@ TEST(Quality, ExactLeavesNothingOut) {
 
 TEST(Quality, SetsAreInTheOrderOfTheirBounds) {
     for (const auto& [less, more] :
-         {std::pair(Quality::Exact, Quality::Standard), {Quality::Standard, Quality::Draft}}) {
+         {std::pair(Quality::Exact, Quality::Standard), {Quality::Standard, Quality::Interactive}}) {
         const RenderSettings a = settings_of(less), b = settings_of(more);
         EXPECT_LT(a.threshold, b.threshold);
         EXPECT_LT(a.merge_error, b.merge_error);
         EXPECT_LT(a.shadow_error, b.shadow_error);
         EXPECT_LT(a.reflection_error, b.reflection_error);
     }
+    // The fast set differs by its pixels; nothing else is closer.
+    const RenderSettings fast = settings_of(Quality::Fast), interactive = settings_of(Quality::Interactive);
+    EXPECT_LT(fast.scale, interactive.scale);
+    EXPECT_GE(fast.threshold, interactive.threshold);
+    EXPECT_GE(fast.merge_error, interactive.merge_error);
+    EXPECT_GE(fast.shadow_error, interactive.shadow_error);
+    EXPECT_GE(fast.reflection_error, interactive.reflection_error);
 }
 
 std::string table() {
     std::string text =
-        "| setting | value | `draft` | `standard` | `exact` | meaning |\n| --- | --- | ---: | ---: | ---: | --- |\n";
+        "| setting | value | `fast` | `interactive` | `standard` | `exact` | meaning |\n"
+        "| --- | --- | ---: | ---: | ---: | ---: | --- |\n";
     for (const render::LightSetting& row : render::light_rows()) {
         text += "| `--" + row.option() + "` | " + row.range() + " | ";
         for (const double value : row.values) text += row.text(value) + " | ";
@@ -77,14 +85,37 @@ TEST(Quality, SettingsAreTextsThatReadBack) {
 }
 
 TEST(Quality, OfADriveIsASettingLikeOthers) {
-    drive::DriveSettings drive({{"quality", "draft"}, {"threshold", "0.0005"}});
-    RenderSettings want = settings_of(Quality::Draft);
+    drive::DriveSettings drive({{"quality", "fast"}, {"threshold", "0.0005"}});
+    RenderSettings want = settings_of(Quality::Fast);
     want.threshold = 0.0005f;
     expect_equal(drive.render(), want);
-    EXPECT_EQ(drive.quality(), "draft");
+    EXPECT_EQ(drive.quality(), "fast");
     drive.set("quality", "exact"), drive.set("threshold", "");
     expect_equal(drive.render(), settings_of(Quality::Exact));
     EXPECT_THROW(drive.set("quality", "best"), Error);
+}
+
+// Of a window, where none is chosen; what is chosen wins, and an empty text goes back.
+TEST(Quality, OfADriveThatNamesNoneIsThatOfItsProgram) {
+    drive::DriveSettings drive({{"threshold", "0.0005"}}, Quality::Interactive);
+    EXPECT_EQ(drive.quality(), "interactive");
+    EXPECT_EQ(drive.render().merge_error, settings_of(Quality::Interactive).merge_error);
+    drive.set("quality", "standard");
+    EXPECT_EQ(drive.quality(), "standard");
+    drive.set("quality", "");
+    EXPECT_EQ(drive.quality(), "interactive");
+    EXPECT_FALSE(drive.values().contains("quality")) << "so that films of a recording have the standard";
+    EXPECT_EQ(drive::DriveSettings().quality(), "standard");
+}
+
+TEST(Quality, TheSetOfOldIsNamed) {
+    try {
+        const drive::DriveSettings old(drive::DriveSettings::Values{{"quality", "draft"}});
+        FAIL();
+    } catch (const Error& error) {
+        const std::string what = error.what();
+        EXPECT_NE(what.find("quality draft any more, it is fast now"), what.npos) << what;
+    }
 }
 
 /// A lamp of 100 cd over a plane 20 m wide, which it gives from 25 to 0.08 lx.
@@ -139,21 +170,21 @@ TEST_F(QualityProgram, PicturesOfTheStandardAreThoseOfNone) {
 }
 
 TEST_F(QualityProgram, OptionsBesideItWinInAnyOrder) {
-    const io::HdrImage draft = picture("--quality draft");
-    for (const char* options : {"--quality draft --threshold 0.25", "--threshold 0.25 --quality draft"}) {
+    const io::HdrImage fast = picture("--quality fast");
+    for (const char* options : {"--quality fast --threshold 0.25", "--threshold 0.25 --quality fast"}) {
         const io::HdrImage picked = picture(options);
         EXPECT_EQ(value(picked, "vesper:threshold"), "0.25") << options;
-        EXPECT_EQ(value(picked, "vesper:quality"), "draft") << options;
-        EXPECT_GT(dark_pixels(picked).size(), dark_pixels(draft).size()) << options;
+        EXPECT_EQ(value(picked, "vesper:quality"), "fast") << options;
+        EXPECT_GT(dark_pixels(picked).size(), dark_pixels(fast).size()) << options;
     }
 }
 
 TEST_F(QualityProgram, DisplayImagesSayIt) {
-    ASSERT_EQ(run("render a.gltf --camera eye --size 8x8 --indirect off --quality draft -o a.png"), 0) << said;
+    ASSERT_EQ(run("render a.gltf --camera eye --size 8x8 --indirect off --quality fast -o a.png"), 0) << said;
     const std::string png = read_text(folder / "a.png");
     const size_t at = png.find("vesper:quality");
     ASSERT_NE(at, png.npos);
-    EXPECT_EQ(png.substr(at + std::string("vesper:quality").size() + 1, 5), "draft");
+    EXPECT_EQ(png.substr(at + std::string("vesper:quality").size() + 1, 4), "fast");
 }
 
 // The name says what was chosen, and numbers what held.
@@ -183,12 +214,12 @@ TEST_F(QualityProgram, BoundsAreRecordedBesideTheName) {
 
 // Before the passes, so that a reader sees which settings led to them.
 TEST_F(QualityProgram, ThePlanBeginsWithAllSettings) {
-    ASSERT_EQ(run("render a.gltf --camera eye --size 8x8 --indirect off --quality draft --plan"), 0) << said;
-    EXPECT_TRUE(printed.starts_with("settings of light, quality draft\n")) << printed;
+    ASSERT_EQ(run("render a.gltf --camera eye --size 8x8 --indirect off --quality fast --plan"), 0) << said;
+    EXPECT_TRUE(printed.starts_with("settings of light, quality fast\n")) << printed;
     for (const render::LightSetting& row : render::light_rows())
         EXPECT_NE(printed.find("\n  " + row.option() + " "), std::string::npos) << row.name;
     const render::LightSetting& row = render::light_row("threshold");
-    EXPECT_NE(printed.find(" " + row.text(row.value(Quality::Draft)) + " lx\n"), std::string::npos) << printed;
+    EXPECT_NE(printed.find(" " + row.text(row.value(Quality::Fast)) + " lx\n"), std::string::npos) << printed;
 }
 
 // A switch without a value is on.
@@ -204,7 +235,7 @@ TEST_F(QualityProgram, SwitchesTakeOnOffOrNothing) {
 }
 
 TEST_F(QualityProgram, RefusesOthers) {
-    expect_refused("render a.gltf -o a.png --quality best", {"--quality", "draft", "standard", "exact"});
+    expect_refused("render a.gltf -o a.png --quality best", {"--quality", "fast", "interactive", "standard", "exact"});
     expect_refused("render a.gltf -o a.png --threshold 5e3", {"--threshold", "5e3: a number from 1e-09 to 1000 lx"});
     expect_refused("render a.gltf -o a.png --merge-error -1", {"--merge-error", "-1: a number from 0 to 1 is"});
     expect_refused("render a.gltf -o a.png --shadow-error nan", {"--shadow-error"});

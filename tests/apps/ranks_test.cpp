@@ -137,7 +137,7 @@ TEST_F(RanksProgram, ScaledFilmsAreThoseOfOneProcess) {
                      drive() + "yard.gltf --headless --autopilot --seconds 0.1 --indirect off --size 61x37 --scale " +
                          "0.5 --glare temporal --video %/%d.png",
                      drive() + "yard.gltf --headless --autopilot --seconds 0.1 --indirect off --size 61x37 --scale " +
-                         "0.5 --quality draft --video %/%d.exr"}) {
+                         "0.5 --quality fast --video %/%d.exr"}) {
         for (const int ranks : {1, 2}) {
             const std::string to = std::to_string(ranks);
             std::string own = command;

@@ -82,15 +82,20 @@ TEST_F(DriveScale, IsInPicturesAndInTheLog) {
     const std::string png = read_text(folder / "a0.png");
     EXPECT_NE(png.find(std::string("vesper:scale\0000.25", 17)), png.npos);
     EXPECT_NE(png.find(std::string("vesper:quality\0standard", 23)), png.npos);
-    ASSERT_EQ(run(drive + "--scale 0.25 --quality draft --video b%d.exr"), 0) << said;
+    ASSERT_EQ(run(drive + "--scale 0.25 --quality fast --video b%d.exr"), 0) << said;
     const io::HdrImage light = io::read_exr(folder / "b0.exr");
     EXPECT_EQ(light.width, 16u);
     EXPECT_EQ(light.height, 10u);
     EXPECT_EQ(value(light, "vesper:scale"), "0.25");
-    EXPECT_EQ(value(light, "vesper:quality"), "draft");
+    EXPECT_EQ(value(light, "vesper:quality"), "fast");
     EXPECT_EQ(value(light, "vesper:mergeError"), "0.01");
     ASSERT_EQ(run("--headless --replay a.json --video b%d.exr"), 0) << said;
     EXPECT_EQ(io::read_exr(folder / "b0.exr").width, 64u) << "a recording is of whole pictures";
+    ASSERT_EQ(run("--headless --replay a.json --quality fast --video b%d.exr"), 0) << said;
+    EXPECT_EQ(io::read_exr(folder / "b0.exr").width, 32u) << "without --scale that of the quality holds";
+    ASSERT_EQ(run(drive + "--quality fast --record b.json --log b.csv"), 0) << said;
+    ASSERT_EQ(run("--headless --replay b.json --video b%d.exr"), 0) << said;
+    EXPECT_EQ(io::read_exr(folder / "b0.exr").width, 32u) << "of a recorded one, too";
     if (std::system("command -v ffmpeg >/dev/null") == 0) {
         ASSERT_EQ(run(drive + "--scale 0.5 --video a.mp4"), 0) << said;
         EXPECT_NE(read_text(folder / "a.mp4").find("vesper:scale=0.5"), std::string::npos);

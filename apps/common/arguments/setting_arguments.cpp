@@ -87,9 +87,18 @@ void add_row_option(Command command, const Setting& row, double value) {
 }
 
 void add_quality_option(Command command, SettingArguments& a) {
-    std::vector<std::string> names(render::kQualityNames.begin(), render::kQualityNames.end());
-    command.add_option("--quality", a.quality, "Of scenes: draft is faster, exact leaves nothing out (docs/quality.md)")
-        .check(one_of(names))
+    command
+        .add_option("--quality", a.quality,
+                    "Of scenes: fast, interactive, standard, or exact, which leaves nothing out (docs/quality.md)")
+        .check({[](const std::string& given) {
+                    try {
+                        render::quality_named(given);
+                        return std::string();
+                    } catch (const Error& refused) {
+                        return std::string(refused.what());
+                    }
+                },
+                "NAME"})
         .shows_default();
 }
 

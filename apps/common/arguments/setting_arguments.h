@@ -51,7 +51,7 @@ RecordedSettings recorded_standard();
 
 /// Members of a JSON object, in a line: "quality": "standard", "shadows": true, …
 std::string settings_json(const RecordedSettings&);
-/// The set and the values that differ from it: "draft, threshold 0.001 lx, shadows off".
+/// The set and the values that differ from it: "fast, threshold 0.001 lx, shadows off".
 std::string settings_words(const RecordedSettings&);
 /// All rows, one a line: "  threshold            0.001 lx".
 std::string settings_lines(const RecordedSettings&);

@@ -129,8 +129,11 @@ std::vector<std::pair<std::string, std::string>> growing_outputs(const DriveArgu
 }
 
 DriveStart start_of(const DriveArguments& a, const DriveStart& recorded) {
-    if (a.replay.empty()) return {.scene = a.scene, .messages = a.messages, .seed = a.seed, .settings = a.settings};
+    const render::Quality quality = a.headless ? render::Quality::Standard : render::Quality::Interactive;
+    if (a.replay.empty())
+        return {.scene = a.scene, .messages = a.messages, .seed = a.seed, .settings = a.settings, .quality = quality};
     DriveStart start = recorded;
+    start.quality = quality;
     for (const auto& [name, value] : a.settings) start.settings[name] = value;
     return start;
 }
@@ -239,8 +242,7 @@ void add_drive(apps::Command program) {
     program.callback_of_ranks([a, program] {
         apps::use_threads(a->threads);
         a->settings = DriveSettings::given(program);
-        if (const auto set = a->settings.find("quality"); set != a->settings.end() && program.count("--scale") == 0)
-            a->scale = render::light_row("scale").value(render::quality_named(set->second));
+        a->scale_given = program.count("--scale") > 0;
         take_messages(program, *a);
         check(program, *a);
         a->size_given = program.count("--size") > 0;

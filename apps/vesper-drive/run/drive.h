@@ -29,6 +29,7 @@ struct DriveArguments {
     bool headless = false, autopilot = false;
     double seconds = 20;                           ///< of a drive without a window, s
     double scale = render::LightSettings{}.scale;  ///< of each side of pictures, rendered and then enlarged
+    bool scale_given = false;                      ///< otherwise it is that of the quality
     double fps = 0;                                ///< of films, 1/s; 0: the recording's own frames, or 30
     uint64_t seed = 1;
     unsigned threads = 0;  ///< as apps::use_threads() takes it

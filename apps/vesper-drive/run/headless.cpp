@@ -81,9 +81,14 @@ std::pair<double, bool> rate_of(const DriveEvents& events, double time_step) {
 /// Where frames go.
 class Outlet {
 public:
-    /// `meets`: ranks do so to show a frame.
-    Outlet(const DriveArguments& a, VkExtent2D extent, bool meets)
-        : arguments_(a), extent_(extent), scaled_(extent, a.scale), probes_(probes_of(a.probes)), meets_(meets) {
+    /// `scale`: of each side that is rendered; `meets`: ranks do so to show a frame.
+    Outlet(const DriveArguments& a, VkExtent2D extent, double scale, bool meets)
+        : arguments_(a),
+          extent_(extent),
+          scale_(scale),
+          scaled_(extent, scale),
+          probes_(probes_of(a.probes)),
+          meets_(meets) {
         if (!a.video.empty()) {
             film_ = a.video.ends_with(".mp4");
             exr_ = a.video.ends_with(".exr");
@@ -172,7 +177,7 @@ private:
     }
     render::RenderSettings scaled(const DriveSettings& settings) const {
         render::RenderSettings made = settings.render();
-        made.scale = arguments_.scale;
+        made.scale = scale_;
         return made;
     }
     io::Header of_codes(const DriveSettings& settings) const {
@@ -199,6 +204,7 @@ private:
 
     const DriveArguments& arguments_;
     VkExtent2D extent_;
+    double scale_;
     apps::ScaledPicture scaled_;
     std::vector<LogProbe> probes_;
     bool film_ = false, exr_ = false;
@@ -278,8 +284,11 @@ void run_headless(const DriveArguments& a) {
     const VkExtent2D extent = channels                            ? extent_of(*channels)
                               : drive.start.size && !a.size_given ? VkExtent2D{drive.start.size->x, drive.start.size->y}
                                                                   : apps::parse_size(a.size);
-    Outlet outlet(a, extent, ranks.has_value());
     const DriveStart options = start_of(a, drive.start);
+    const double scale = channels        ? 1
+                         : a.scale_given ? a.scale
+                                         : DriveSettings(options.settings, options.quality).render().scale;
+    Outlet outlet(a, extent, scale, ranks.has_value());
     if (!drive.complete) apps::print_note(one_line(a.replay) + " breaks off; what there is of it is driven");
     const DriveEvent step{.kind = DriveEvent::Kind::Step,
                           .input = {.autopilot = a.autopilot},

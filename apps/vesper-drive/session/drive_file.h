@@ -18,8 +18,9 @@ struct DriveStart {
     std::filesystem::path scene;  ///< a world (.json), roads (.xodr) or a scene (.gltf, .glb)
     MessageSource messages;       ///< of objects that another program moves
     uint64_t seed = 1;
-    double time_step = 1.0 / 60;     ///< s
-    DriveSettings::Values settings;  ///< what differs from the defaults
+    double time_step = 1.0 / 60;                          ///< s
+    DriveSettings::Values settings;                       ///< what differs from the defaults
+    render::Quality quality = render::Quality::Standard;  ///< where settings name none; no recording has it
     std::optional<glm::uvec2>
         size;  ///< px, of its pictures when its recording began; none of channels, and where none were made
 };

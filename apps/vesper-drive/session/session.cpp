@@ -23,7 +23,7 @@ Session::Session(gpu::Device& device, DriveStart options)
 Session::Session(gpu::Device& device, DriveStart options, Scenery scenery)
     : options_(std::move(options)),
       scenery_(std::move(scenery)),
-      settings_(scenery_.check(DriveSettings(options_.settings))),
+      settings_(scenery_.check(DriveSettings(options_.settings, options_.quality))),
       world_(std::make_unique<traffic::World>(scenery_.world(), options_.seed)),
       timeline_(!is_live(options_.messages)),
       places_(scenery_.external_places()),
@@ -107,7 +107,7 @@ void Session::restart() {
 }
 
 void Session::rewind() {
-    settings_ = DriveSettings(options_.settings);
+    settings_ = DriveSettings(options_.settings, options_.quality);
     restart();
     if (on_event) on_event(nullptr);
 }

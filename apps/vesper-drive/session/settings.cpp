@@ -47,6 +47,7 @@ void add(apps::Command command, SettingsArguments& a) {
         .check(apps::between(-90.0, 90.0));
     apps::add_quality_option(command, a.light);
     apps::add_setting_options(command, a.light, {"display_average", "scale"});  // scale: fixed when a drive begins
+    command.option("--quality").shows_default("interactive in a window, standard without one");
     command.option("--shadow-budget")
         .shows_default(std::to_string(kWindowShadowBudget) + " in a window, all without one and in replays");
 }
@@ -80,7 +81,7 @@ FreeCamera free_camera_of(const std::vector<double>& v) {
 
 }  // namespace
 
-DriveSettings::DriveSettings(const Values& values) {
+DriveSettings::DriveSettings(const Values& values, render::Quality otherwise) : otherwise_(otherwise) {
     apply(values);
     values_ = values;
 }
@@ -99,6 +100,7 @@ void DriveSettings::set(const std::string& name, const std::string& value) {
 void DriveSettings::apply(const Values& values) {
     apps::Program command;
     SettingsArguments a;
+    a.light.quality = render::kQualityNames[size_t(otherwise_)];
     add(command, a);
     std::vector<std::string> words;
     std::map<std::string, double> lamps;

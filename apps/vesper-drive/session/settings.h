@@ -31,7 +31,8 @@ class DriveSettings {
 public:
     using Values = std::map<std::string, std::string>;
 
-    explicit DriveSettings(const Values& values = {});
+    /// `otherwise`: the quality where none is set.
+    explicit DriveSettings(const Values& values = {}, render::Quality otherwise = render::Quality::Standard);
 
     /// Sets one; an empty text goes back to the default. Throws Error, and then nothing has changed.
     void set(const std::string& name, const std::string& value);
@@ -66,7 +67,8 @@ private:
     CameraKind camera_ = CameraKind::Driver;
     FreeCamera free_;
     double fov_ = 0;
-    std::string quality_ = "standard";
+    render::Quality otherwise_;
+    std::string quality_;
     std::map<std::string, double> lamps_;
 };
 

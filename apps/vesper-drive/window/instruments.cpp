@@ -142,13 +142,16 @@ void Instruments::draw_status(const FrameState& now) const {
         ImGui::Text("%3.0f km/h  %s%s%s", std::abs(me.speed) * 3.6, beam, input.reverse ? "  reverse" : "",
                     input.autopilot ? "  autopilot" : "");
         ImGui::TextUnformatted(
-            apps::format(
-                "%s  |  glare %s  |  display %s  |  observer of %.0f  |  adapted to %.3g cd/m²  |  %.1f pictures/s%s%s",
-                apps::name_of(settings.tone_operator).c_str(), value_or("glare", "none").c_str(),
-                value_or("display", vision::known_displays().front().name).c_str(), settings.tone.observer.age,
-                double(now.frame.curve.adaptation), now.shown_per_second, now.paused ? "  |  paused" : "",
-                has_keyboard() ? "  |  keys for instruments (Esc)" : "")
+            apps::format("%s  |  glare %s  |  display %s  |  observer of %.0f  |  adapted to %.3g cd/m²  |  quality "
+                         "%s, %.0f ms a "
+                         "picture, %.1f/s%s%s",
+                         apps::name_of(settings.tone_operator).c_str(), value_or("glare", "none").c_str(),
+                         value_or("display", vision::known_displays().front().name).c_str(), settings.tone.observer.age,
+                         double(now.frame.curve.adaptation), now.session.settings().quality().c_str(),
+                         1e3 / std::max(now.shown_per_second, 1e-3), now.shown_per_second,
+                         now.paused ? "  |  paused" : "", has_keyboard() ? "  |  keys for instruments (Esc)" : "")
                 .c_str());
+        if (!now.offer.empty()) ImGui::TextColored({1, 0.8f, 0.3f, 1}, "%s", now.offer.c_str());
         if (!now.recording.empty()) ImGui::TextColored({1, 0.35f, 0.3f, 1}, "recording %s", now.recording.c_str());
         if (now.session.world().seconds() < 8 && !shows(kKeys)) ImGui::TextDisabled("F1: keys");
         ImGui::PopTextWrapPos();

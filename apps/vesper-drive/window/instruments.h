@@ -26,6 +26,7 @@ struct FrameState {
     std::optional<glm::uvec2> pixel, view_pixel;  ///< of the frame and of that view, under the mouse
     double shown_per_second = 0;                  ///< pictures
     double visible_from = 0;                      ///< of obstacles, a visibility level
+    std::string offer;                            ///< of faster settings; empty: none
     bool paused = false;
     std::string recording;  ///< file; empty: none
     std::string message;    ///< to read now; empty: none

@@ -55,6 +55,8 @@ enum class Action : uint8_t {
     NextScaling,
     FinerPicture,
     CoarserPicture,
+    FasterQuality,
+    TruerQuality,
     Leave,
     Quit,
 };

@@ -135,9 +135,9 @@ void WindowedDrive::open_session(const Drive& drive) {
     watch_contacts();
     keep_maps();
     apps::print_notes(session_->scenery().notes());
-    if (arguments_.scale < 1)
-        apps::print_note(format("each side of pictures is rendered with %g of its pixels, and enlarged (--scale)",
-                                arguments_.scale));
+    if (const double side = scale(); side < 1)
+        apps::print_note(
+            format("each side of pictures is rendered with %g of its pixels, and enlarged (--scale)", side));
 }
 
 // A scene that cannot be used leaves everything as it is.
@@ -155,7 +155,8 @@ void WindowedDrive::reload(const std::string& scene) {
             std::make_unique<Session>(*device_, DriveStart{.scene = scene,
                                                            .messages = same ? arguments_.messages : MessageSource{},
                                                            .seed = arguments_.seed,
-                                                           .settings = settings});
+                                                           .settings = settings,
+                                                           .quality = session_->options().quality});
         watches = watch_again(*made);
         if (!recording_.empty()) session_->stop_recording();
         light_.reset(), session_ = std::move(made), feed_.reset();
@@ -171,7 +172,7 @@ void WindowedDrive::reload(const std::string& scene) {
     arguments_.scene = scene;
     recording_.clear(), replay_.reset(), instruments_.forget();
     if (!arguments_.size_given) size_.reset();
-    dirty_ = true;
+    dirty_ = true, pace_.restart();
     say("loaded " + scene + (watches ? "" : "; it has other obstacles, which are not watched"), !watches);
 }
 
@@ -189,7 +190,7 @@ std::string WindowedDrive::title() const {
     if (replay_) text += ", replay";
     if (paused_) text += ", paused";
     if (!recording_.empty()) text += ", recording";
-    if (arguments_.scale < 1) text += format(", rendered at %ux%u", rendered_.width, rendered_.height);
+    if (scale() < 1) text += format(", rendered at %ux%u", rendered_.width, rendered_.height);
     return text + " - Vesper";
 }
 
@@ -199,7 +200,11 @@ VkExtent2D WindowedDrive::picture_extent(double scale) const {
     return {apps::scaled(whole.width, scale), apps::scaled(whole.height, scale)};
 }
 
-double WindowedDrive::picture_scale() const { return channels_ ? 1 : arguments_.scale / kCoarser[coarser_]; }
+double WindowedDrive::scale() const {
+    return arguments_.scale_given ? arguments_.scale : session_->settings().render().scale;
+}
+
+double WindowedDrive::picture_scale() const { return channels_ ? 1 : scale() / kCoarser[coarser_]; }
 
 std::optional<glm::uvec2> WindowedDrive::recorded_size() const {
     const VkExtent2D extent = picture_extent(1);
@@ -336,6 +341,15 @@ std::string WindowedDrive::standing_message() const {
     return format("light between surfaces: %.0f %%, rough until then", 100 * light_->share());
 }
 
+// Where pictures are slow by themselves: what would help, and its key. Work that ends by itself slows them, too.
+std::string WindowedDrive::offer() const {
+    const bool limited = arguments_.limit > 0 && arguments_.limit < Pace::kSlow, gathers = light_ && !light_->done();
+    const auto faster = pace_.offer(render::quality_named(session_->settings().quality()));
+    if (limited || gathers || !faster) return {};
+    return format("fewer than %.0f pictures/s: T takes quality %s", Pace::kSlow,
+                  std::string(render::kQualityNames[size_t(*faster)]).c_str());
+}
+
 void WindowedDrive::run() {
     Clock::time_point last = Clock::now();
     while (!window_.is_closing()) {
@@ -347,6 +361,7 @@ void WindowedDrive::run() {
         last = now;
         if (window_.is_minimised()) continue;  // nobody sees where the car goes: time stands still
         pictures_per_second_ += (1 / std::max(elapsed, 1e-4) - pictures_per_second_) * std::min(1.0, elapsed / 0.5);
+        pace_.add(elapsed);
         move_camera(elapsed);
         try {
             advance(elapsed);

@@ -18,6 +18,7 @@
 #include "session/session.h"
 #include "window/input_devices.h"
 #include "window/instruments.h"
+#include "window/pace.h"
 #include "window/screen.h"
 #include "window/window.h"
 
@@ -48,6 +49,7 @@ private:
     void press_view(Action);
     void change(const std::string& name, const std::string& value);
     void cycle(const std::string& name, const std::vector<std::string>& values, int step);
+    void change_quality(int step);
     void next_display();
     void fill_monitor(bool next);
     void record();
@@ -66,6 +68,7 @@ private:
     void keep_maps();
     void take_light();
     std::string standing_message() const;
+    std::string offer() const;
     bool replay_to_next_frame();
     void render(bool moved);
     bool needs_lockstep() const;
@@ -77,6 +80,7 @@ private:
     void say(const std::string& text, bool alarm = false);
     std::string title() const;
     VkExtent2D picture_extent(double scale) const;
+    double scale() const;          // as given, or of the quality
     double picture_scale() const;  // of the side asked for
     std::optional<glm::uvec2> recorded_size() const;
 
@@ -98,6 +102,7 @@ private:
     bool paused_ = false, one_step_ = false, dirty_ = true;
     double lag_s_ = 0;  // s of real time that the world is behind
     double pictures_per_second_ = 0;
+    Pace pace_;
     unsigned coarser_ = 0;            // index of the picture's coarseness
     std::optional<VkExtent2D> size_;  // of pictures, as it was given or recorded; none: the window's
     VkExtent2D rendered_{};

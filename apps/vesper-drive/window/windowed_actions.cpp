@@ -38,6 +38,7 @@ void WindowedDrive::change(const std::string& name, const std::string& value) {
         wanted.set(name, value);
         check_display(wanted);
         session_->set(name, value);
+        pace_.restart();
         dirty_ = true;
     } catch (const Error& error) {
         say(error.what(), true);
@@ -50,6 +51,13 @@ void WindowedDrive::cycle(const std::string& name, const std::vector<std::string
     const auto at = now == set.end() ? values.begin() : std::find(values.begin(), values.end(), now->second);
     const auto index = at == values.end() ? ptrdiff_t(0) : at - values.begin() + step + ptrdiff_t(values.size());
     change(name, values[size_t(index) % values.size()]);
+}
+
+// To the next set of settings; at either end nothing changes.
+void WindowedDrive::change_quality(int step) {
+    const int now = int(render::quality_named(session_->settings().quality())),
+              next = std::clamp(now + step, 0, int(render::kQualityNames.size()) - 1);
+    if (next != now) change("quality", std::string(render::kQualityNames[size_t(next)]));
 }
 
 void WindowedDrive::next_display() {
@@ -215,6 +223,12 @@ void WindowedDrive::press_view(Action action) {
             break;
         case Action::CoarserPicture:
             coarser_ = std::min(coarser_ + 1, kCoarsest);
+            break;
+        case Action::FasterQuality:
+            change_quality(-1);
+            break;
+        case Action::TruerQuality:
+            change_quality(1);
             break;
         default:
             break;

@@ -63,7 +63,7 @@ void WindowedDrive::take_finished() {
 
 void WindowedDrive::render(bool moved) {
     take_light();
-    const VkExtent2D extent = picture_extent(arguments_.scale);
+    const VkExtent2D extent = picture_extent(scale());
     const bool ldr = session_->settings().render().tone_operator == render::Operator::Ldr;
     const bool measures = instruments_.needs_scene() || log_, waits = needs_lockstep();
     const render::Outputs outputs{.display = true, .scene = measures && !ldr};
@@ -122,6 +122,7 @@ void WindowedDrive::present() {
                          .view_pixel = view_pixel,
                          .shown_per_second = pictures_per_second_,
                          .visible_from = arguments_.visible_from,
+                         .offer = offer(),
                          .paused = paused_,
                          .recording = recording_,
                          .message = talks ? message_ : standing_message(),

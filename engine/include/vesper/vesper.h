@@ -390,16 +390,17 @@ typedef enum VesperSettingKind {
 
 /** A setting of how renderers make light (docs/quality.md). Texts are valid for ever. */
 typedef struct VesperSetting {
-    uint32_t size;    /**< of this structure */
-    uint32_t kind;    /**< a VesperSettingKind */
-    const char* name; /**< as options of `vesper render`, without the first dashes: "shadow-error" */
-    const char* unit; /**< "lx", or empty */
-    const char* help; /**< one line */
-    double low;       /**< least value */
-    double high;      /**< greatest value; infinity: no limit */
-    double draft;     /**< value in the set "draft" */
-    double standard;  /**< value in the set "standard", and of a new renderer */
-    double exact;     /**< value in the set "exact" */
+    uint32_t size;      /**< of this structure */
+    uint32_t kind;      /**< a VesperSettingKind */
+    const char* name;   /**< as options of `vesper render`, without the first dashes: "shadow-error" */
+    const char* unit;   /**< "lx", or empty */
+    const char* help;   /**< one line */
+    double low;         /**< least value */
+    double high;        /**< greatest value; infinity: no limit */
+    double fast;        /**< value in the set "fast" */
+    double standard;    /**< value in the set "standard", and of a new renderer */
+    double exact;       /**< value in the set "exact" */
+    double interactive; /**< value in the set "interactive" */
 } VesperSetting;
 
 /** Number of settings. */
@@ -413,8 +414,8 @@ VesperResult vesper_set(VesperRenderer* renderer, const char* name, double value
 VesperResult vesper_unset(VesperRenderer* renderer, const char* name, VesperError* error);
 /** Gets the value that the next frame will have. */
 VesperResult vesper_get(const VesperRenderer* renderer, const char* name, double* value, VesperError* error);
-/** Takes the set "draft", "standard" or "exact" for all settings without a value of vesper_set. VESPER_BAD_ARGUMENT:
- * there is no such set; the message lists them. */
+/** Takes the set "fast", "interactive", "standard" or "exact" for all settings without a value of vesper_set.
+ * VESPER_BAD_ARGUMENT: there is no such set; the message lists them. */
 VesperResult vesper_set_quality(VesperRenderer* renderer, const char* quality, VesperError* error);
 
 /** Position and angles of the eye, and size of the picture. */

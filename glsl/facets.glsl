@@ -1,10 +1,13 @@
-// The facets that the middles of pixels see, from the middle of a pixel in px. Wants `instances`, `vertices`, `facets`, and
-// `push` with ray_scale.
+// The facets that the middles of pixels see, from the middle of a pixel in px. Wants `instances`, `vertices`, `facets`,
+// `push` with ray_scale, and kPoints, how many points a pixel has.
 
 const float kTriangleWidth = 0.5;  // of its least height: in the mean over the triangle
 
-// Point i of kEdgeSamples.
-vec2 place_of(uint i) { return vec2((float(i) + 0.5) / 16.0, float(bitfieldReverse(i) >> 28u) / 16.0 + 1.0 / 32.0) - 0.5; }
+// Point i of a pixel.
+vec2 place_of(uint i) {
+    const float half_row = kPoints > 8u ? 1.0 / 32.0 : kPoints > 4u ? 1.0 / 16.0 : 1.0 / 8.0;
+    return vec2((float(i) + 0.5) / float(kPoints), float(bitfieldReverse(i) >> 28u) / 16.0 + half_row) - 0.5;
+}
 
 vec4 row_x, row_y, row_z;  // of the instance
 vec2 middle;               // the pixel sees along (middle, -1)

@@ -64,7 +64,7 @@ SceneLight declare(const FrameContext& frame, ResidentScene& scene, const Prepar
     luminance = add_daylight(frame, surfaces, luminance, prepared.daylight);
     luminance = add_light_between_surfaces(frame, scene, prepared, poses, view, surfaces, luminance);
     luminance = add_sky(frame, surfaces, luminance, sky);
-    if (prepared.edges) add_edges(frame, surfaces, luminance);
+    if (prepared.edge_points > 0) add_edges(frame, surfaces, luminance, prepared.edge_points);
     luminance = add_small_emitters(frame, surfaces, luminance, prepared.small_emitters);
     luminance = add_luminaires(frame, luminance, surfaces.surface, prepared.luminaires);
     return {luminance, clusters, blocks, surfaces};

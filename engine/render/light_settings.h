@@ -29,6 +29,7 @@ namespace vesper::render {
     X(double, reflection_error, "", 0, 1, 0.05, 0.01, 0.002, 0, "Share of the indirect light: reflections end where the rest would add less") \
     X(bool, moving_reflections, "", 0, 1, false, false, false, false, "Road and walls reflect light of lamps that move, such as headlamps, once: an estimate") \
     X(bool, anti_aliasing, "", 0, 1, false, true, true, true, "Pixels at edges show the mean luminance of the surfaces that fill them; off: the luminance of one") \
+    X(uint32_t, edge_points, "", 4, 16, 8, 16, 16, 16, "Points of a pixel at an edge, by which the surfaces that fill it have their shares") \
     X(uint32_t, samples, "", 1, 65536, 1, 1, 1, 1, "Points of each pixel whose luminance is averaged, before one glare and one eye; 64 make a reference") \
     X(bool, display_average, "", 0, 1, false, false, false, false, "With samples, codes are the mean of the displayed light of each sample; off: the displayed mean luminance") \
     X(bool, paper_lambert, "", 0, 1, false, false, false, false, "L = E R, as the paper has it; off: L = E R / pi") \

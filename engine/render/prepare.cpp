@@ -66,8 +66,8 @@ Prepared prepare(ResidentScene& scene, const gpu::Device& device, Cache* map_cac
     const std::optional<float> white = settings.unit_lamps ? std::optional(1.0f) : std::nullopt;
     frame.luminaires = gpu_scene::luminaire_list(data.luminaires, poses, view, white);
     frame.clusters.threshold = settings.threshold;
-    frame.edges = settings.anti_aliasing && settings.samples == 1;
-    if (frame.edges && !settings.unit_lamps && has_facets(device, data.resident))
+    if (settings.anti_aliasing && settings.samples == 1) frame.edge_points = settings.edge_points;
+    if (frame.edge_points > 0 && !settings.unit_lamps && has_facets(device, data.resident))
         frame.small_emitters = gpu_scene::small_emitter_list(data.emitting, data.resident, poses, view);
     frame.clusters.far = data.resident.farthest_depth(poses, view);
     if (settings.shadows) prepare_shadows(frame, scene, device, map_cache, settings, view, poses);

@@ -18,8 +18,9 @@ struct Prepared {
     ClusterSettings clusters;
     ShadeSettings shading;  ///< without its resources
     DaylightSettings daylight;
-    float sky_lambert = 0;  ///< as SkyTexels::lambert
-    bool edges = false, shadows = false;
+    float sky_lambert = 0;     ///< as SkyTexels::lambert
+    uint32_t edge_points = 0;  ///< 0: pixels at edges show one surface
+    bool shadows = false;
     bool outside = false;  ///< light that comes from no lamp: sky and retroreflection
     /// Where the light between surfaces comes from.
     enum class Indirect { None, Cells, Pixels } indirect = Indirect::None;

@@ -15,6 +15,8 @@
 #include "shared/gbuffer.h"
 
 layout(local_size_x = kEdgesPerGroup) in;
+layout(constant_id = 0) const uint kPoints = kEdgeSamples;
+
 layout(binding = 0, rg32ui) readonly uniform uimage2D triangles;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 2, rgba32f) readonly uniform image2D scene_image;
@@ -26,7 +28,7 @@ TEXELS(7, uvec4, facets);
 writeonly WRITTEN_TEXELS(8, vec4, means);
 layout(push_constant, scalar) uniform Push { EdgesPush push; };
 
-const uint kAllPoints = (1u << kEdgeSamples) - 1u;
+const uint kAllPoints = (1u << kPoints) - 1u;
 
 #include "edges.glsl"
 #include "edges_list.glsl"
@@ -60,7 +62,7 @@ void main() {
 
     float nearest[kEdgeSamples];  // inverse depth of what covers a point, 1/m; -1: nothing
     float closest[kEdgeSamples];  // px, negative: how far what does not cover it is
-    [[unroll]] for (uint i = 0u; i < kEdgeSamples; ++i) nearest[i] = -1.0, closest[i] = -1e30;
+    [[unroll]] for (uint i = 0u; i < kPoints; ++i) nearest[i] = -1.0, closest[i] = -1e30;
     [[unroll]] for (uint b = 0u; b < 4u; ++b) which[b] = 0u;
     // Each facet once: a bit for the first middle that sees it.
     uint seen_first = 0u, nothing = 9u;
@@ -85,7 +87,7 @@ void main() {
         // Of those that fill their pixels only the pixel's own counts.
         const float filled = k == 0u ? 0.0 : -1e30;
         uint taken = 0u;
-        [[unroll]] for (uint i = 0u; i < kEdgeSamples; ++i) {
+        [[unroll]] for (uint i = 0u; i < kPoints; ++i) {
             const vec3 p = vec3(place_of(i), 1.0);
             const float least = fills ? filled : inside(facet, p);
             const float depth = fills ? -1.0 / here.position.z : dot(facet.inverse_depth, p);
@@ -98,7 +100,7 @@ void main() {
         give(taken, k);
     } while (seen_first != 0u);
     uint bare = 0u;
-    [[unroll]] for (uint i = 0u; i < kEdgeSamples; ++i) bare |= nothing < 9u && nearest[i] < 0.0 ? 1u << i : 0u;
+    [[unroll]] for (uint i = 0u; i < kPoints; ++i) bare |= nothing < 9u && nearest[i] < 0.0 ? 1u << i : 0u;
     give(bare, nothing);
 
     // A middle of the same surface counts with the luminance of the pixel itself.
@@ -110,8 +112,8 @@ void main() {
         left &= ~points;
         const bool same = k == 0u || (k != nothing && is_same(here, seen_at(at)));
         own += same ? uint(bitCount(points)) : 0u;
-        if (!same) sum += float(bitCount(points)) / float(kEdgeSamples) * imageLoad(scene_image, at).rgb;
+        if (!same) sum += float(bitCount(points)) / float(kPoints) * imageLoad(scene_image, at).rgb;
     } while (left != 0u);
-    if (own != 0u) sum += float(own) / float(kEdgeSamples) * imageLoad(scene_image, pixel).rgb;
+    if (own != 0u) sum += float(own) / float(kPoints) * imageLoad(scene_image, pixel).rgb;
     write_texel(means, int(number), vec4(sum, 1.0));
 }

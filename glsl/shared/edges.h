@@ -4,7 +4,9 @@
 #include "types.h"
 SHARED_BEGIN
 
-const uint kEdgeSamples = 16u;       // points of a pixel: at ((i + 1/2) / 16, the bits of i in reverse / 16 + 1/32)
+// Of n points of a pixel point i is at ((i + 1/2) / n, the bits of i in reverse / m + 1 / 2m), with m = 16, or 8 or 4 where n is
+// no more; and these are most.
+const uint kEdgeSamples = 16u;
 const uint kEdgesPerGroup = 256u;    // pixels that a workgroup does
 const uint kMostEdgeGroups = 65535u; // of which every device can run as many; further pixels stay as they are
 

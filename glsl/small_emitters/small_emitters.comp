@@ -4,7 +4,7 @@
 #extension GL_EXT_control_flow_attributes : require
 
 // Adds what small emitters emit: luminance times the part of each pixel that their silhouette covers, exactly, times the part of
-// that which nothing hides, at the points that edge_means.comp asks, too. What hides it is found among the facets that the pixel and
+// that which nothing hides, at kEdgeSamples points. What hides it is found among the facets that the pixel and
 // its neighbours see in their middles, among those of its own mesh that are near it, and among the emitters that are a pixel wide.
 // Of other meshes a facet that is narrower than a pixel, or has holes, hides the pixel whose middle sees it and no other.
 
@@ -27,6 +27,8 @@ TEXELS(7, vec4, instances);
 TEXELS(8, vec2, vertices);
 TEXELS(9, uvec4, facets);
 layout(push_constant, scalar) uniform Push { SmallEmittersPush push; };
+
+const uint kPoints = kEdgeSamples;
 
 #include "coverage.glsl"
 #include "facets.glsl"

@@ -16,7 +16,7 @@ namespace vesper::reference {
 
 using glm::dvec2, glm::dvec3, glm::ivec2;
 
-/// Points of a pixel, of which each stands for as much of it.
+/// Points of a pixel, at most.
 constexpr uint32_t kPixelPoints = 16;
 
 /// What the middle of a pixel sees.
@@ -34,6 +34,7 @@ struct SeenPicture {
     dvec2 scale{1}, offset{0};
     std::vector<SeenFacet> facets;
     std::vector<dvec3> luminance;
+    uint32_t points = kPixelPoints;  ///< of a pixel, each of which stands for as much of it
 
     bool has(ivec2 p) const { return p.x >= 0 && p.y >= 0 && p.x < size.x && p.y < size.y; }
     const SeenFacet& facet(ivec2 p) const { return facets[size_t(p.y) * size_t(size.x) + size_t(p.x)]; }
@@ -113,6 +114,17 @@ inline double width_of(const std::vector<dvec3>& corners, dvec3 ray, dvec2 scale
     return least / 2;
 }
 
+/// Point i of n, from the middle of the pixel: a Hammersley set, moved so that its mean is the middle, where n is a
+/// power of two.
+inline dvec2 point_of(uint32_t i, uint32_t n) {
+    double down = 0, finest = 1;
+    for (uint32_t level = 1; level < n; level *= 2) {
+        finest /= 2;
+        if (i & level) down += finest;
+    }
+    return {(i + 0.5) / n - 0.5, down + finest / 2 - 0.5};
+}
+
 struct EdgeMean {
     dvec3 luminance{0};
     double doubt = std::numeric_limits<double>::infinity();  ///< px: how near some point was to another choice
@@ -122,9 +134,8 @@ struct EdgeMean {
 inline EdgeMean edge_mean(const SeenPicture& picture, ivec2 p) {
     EdgeMean mean;
     const auto around = neighbourhood(p);
-    for (uint32_t i = 0; i < kPixelPoints; ++i) {
-        const uint32_t reversed = (i & 1) << 3 | (i & 2) << 1 | (i & 4) >> 1 | (i & 8) >> 3;
-        const dvec2 way((i + 0.5) / 16 - 0.5, reversed / 16.0 + 1 / 32.0 - 0.5);
+    for (uint32_t i = 0; i < picture.points; ++i) {
+        const dvec2 way = point_of(i, picture.points);
         const dvec3 ray(picture.scale * (dvec2(p) + 0.5 + way) + picture.offset, -1);
         ivec2 seen = p;
         bool covered = false, nothing_near = false;
@@ -170,7 +181,7 @@ inline EdgeMean edge_mean(const SeenPicture& picture, ivec2 p) {
             else
                 mean.doubt = std::min(mean.doubt, closest - next);
         }
-        mean.luminance += picture.light(seen) / double(kPixelPoints);
+        mean.luminance += picture.light(seen) / double(picture.points);
     }
     return mean;
 }

@@ -53,6 +53,32 @@ TEST(EdgesReference, AnEdgeBetweenTwoWallsIsTheirMean) {
     EXPECT_NEAR(reference::edge_mean(picture, {3, 2}).luminance.g, 2, 1e-12);
 }
 
+// Each column and each row has one, and their mean is the middle.
+TEST(EdgesReference, PointsAreSpreadEvenly) {
+    for (const uint32_t n : {4u, 8u, 16u}) {
+        dvec2 sum(0);
+        std::vector<int> columns(n), rows(n);
+        for (uint32_t i = 0; i < n; ++i) {
+            const dvec2 at = reference::point_of(i, n);
+            sum += at;
+            ++columns.at(size_t((at.x + 0.5) * n)), ++rows.at(size_t((at.y + 0.5) * n));
+        }
+        EXPECT_NEAR(glm::length(sum), 0, 1e-12);
+        EXPECT_EQ(columns, std::vector<int>(n, 1));
+        EXPECT_EQ(rows, std::vector<int>(n, 1));
+    }
+    EXPECT_NEAR(reference::point_of(1, 8).y, 0.5 + 1 / 16.0 - 0.5, 1e-12);
+    EXPECT_NEAR(reference::point_of(5, 6).y, 0.5 + 0.125 + 1 / 16.0 - 0.5, 1e-12) << "5 is 101";
+}
+
+// The middles of 6 of 8 columns are left of the border, 0.3 px right of the middle.
+TEST(EdgesReference, FewerPointsAreCoarser) {
+    SeenPicture picture =
+        picture_of({rectangle(1, {-2, -2}, {0.06, 2}, 1), rectangle(2, {-9, -9}, {9, 9}, 3)}, {10, 2, 0});
+    picture.points = 8;
+    EXPECT_NEAR(reference::edge_mean(picture, {2, 2}).luminance.g, 10 * 0.75 + 2 * 0.25, 1e-12);
+}
+
 TEST(EdgesReference, BesideNothingItIsTheMeanWithNothing) {
     const SeenPicture picture = picture_of({rectangle(1, {-2, -2}, {0.001, 2}, 1)}, {8, 1});
     EXPECT_NEAR(reference::edge_mean(picture, {2, 2}).luminance.g, (8 + 1) / 2.0, 1e-12);

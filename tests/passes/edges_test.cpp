@@ -21,21 +21,24 @@ struct Edged {
 };
 
 /// Draws a scene, and puts made-up luminances on it.
-Edged draw(PassRig& rig, const Scene& scene, const View& view, const std::vector<glm::vec4>& luminance) {
+Edged draw(PassRig& rig, const Scene& scene, const View& view, const std::vector<glm::vec4>& luminance,
+           uint32_t points = reference::kPixelPoints) {
     const gpu_scene::GpuScene resident(rig.device(), scene);
     const gpu_scene::SceneFrame frame{scene::world_transforms(scene, 0)};
     graph::FrameGraph graph;
     const render::FrameContext context = rig.frame(graph, view);
     const render::GBuffer g = render::add_gbuffer(context, resident, frame);
     const graph::Resource light = rig.image(graph, "scene", render::kSceneFormat, view.extent, luminance);
-    render::add_edges(context, g, light);
+    render::add_edges(context, g, light, points);
     const graph::Resource triangles = keep<glm::uvec2>(graph, g.triangle), surfaces = keep<glm::vec4>(graph, g.surface),
                           instances = keep<shared::Instance>(graph, g.instances), kept = keep<glm::vec4>(graph, light);
     rig.run(graph);
 
-    return {seen_picture(scene, view, rig.got<glm::uvec2>(triangles), rig.got<glm::vec4>(surfaces),
-                         rig.got<shared::Instance>(instances), luminance),
-            rig.got<glm::vec4>(kept)};
+    Edged edged{seen_picture(scene, view, rig.got<glm::uvec2>(triangles), rig.got<glm::vec4>(surfaces),
+                             rig.got<shared::Instance>(instances), luminance),
+                rig.got<glm::vec4>(kept)};
+    edged.seen.points = points;
+    return edged;
 }
 
 /// Compares all pixels. Returns the share of those beside edges of which no point is in doubt: on a line of a facet to
@@ -99,6 +102,20 @@ TEST(Edges, MatchTheReference) {
                 EXPECT_GT(share, 0.4);
             }
         }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+TEST(Edges, MatchTheReferenceAtFewerPoints) {
+    PassRig rig;
+    const VkExtent2D extent{131, 67};
+    const View view = View::symmetric(extent, 1.1f, glm::rotate(glm::dmat4(1), 0.1, {0, 1, 0}));
+    const std::vector<glm::vec4> all = draw(rig, clutter(1), view, lights(extent, 1)).got;
+    for (const uint32_t points : {4u, 5u, 8u, 11u}) {
+        SCOPED_TRACE(points);
+        const Edged edged = draw(rig, clutter(1), view, lights(extent, 1), points);
+        EXPECT_GT(expect_reference(edged), 0.4);
+        EXPECT_NE(edged.got, all);
+    }
     EXPECT_EQ(rig.complaints(), "");
 }
 
@@ -257,7 +274,7 @@ TEST(Edges, AnEmptySceneHasNone) {
     const gpu_scene::GpuScene empty(rig.device(), Scene{});
     expect_no_pass([&](const render::FrameContext& frame, graph::Resource luminance) {
         EXPECT_FALSE(render::has_facets(rig.device(), empty));
-        render::add_edges(frame, {}, luminance);
+        render::add_edges(frame, {}, luminance, 16);
         return luminance;
     });
     EXPECT_EQ(rig.complaints(), "");

@@ -22,7 +22,7 @@ constexpr gpu::Shader kFindSeams{"find_seams.comp", find_seams_comp},
 
 }  // namespace
 
-void add_edges(const FrameContext& frame, const GBuffer& surfaces, graph::Resource luminance) {
+void add_edges(const FrameContext& frame, const GBuffer& surfaces, graph::Resource luminance, uint32_t points) {
     if (surfaces.facets == graph::Resource{}) return;
     graph::FrameGraph& graph = frame.graph;
     const gpu_scene::View& view = frame.view;
@@ -55,7 +55,7 @@ void add_edges(const FrameContext& frame, const GBuffer& surfaces, graph::Resour
                     sample(seams.pixels), update(edges.counts), store(edges.pixels)},
                    push, at_seams);
     graph.dispatch(
-        "edge means", frame.kernels.get(kEdgeMeans),
+        "edge means", frame.kernels.get(kEdgeMeans, {points}),
         {load(surfaces.triangle), load(surfaces.surface), load(luminance), sample(edges.counts), sample(edges.pixels),
          sample(surfaces.instances), sample(surfaces.vertices), sample(surfaces.facets), store(means)},
         push, at_edges);

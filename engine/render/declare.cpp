@@ -57,7 +57,8 @@ SceneLight declare(const FrameContext& frame, ResidentScene& scene, const Prepar
         shading.maps = scene.maps->declare(frame, prepared.lamps, poses, &lists, prepared.unshadowed_share);
         if (scene.directional) directional = scene.directional->declare(frame, prepared.lamps, poses, view);
     }
-    blocks = add_visibility(frame, surfaces, clusters, blocks, shading.maps, shading.shadow_error);
+    blocks =
+        add_visibility(frame, surfaces, clusters, blocks, shading.maps, {shading.shadow_error, shading.probe_error});
     blocks = add_directional_visibility(frame, surfaces, clusters, blocks, directional);
     blocks = add_merging(frame, surfaces, clusters, blocks, shading.merge_error);
     Resource luminance = add_shading(frame, surfaces, clusters, blocks, shading);

@@ -23,6 +23,7 @@ namespace vesper::render {
     X(float, shadow_error, "", 0, 1, 0.02, 0.02, 0.005, 0, "Share of the light of 8x8 pixels: shadows of lamps that give less are means over these pixels") \
     X(float, threshold, "lx", 1e-9, 1e3, 0.01, 0.005, 0.001, 1e-9, "Illuminance below which a lamp counts as dark: on matt surfaces, or on a plane facing it") \
     X(float, merge_error, "", 0, 1, 0.01, 0.01, 0.001, 0, "Relative error of a lamp whose light is taken as smooth over 8x8 pixels; 0: no lamp is") \
+    X(float, probe_error, "", 0, 100, 100, 0, 0, 0, "Share of the light of 8x8 pixels: of lamps that give less all see what 16 of them see where these agree, on bent surfaces too") \
     X(bool, all_lamps, "", 0, 1, false, false, false, false, "Every lamp above the threshold is evaluated in every pixel: slow, for comparison") \
     X(bool, indirect, "", 0, 1, true, true, true, true, "Light of emitting surfaces and of the sky, and reflected light, on surfaces at rest; off: a constant in its place") \
     X(uint32_t, reflections, "", 0, 100, 100, 100, 100, 100, "Reflections of indirect light, at most") \

@@ -74,6 +74,7 @@ Prepared prepare(ResidentScene& scene, const gpu::Device& device, Cache* map_cac
     frame.shading.all_lamps = settings.all_lamps;
     frame.shading.merge_error = settings.all_lamps ? 0 : settings.merge_error;
     frame.shading.shadow_error = settings.shadow_error;
+    frame.shading.probe_error = settings.probe_error;
     if (settings.paper_lambert) frame.shading.lambert = 1;
     if (settings.unit_lamps) frame.shading.emission_limit = 1;
     if (settings.lamps_alone) {

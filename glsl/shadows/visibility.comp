@@ -100,8 +100,8 @@ const uint kLit = 0u, kDark = kShares + 1u, kMixed = kShares + 2u;  // what a bl
 // Of `found`, which holds a Sight: all pixels looked up the lamp. It holds what they see, and from bit 8 on the place of shares.
 const uint kLookedUp = 1u << 31u;
 
-// Whether other pixels may see what the probes do not: of a plane, where these differ.
-bool is_open(uint seen) { return !plane || (seen > kLit && seen < kDark); }
+// Whether other pixels may see what the probes do not: where these differ, and where the block is no plane and the lamp not faint.
+bool is_open(uint seen, bool faint) { return !(plane || faint) || (seen > kLit && seen < kDark); }
 
 // What probes get of a lamp.
 struct Sight {
@@ -239,7 +239,7 @@ uint look_up_penumbra(uint index, float width) {
         const uint four = counts[r] + counts[r ^ 1u] + (beside >> 4u * r & 15u) + (beside >> 4u * (r ^ 1u) & 15u);
         // Rounded in four ways, so that the mean of the four is finer than what four bits hold.
         const uint rounding = ((r & 1u) * 2u + ((lane + r) & 1u)) * (kDisc / 4u) + kDisc / 8u;
-        word |= (by_fours ? (four * 15u + rounding) / kDisc : (counts[r] * 15u + lookups / 2u) / lookups) << 4u * r;
+        word |= (by_fours ? (four * 15u + rounding) / kDisc : (counts[r] * 15u + 8u) / 16u) << 4u * r;  // 16 lookups
     }
     return word;
 }
@@ -285,7 +285,8 @@ uvec4 see(uint x, uint y) {
         begin += kBlockSize;
     } while (begin < all_);
     // The light that a lamp must give for more probes to look it up: more than the share shadow_error of the block's mean light.
-    float limit = max(push.shadow_error * lanes_add(light), 1e-9);
+    const float light_of_all = lanes_add(light), faint = push.probe_error * light_of_all;
+    float limit = max(push.shadow_error * light_of_all, 1e-9);
     uint number = 0u;
     begin = 0u;
     do {
@@ -313,7 +314,7 @@ uvec4 see(uint x, uint y) {
         begin = 0u;
         do {
             const uint i = begin + lane;
-            const bool matters = i < all_ && brightest[i] > limit && is_open(found_of(unpack(found[i], 0.0)));
+            const bool matters = i < all_ && brightest[i] > limit && is_open(found_of(unpack(found[i], 0.0)), brightest[i] < faint);
             const uint those = lanes_mask(matters);
             if (matters) chosen[open + bitCount(those & before)] = i;
             open += bitCount(those);

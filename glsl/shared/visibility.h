@@ -13,8 +13,9 @@ struct VisibilityPush {
     uint capacity;
     LampCounts lamps;
     float shadow_error; // of a block's light: lamps of less count with the mean of what the block sees of them
+    float probe_error;  // likewise: of lamps of less all pixels see what the probes do, where these agree
 };
-SHARED_SIZE(VisibilityPush, 80)
+SHARED_SIZE(VisibilityPush, 84)
 
 // Pairs of a block and a lamp on its list; zeroed every frame.
 struct VisibilityReport {

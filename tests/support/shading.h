@@ -57,7 +57,8 @@ inline LitBlocks light(const render::FrameContext& frame, const render::GBuffer&
     LitBlocks lit{
         .clusters = render::add_clusters(frame, g.surface, list, tables, clusters), .blocks = {}, .scene = {}};
     lit.blocks = render::add_blocks(frame, g, lit.clusters);
-    lit.blocks = render::add_visibility(frame, g, lit.clusters, lit.blocks, settings.maps, settings.shadow_error);
+    lit.blocks = render::add_visibility(frame, g, lit.clusters, lit.blocks, settings.maps,
+                                        {settings.shadow_error, settings.probe_error});
     lit.blocks = render::add_directional_visibility(frame, g, lit.clusters, lit.blocks, directional);
     lit.blocks = render::add_merging(frame, g, lit.clusters, lit.blocks, settings.all_lamps ? 0 : settings.merge_error);
     lit.scene = render::add_shading(frame, g, lit.clusters, lit.blocks, settings);

@@ -21,6 +21,7 @@ struct ShadeSettings {
     float merge_error = LightSettings{}.merge_error;    ///< of add_merging
     FrameShadowMaps maps{};                             ///< of the lamps; without: nothing hides a lamp
     float shadow_error = LightSettings{}.shadow_error;  ///< of add_visibility
+    float probe_error = LightSettings{}.probe_error;    ///< likewise
     graph::Resource retro{};  ///< rgba32f texels of shared/retro.h; without: no surface is retroreflective
 };
 

@@ -12,7 +12,7 @@ constexpr gpu::Shader kVisibility{"visibility.comp", visibility_comp, visibility
 }  // namespace
 
 Blocks add_visibility(const FrameContext& frame, const GBuffer& surfaces, const Clusters& clusters, Blocks blocks,
-                      const FrameShadowMaps& maps, float shadow_error) {
+                      const FrameShadowMaps& maps, const VisibilitySettings& settings) {
     graph::FrameGraph& graph = frame.graph;
     if (!maps.lamps) return blocks;
     const VkExtent2D extent = frame.view.extent;
@@ -33,7 +33,8 @@ Blocks add_visibility(const FrameContext& frame, const GBuffer& surfaces, const 
                                           .blocks_y = rows,
                                           .capacity = blocks.capacity,
                                           .lamps = clusters.push.lamps,
-                                          .shadow_error = shadow_error},
+                                          .shadow_error = settings.shadow_error,
+                                          .probe_error = settings.probe_error},
                    graph::Groups{blocks.columns, rows, 1});
     return blocks;
 }

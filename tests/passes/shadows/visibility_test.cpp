@@ -262,6 +262,92 @@ TEST(Visibility, MergedLampsKeepTheShareThatIsSeen) {
     EXPECT_GT(differ, alone.size() / 4) << "merged lamps are interpolated";
 }
 
+const VkExtent2D kBoards{83, 61};
+constexpr float kFarLamp = 1000;  // m, of two lamps at one place: so far that each gives all pixels the same light
+
+/// Two lamps, of which one gives a tenth of the light and is hidden from a few pixels of most blocks, before boards
+/// that stand out of a wall: no block is a plane.
+class Boards {
+public:
+    explicit Boards(PassRig& rig) : rig_(rig) {
+        for (uint32_t i = 0; i < kBoards.width * kBoards.height; ++i) {
+            const bool out = (s_.pixel(i).x / 3) % 2 == 1;
+            s_.reflectance.emplace_back(0.5f, 0.5f, 0.5f, 0.0f);
+            s_.surface.emplace_back(glm::vec2(reference::octahedral_encode({0, 0, 1})), out ? 11.9f : 12.0f, 1.0f);
+            s_.emission.emplace_back(0);
+        }
+        shared::Lamp lamp{};
+        lamp.position = {0, 0, kFarLamp - 12}, lamp.axis = {0, 0, -1}, lamp.lobe_b = 1, lamp.colour = glm::vec3(1);
+        lamp.intensity = 9e8f;
+        list_.lamps = {lamp, lamp}, list_.lamps[1].intensity = 1e8f;
+        list_.indices = {0, 1}, list_.counts = {2, 0, 0, 0};
+        Noise noise(11);
+        for (uint32_t k = 0; k < kSide * kSide; ++k)
+            texels_.push_back(glm::packHalf1x16(noise.unit() < 0.02f ? 0.5f * kFarLamp : shared::kMapFar));
+    }
+
+    std::vector<glm::vec4> picture(float probe_error, bool shadows = true) {
+        const gpu_scene::View view = gpu_scene::View::symmetric(kBoards, 0.7f, glm::mat4(1));
+        const render::MapFrame ahead = render::map_frame(glm::mat4(1));
+        const double forward = (ahead.rotation * glm::dvec3(0, 0, -1)).z;
+        EXPECT_NEAR(forward, 1, 1e-9);
+        const std::vector maps{
+            render::shadow_map(
+                {.side = 0, .hemispheres = 1, .zoom = kZoom, .flat = false, .range = 1, .radius = 0, .first = 0}, ahead,
+                view),
+            render::shadow_map(
+                {.side = kSide, .hemispheres = 1, .zoom = kZoom, .flat = false, .range = 1, .radius = 0, .first = 0},
+                ahead, view)};
+        graph::FrameGraph graph;
+        render::FrameShadowMaps seen;
+        if (shadows)
+            seen = {graph.upload("maps", maps, VK_FORMAT_R32G32B32A32_SFLOAT),
+                    graph.upload("distances", texels_, VK_FORMAT_R16_SFLOAT)};
+        const LitBlocks lit =
+            light(rig_.frame(graph, view), upload(graph, s_), list_, no_tables(graph), {},
+                  {.merge_error = 0, .maps = seen, .shadow_error = 0.001f, .probe_error = probe_error});
+        const graph::Resource scene = keep<glm::vec4>(graph, lit.scene);
+        rig_.run(graph);
+        return rig_.got<glm::vec4>(scene);
+    }
+
+private:
+    static constexpr uint32_t kSide = 256;
+    static constexpr float kZoom = 90;  // the map is as wide as the wall
+
+    PassRig& rig_;
+    Surfaces s_{kBoards, {}, {}, {}};
+    gpu_scene::LampList list_;
+    std::vector<uint16_t> texels_;
+};
+
+// Shares of 0.098 and 0.102 are on either side of the lamp's.
+TEST(Visibility, FaintLampsAreSeenAsTheProbesSeeThem) {
+    PassRig rig;
+    Boards boards(rig);
+    const std::vector<glm::vec4> all = boards.picture(0, false), exact = boards.picture(0),
+                                 below = boards.picture(0.098f), above = boards.picture(0.102f);
+    EXPECT_EQ(exact, below) << "the lamp gives more";
+    size_t same = 0, evened = 0, other = 0;
+    for (uint32_t y = 0; y + 8 <= kBoards.height; y += 8)
+        for (uint32_t x = 0; x + 8 <= kBoards.width; x += 8) {
+            size_t hidden = 0, differ = 0, dark = 0;  // pixels
+            for (uint32_t k = 0; k < 64; ++k) {
+                const size_t i = size_t(y + k / 8) * kBoards.width + x + k % 8;
+                hidden += exact[i].g < 0.95f * all[i].g ? 1 : 0;
+                dark += above[i].g < 0.95f * all[i].g ? 1 : 0;
+                differ += above[i] == exact[i] ? 0 : 1;
+            }
+            if (hidden == 0) continue;
+            same += differ == 0 ? 1 : 0, evened += differ > 0 && dark == 0 ? 1 : 0;
+            other += differ > 0 && dark > 0 ? 1 : 0;
+        }
+    EXPECT_GT(evened, 10u) << "all of the block sees the lamp, as its probes do";
+    EXPECT_GT(same, 10u) << "a probe does not see it, and all pixels look";
+    EXPECT_EQ(other, 0u);
+    EXPECT_EQ(rig.complaints(), "");
+}
+
 // A lamp never shades itself by its fixture; something that moves takes its shadow along; a lamp that is switched on
 // later has shadows; what has no place any more finds one.
 TEST(Visibility, MapsAreNeverStale) {

@@ -64,7 +64,7 @@ struct DeviceOptions {
     bool as_gpu = false;      ///< use a CPU device as a GPU is used: what tests do where there is none
     bool as_least = false;    ///< use no extension and short texel buffers, as of a device that has no more: for tests
     bool validation = false;  ///< core, synchronization and best-practice-free checks of the Khronos layer
-    std::function<void(const std::string&)> on_message;  ///< called for every validation message
+    std::function<void(const std::string&)> on_message;  ///< called for every validation message, on any thread
     std::optional<Presentation>
         presentation;  ///< for windows (window/swapchain.h); a device that shows none needs none
 };

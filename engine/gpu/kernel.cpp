@@ -52,10 +52,23 @@ Specialization::Specialization(std::span<const uint32_t> constants) {
 Kernel::Kernel(const Device& device, const std::string& shader, std::span<const uint32_t> spirv,
                std::initializer_list<uint32_t> constants)
     : KernelInterface(read_interface(shader, spirv)),
+      device_(&device),
       set_(make_set_layout(device, bindings, VK_SHADER_STAGE_COMPUTE_BIT)),
-      layout_(make_pipeline_layout(device, set_.get(), push_bytes, VK_SHADER_STAGE_COMPUTE_BIT)) {
-    const Specialization specialization({constants.begin(), constants.size()});
-    const OwnedShaderModule module = make_shader(device, spirv);
+      layout_(make_pipeline_layout(device, set_.get(), push_bytes, VK_SHADER_STAGE_COMPUTE_BIT)),
+      constants_(constants),
+      code_(spirv.begin(), spirv.end()) {}
+
+VkPipeline Kernel::pipeline() const {
+    if (!is_compiled()) {
+        const PipelineTimer timer(*device_);
+        compile();
+    }
+    return pipeline_.get();
+}
+
+void Kernel::compile() const {
+    const Specialization specialization(constants_);
+    const OwnedShaderModule module = make_shader(*device_, code_);
     const VkComputePipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
                                            .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                                                      .stage = VK_SHADER_STAGE_COMPUTE_BIT,
@@ -64,9 +77,10 @@ Kernel::Kernel(const Device& device, const std::string& shader, std::span<const 
                                                      .pSpecializationInfo = specialization.info()},
                                            .layout = layout_.get()};
     VkPipeline pipeline = VK_NULL_HANDLE;
-    const PipelineTimer timer(device);
-    check(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline), "compiling " + name);
-    pipeline_ = {device.handle(), pipeline};
+    check(vkCreateComputePipelines(device_->handle(), VK_NULL_HANDLE, 1, &info, nullptr, &pipeline),
+          "compiling " + name);
+    pipeline_ = {device_->handle(), pipeline};
+    code_ = {};
 }
 
 }  // namespace vesper::gpu

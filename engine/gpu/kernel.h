@@ -17,16 +17,17 @@ using OwnedPipelineLayout = Owned<VkPipelineLayout, vkDestroyPipelineLayout>;
 using OwnedPipeline = Owned<VkPipeline, vkDestroyPipeline>;
 using OwnedShaderModule = Owned<VkShaderModule, vkDestroyShaderModule>;
 
-/// Lives while a pipeline is made, and adds it to the device's account.
+/// Lives while pipelines are made, and adds them to the device's account.
 class PipelineTimer {
 public:
-    explicit PipelineTimer(const Device& device) : use_(device.use()) {}
+    explicit PipelineTimer(const Device& device, size_t count = 1) : use_(device.use()), count_(uint32_t(count)) {}
     PipelineTimer(const PipelineTimer&) = delete;
     PipelineTimer& operator=(const PipelineTimer&) = delete;
-    ~PipelineTimer() { ++use_.pipelines, use_.pipeline_ms += watch_.milliseconds(); }
+    ~PipelineTimer() { use_.pipelines += count_, use_.pipeline_ms += watch_.milliseconds(); }
 
 private:
     DeviceUse& use_;
+    uint32_t count_;
     Stopwatch watch_;
 };
 
@@ -50,20 +51,29 @@ private:
     VkSpecializationInfo info_{};
 };
 
-/// A compute shader, ready to dispatch. Specialization constant i is constants[i].
+/// A compute shader, ready to dispatch. Specialization constant i is constants[i]. The driver compiles it when its
+/// pipeline is first asked for, or before that by compile(), which several threads may call for kernels of their own.
 class Kernel : public KernelInterface {
 public:
     Kernel(const Device& device, const std::string& name, std::span<const uint32_t> spirv,
            std::initializer_list<uint32_t> constants = {});
 
-    VkPipeline pipeline() const { return pipeline_.get(); }
+    /// Throws Error.
+    VkPipeline pipeline() const;
+    bool is_compiled() const { return bool(pipeline_); }
+    /// Without the device's account. Throws Error.
+    void compile() const;
+    size_t code_words() const { return code_.size(); }  ///< until it is compiled
     VkPipelineLayout layout() const { return layout_.get(); }
     VkDescriptorSetLayout set_layout() const { return set_.get(); }
 
 private:
+    const Device* device_;
     OwnedSetLayout set_;
     OwnedPipelineLayout layout_;
-    OwnedPipeline pipeline_;
+    std::vector<uint32_t> constants_;
+    mutable std::vector<uint32_t> code_;
+    mutable OwnedPipeline pipeline_;
 };
 
 }  // namespace vesper::gpu

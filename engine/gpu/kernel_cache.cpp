@@ -1,5 +1,10 @@
 #include "gpu/kernel_cache.h"
 
+#include <algorithm>
+#include <functional>
+
+#include "base/parallel.h"
+
 namespace vesper::gpu {
 namespace {
 
@@ -25,7 +30,21 @@ const Kernel& KernelCache::get(const Shader& shader, std::initializer_list<uint3
     const std::vector<uint32_t> code = storage && device_.is_cpu() ? rolled(spirv) : std::vector<uint32_t>();
     Kernel kernel(device_, shader.name, code.empty() ? spirv : code, constants);
     kernel.texels_in_storage = storage;
-    return kernels_.emplace(std::move(key), std::move(kernel)).first->second;
+    const Kernel& kept = kernels_.emplace(std::move(key), std::move(kernel)).first->second;
+    new_.push_back(&kept);
+    return kept;
+}
+
+void KernelCache::compile() {
+    std::erase_if(new_, [](const Kernel* kernel) { return kernel->is_compiled(); });
+    if (new_.empty()) return;
+    // The longest first, so that none is left to a single thread at the end.
+    std::ranges::stable_sort(new_, std::greater(), &Kernel::code_words);
+    const PipelineTimer timer(device_, new_.size());
+    in_parallel(new_.size(), 1, [this](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) new_[i]->compile();
+    });
+    new_.clear();
 }
 
 }  // namespace vesper::gpu

@@ -28,6 +28,8 @@ public:
     /// The kernel of a shader whose specialization constant i is constants[i]. Valid as long as the cache. Throws
     /// Error.
     const Kernel& get(const Shader& shader, std::initializer_list<uint32_t> constants = {}) const;
+    /// Compiles all that were asked for and are not compiled, in several threads. Throws Error.
+    void compile();
     const Device& device() const { return device_; }
 
 private:
@@ -35,6 +37,7 @@ private:
 
     const Device& device_;
     mutable std::map<Key, Kernel> kernels_;
+    mutable std::vector<const Kernel*> new_;  // asked for since the last compile()
 };
 
 }  // namespace vesper::gpu

@@ -25,6 +25,7 @@ ChainInputs FrameQueue::inputs(const ToneChainSettings& settings, const gpu_scen
 
 const std::vector<graph::Timing>& FrameQueue::run(const graph::FrameGraph& graph) {
     finish();
+    kernels_.compile();
     executor_.run(graph);
     return executor_.timings();
 }
@@ -38,6 +39,7 @@ void FrameQueue::submit(Declared frame, const ChainInputs& inputs, const graph::
     }
     pending.result.host_times.declare = frame.watch.milliseconds();
     try {
+        kernels_.compile();
         executor_.submit(frame.graph, semaphores);
     } catch (...) {
         forget_lost();

@@ -86,8 +86,9 @@ typedef struct VesperDeviceOptions {
     const char*
         select; /**< part of a name, "cpu", or an index; null: the environment's VESPER_DEVICE, else the best device */
     int32_t validation; /**< 1: the Khronos validation layer, which must be installed, checks all calls */
-    void (*on_message)(const char* message, void* user); /**< called for each message of the layer; may be null */
-    void* user;                                          /**< passed to on_message */
+    void (*on_message)(const char* message,
+                       void* user); /**< called for each message of the layer, on any thread; may be null */
+    void* user;                     /**< passed to on_message */
 } VesperDeviceOptions;
 
 /** Opens a Vulkan 1.3 device. `options` may be null. */

@@ -64,8 +64,7 @@ public:
           scene_(scene),
           seconds_(scene::animation_length(scene) > 0 ? scene::animation_length(scene) : kStanding),
           scaled_(plan.extent(), plan.render.scale),
-          renderer_(device, scene) {
-        renderer_.keep_maps(plan.map_cache);
+          renderer_(device, scene, plan.map_cache) {
         apps::give_indirect(renderer_, plan.render, scene, scene::world_transforms(scene, 0),
                             scene::animated_nodes(scene), plan.map_cache.get());
     }

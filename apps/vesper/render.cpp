@@ -240,9 +240,8 @@ void run(RenderArguments& arguments) {
 
     apps::Ranks& ranks = apps::Ranks::all();
     gpu::Device device({.select = arguments.device});
-    render::Renderer renderer(device, scene);
     const std::shared_ptr<Cache> cache = apps::cache_of(arguments.cache);
-    renderer.keep_maps(cache);
+    render::Renderer renderer(device, scene, cache);
     ranks.agree_on_start();
     if (arguments.settings.indirect && !arguments.traces && !ldr)  // which shows lamps alone
         ranks.in_turns([&] {

@@ -141,8 +141,7 @@ void HeadlampStudy::render(const render::ToneChainSettings& tone) {
     apps::apply_settings(arguments_.light, settings_);
     const std::shared_ptr<Cache> cache = apps::cache_of(arguments_.cache);
     gpu::Device device({.select = arguments_.device});
-    render::Renderer renderer(device, approach_.scene());
-    renderer.keep_maps(cache);
+    render::Renderer renderer(device, approach_.scene(), cache);
     make_folder(arguments_.folder);
     const gpu_scene::SceneFrame first = approach_.at(distances_.front(), 0, false);
     apps::give_indirect(renderer, settings_, approach_.scene(), first.world, first.moving, cache.get());

@@ -28,12 +28,11 @@ StudyPicture rendered(const PictureSource& arguments, gpu::Device& device, const
     loaded.scene.name = input;
     const gpu_scene::SceneFrame frame{scene::world_transforms(loaded.scene, arguments.start)};
     const gpu_scene::View view = gpu_scene::camera_view(loaded.scene, frame, arguments.camera, extent);
-    render::Renderer renderer(device, loaded.scene);
+    const std::shared_ptr<Cache> cache = apps::cache_of(arguments.cache);
+    render::Renderer renderer(device, loaded.scene, cache);
     render::RenderSettings render;
     static_cast<render::ToneChainSettings&>(render) = settings;
     apps::apply_settings(arguments.light, render);
-    const std::shared_ptr<Cache> cache = apps::cache_of(arguments.cache);
-    renderer.keep_maps(cache);
     apps::give_indirect(renderer, render, loaded.scene, frame.world, scene::animated_nodes(loaded.scene), cache.get());
     render::Frame made = renderer.render(render, view, frame, 0, {.display = false, .scene = true});
     apps::print_cache_note(made.maps.note);

@@ -8,6 +8,7 @@
 #include "base/one_line.h"
 #include "gpu_scene/facets.h"
 #include "gpu_scene/intensity_tables.h"
+#include "gpu_scene/kept_cells.h"
 #include "gpu_scene/occluders.h"
 #include "gpu_scene/provoking_vertices.h"
 #include "scene/reflectance.h"
@@ -106,15 +107,15 @@ WorldSphere world_sphere_of(const GpuScene::Part& part, const glm::dmat4& to_wor
     return {centre, double(sphere_of(part, glm::mat4(glm::dmat4(glm::dmat3(to_world)))).radius)};
 }
 
-GpuScene::GpuScene(const gpu::Device& device, const scene::Scene& scene, PictureFormat pictures)
+GpuScene::GpuScene(const gpu::Device& device, const scene::Scene& scene, PictureFormat pictures, Cache* cache)
     : arena_(device), textures_(device, arena_, pictures), occluders_(occluder_digest(scene)) {
     const Budget budget("preparing " + (scene.name.empty() ? "the scene" : one_line(scene.name)));
-    upload_geometry(device, scene);
+    upload_geometry(device, scene, cache);
     place(scene);
     make_surfaces(scene);
 }
 
-void GpuScene::upload_geometry(const gpu::Device& device, const scene::Scene& scene) {
+void GpuScene::upload_geometry(const gpu::Device& device, const scene::Scene& scene, Cache* cache) {
     std::vector<scene::Vertex> vertices;
     std::vector<uint32_t> indices;
     std::vector<shared::Facet> of_triangles;
@@ -137,7 +138,7 @@ void GpuScene::upload_geometry(const gpu::Device& device, const scene::Scene& sc
     }
     if (indices.empty()) return;
     vertex_count_ = vertices.size();
-    add_cells(scene, vertices, indices);
+    add_cells(kept_or_made_cells(scene, occluders_, cache), vertices, indices);
     caster_vertex_count_ = vertices.size(), index_count_ = indices.size();
     vertices_ =
         gpu::upload_buffer(device, arena_, bytes_of(vertices), gpu::kTexelUsage | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
@@ -146,17 +147,17 @@ void GpuScene::upload_geometry(const gpu::Device& device, const scene::Scene& sc
         gpu::upload_buffer(device, arena_, bytes_of(indices), gpu::kTexelUsage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
 }
 
-void GpuScene::add_cells(const scene::Scene& scene, std::vector<scene::Vertex>& vertices,
+void GpuScene::add_cells(std::vector<CasterCell> made, std::vector<scene::Vertex>& vertices,
                          std::vector<uint32_t>& indices) {
-    for (CasterCell& made : caster_cells(scene)) {
-        spend(2 * (made.vertices.size() * sizeof(scene::Vertex) + made.indices.size() * sizeof(uint32_t)));
-        Cell& cell = cells_.emplace_back(Cell{std::move(made.parts), made.origin, made.radius, {}});
-        for (const CasterCell::Level& level : made.levels)
+    for (CasterCell& of : made) {
+        spend(2 * (of.vertices.size() * sizeof(scene::Vertex) + of.indices.size() * sizeof(uint32_t)));
+        Cell& cell = cells_.emplace_back(Cell{std::move(of.parts), of.origin, of.radius, {}});
+        for (const CasterCell::Level& level : of.levels)
             cell.levels.push_back({level.error,
                                    {scene::kNone, uint32_t(indices.size()) + level.first_index, level.index_count,
-                                    int32_t(vertices.size()), glm::vec3(0), float(made.radius)}});
-        for (const glm::vec3 position : made.vertices) vertices.push_back({.position = position});
-        indices.insert(indices.end(), made.indices.begin(), made.indices.end());
+                                    int32_t(vertices.size()), glm::vec3(0), float(of.radius)}});
+        for (const glm::vec3 position : of.vertices) vertices.push_back({.position = position});
+        indices.insert(indices.end(), of.indices.begin(), of.indices.end());
     }
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/cache.h"
 #include "base/digest.h"
 #include "gpu/memory.h"
 #include "gpu_scene/caster_cells.h"
@@ -70,7 +71,9 @@ public:
         VkDescriptorImageInfo textures[3];  ///< base colour, metallic-roughness, emission
     };
 
-    GpuScene(const gpu::Device& device, const scene::Scene& scene, PictureFormat pictures = PictureFormat::Float);
+    /// `cache`: keeps cells of casters from run to run; null: nothing does.
+    GpuScene(const gpu::Device& device, const scene::Scene& scene, PictureFormat pictures = PictureFormat::Float,
+             Cache* cache = nullptr);
 
     const std::vector<Part>& parts() const { return parts_; }
     const std::vector<Placement>& placements() const { return placements_; }
@@ -90,8 +93,8 @@ public:
     const Digest::Value& occluders() const { return occluders_; }  ///< see occluder_digest()
 
 private:
-    void upload_geometry(const gpu::Device& device, const scene::Scene& scene);
-    void add_cells(const scene::Scene& scene, std::vector<scene::Vertex>& vertices, std::vector<uint32_t>& indices);
+    void upload_geometry(const gpu::Device& device, const scene::Scene& scene, Cache* cache);
+    void add_cells(std::vector<CasterCell> made, std::vector<scene::Vertex>& vertices, std::vector<uint32_t>& indices);
     void place(const scene::Scene& scene);
     void make_surfaces(const scene::Scene& scene);
 

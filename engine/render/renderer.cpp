@@ -50,7 +50,11 @@ struct Renderer::State {
         const gpu_scene::SceneFrame& poses;
     };
 
-    State(gpu::Device& d, const scene::Scene& s) : device(d), scene(std::make_unique<ResidentScene>(d, s)), frames(d) {}
+    State(gpu::Device& d, const scene::Scene& s, std::shared_ptr<Cache> cache)
+        : device(d),
+          scene(std::make_unique<ResidentScene>(d, s, cache.get())),
+          map_cache(std::move(cache)),
+          frames(d) {}
 
     Prepared prepare(const Request& of) {
         if (scene->maps && scene->shadow_resolution != of.settings.shadow_resolution) {
@@ -93,13 +97,14 @@ struct Renderer::State {
     std::deque<Pending> pending;  // the oldest first
 };
 
-Renderer::Renderer(gpu::Device& device, const scene::Scene& scene) : state_(std::make_unique<State>(device, scene)) {}
+Renderer::Renderer(gpu::Device& device, const scene::Scene& scene, std::shared_ptr<Cache> cache)
+    : state_(std::make_unique<State>(device, scene, std::move(cache))) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 void Renderer::set_scene(const scene::Scene& scene) {
-    auto resident = std::make_unique<ResidentScene>(state_->device, scene);
+    auto resident = std::make_unique<ResidentScene>(state_->device, scene, state_->map_cache.get());
     state_->keep_pending_maps();
     state_->frames.wait();  // frames under way use the old scene
     state_->scene = std::move(resident);

@@ -45,7 +45,8 @@ struct Frame : ToneMapped {
 /// Renders one scene on one device. Not thread-safe; several renderers may share a device in one thread.
 class Renderer {
 public:
-    Renderer(gpu::Device& device, const scene::Scene& scene);
+    /// `cache`: as keep_maps() takes it; cells of casters are kept there, too.
+    Renderer(gpu::Device& device, const scene::Scene& scene, std::shared_ptr<Cache> cache = nullptr);
     ~Renderer();
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;

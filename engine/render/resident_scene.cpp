@@ -11,8 +11,8 @@ graph::Resource SceneTexels::declare(graph::FrameGraph& graph, const char* name)
     return graph.external(name, buffer, bytes, VK_FORMAT_R32G32B32A32_SFLOAT);
 }
 
-SceneData::SceneData(const gpu::Device& device, const scene::Scene& scene)
-    : resident(device, scene),
+SceneData::SceneData(const gpu::Device& device, const scene::Scene& scene, Cache* cache)
+    : resident(device, scene, gpu_scene::PictureFormat::Float, cache),
       lamps(gpu_scene::placed_lamps(scene)),
       maps(shadow_map_plan(scene, resident, lamps)),
       directional(clipmap_plan(lamps)),

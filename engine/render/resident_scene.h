@@ -30,7 +30,8 @@ struct SceneTexels {
 
 /// The parts of a scene that do not change: on the device, and of those that the host needs.
 struct SceneData {
-    SceneData(const gpu::Device& device, const scene::Scene& scene);
+    /// `cache`: see GpuScene.
+    SceneData(const gpu::Device& device, const scene::Scene& scene, Cache* cache);
 
     gpu_scene::GpuScene resident;
     std::vector<gpu_scene::PlacedLamp> lamps;
@@ -51,7 +52,7 @@ private:
 
 /// A scene and its light. What is null is not known, or not yet needed by a frame.
 struct ResidentScene {
-    ResidentScene(const gpu::Device& device, const scene::Scene& scene) : data(device, scene) {}
+    ResidentScene(const gpu::Device& device, const scene::Scene& scene, Cache* cache) : data(device, scene, cache) {}
 
     const SceneData data;
     std::unique_ptr<ShadowMaps> maps;

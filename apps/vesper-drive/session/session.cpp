@@ -221,8 +221,7 @@ void Session::use(gpu::Device& device) {
     wall_.reset();
     renderer_.reset();
     device_ = &device;
-    renderer_ = std::make_unique<render::Renderer>(device, scenery_.scene());
-    renderer_->keep_maps(map_cache_);
+    renderer_ = std::make_unique<render::Renderer>(device, scenery_.scene(), map_cache_);
     renderer_->set_radiosity(radiosity_);
     renderer_->set_lamp_reflections(lamp_reflections_);
     if (rendered_) renderer_->set_eye(eye_);

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
 #include <glm/gtc/packing.hpp>
 
 #include "base/budget.h"
+#include "base/parallel.h"
 #include "gpu/commands.h"
 #include "scene/reflectance.h"
 #include "scene/scene.h"
@@ -16,6 +18,9 @@ namespace vesper::gpu_scene {
 namespace {
 
 constexpr uint64_t kStaging = 64 << 20;  // bytes between host and device
+constexpr size_t kTogether = 1 << 16;    // texels that a thread does at a time
+
+size_t rows_together(uint32_t width) { return std::max<size_t>(kTogether / width, 1); }
 
 // The weights with which `size` texels make up texel `to` of `count`: the area it covers of each.
 struct Tap {
@@ -42,6 +47,12 @@ VkSamplerAddressMode address_mode(scene::Wrap wrap) {
     }
 }
 
+// For in_parallel(), whose threads have no budget: this one's.
+bool in_time(size_t) {
+    check_time();
+    return true;
+}
+
 std::vector<Level> with_smaller(Level base) {
     std::vector<Level> levels{std::move(base)};
     while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(half_size(levels.back()));
@@ -56,10 +67,14 @@ Rows rows_of(const Level& level) {
 
 /// Codes of an image through a table.
 Rows decoded_rows(const Image& image, std::vector<float> table, bool linear_alpha) {
-    return {image.width, image.height, [&image, table = std::move(table), linear_alpha](uint32_t y, float* to) {
+    std::vector<float> alphas = linear_alpha ? decode_table(Decode::Data, {}) : table;
+    return {image.width, image.height,
+            [&image, table = std::move(table), alphas = std::move(alphas)](uint32_t y, float* to) {
                 const uint8_t* from = image.rgba.data() + size_t(y) * image.width * 4;
-                for (size_t i = 0; i < size_t(image.width) * 4; ++i)
-                    to[i] = linear_alpha && i % 4 == 3 ? float(from[i]) / 255 : table[from[i]];
+                for (size_t i = 0; i < size_t(image.width) * 4; i += 4) {
+                    for (size_t c = i; c < i + 3; ++c) to[c] = table[from[c]];
+                    to[i + 3] = alphas[from[i + 3]];
+                }
             }};
 }
 
@@ -77,9 +92,7 @@ Level half_of(const Rows& rows) {
     half.rgba.assign(size_t(half.width) * half.height * 4, 0.0f);
     std::vector<Tap> columns;
     for (uint32_t x = 0; x < half.width; ++x) columns.push_back(taps(x, half.width, rows.width));
-    std::vector<float> from(size_t(rows.width) * 4);
-    for (uint32_t y = 0; y < half.height; ++y) {
-        check_time();
+    const auto make_row = [&](uint32_t y, std::vector<float>& from) {
         const Tap tap = taps(y, half.height, rows.height);
         for (size_t j = 0; j < tap.weights.size(); ++j) {
             rows.row(tap.first + uint32_t(j), from.data());
@@ -91,7 +104,14 @@ Level half_of(const Rows& rows) {
                 }
             }
         }
-    }
+    };
+    in_parallel(
+        half.height, rows_together(rows.width),
+        [&](size_t begin, size_t end) {
+            std::vector<float> from(size_t(rows.width) * 4);
+            for (size_t y = begin; y < end; ++y) make_row(uint32_t(y), from);
+        },
+        in_time);
     return half;
 }
 
@@ -153,14 +173,29 @@ size_t bytes_of_texel(VkFormat format) {
     return format == VK_FORMAT_R32G32B32A32_SFLOAT ? 16 : format == VK_FORMAT_R16G16B16A16_SFLOAT ? 8 : 4;
 }
 
-void pack(VkFormat format, const glm::vec4& texel, std::byte* to) {
-    const auto put = [to](const auto& packed) { std::memcpy(to, &packed, sizeof packed); };
+// glm::packHalf1x16, some times as fast where the half is a normal number.
+uint16_t half_bits(float value) {
+    constexpr uint32_t kLeast = 0x38800000u, kBeyond = 0x477fe000u;  // 2^-14, and the largest half
+    const auto bits = std::bit_cast<uint32_t>(value), size = bits & 0x7fffffffu;
+    if (size - kLeast >= kBeyond - kLeast) return glm::packHalf1x16(value);
+    return uint16_t((bits >> 16 & 0x8000u) | ((size + 0x1000u - (112u << 23)) >> 13));
+}
+
+// Texels of four floats.
+void pack(VkFormat format, const std::vector<float>& texels, size_t count, std::byte* to) {
     if (format == VK_FORMAT_R32G32B32A32_SFLOAT)
-        put(texel);
+        std::memcpy(to, texels.data(), count * sizeof(glm::vec4));
     else if (format == VK_FORMAT_R16G16B16A16_SFLOAT)
-        put(glm::packHalf4x16(texel));
+        for (size_t i = 0; i < 4 * count; ++i) {
+            const uint16_t half = half_bits(texels[i]);
+            std::memcpy(to + i * sizeof half, &half, sizeof half);
+        }
     else
-        put(glm::packUnorm4x8(texel));
+        for (size_t i = 0; i < count; ++i) {
+            const float* texel = &texels[4 * i];
+            const uint32_t packed = glm::packUnorm4x8({texel[0], texel[1], texel[2], texel[3]});
+            std::memcpy(to + i * sizeof packed, &packed, sizeof packed);
+        }
 }
 
 }  // namespace
@@ -285,25 +320,27 @@ TextureStore::Texture TextureStore::upload(const std::vector<Rows>& levels, VkFo
         });
         copies.clear(), used = 0, part.first = false;
     };
-    std::vector<float> row(size_t(levels[0].width) * 4);
     for (uint32_t l = 0; l < levels.size(); ++l) {
         const Rows& level = levels[l];
         const uint64_t row_bytes = uint64_t(level.width) * texel_bytes;
-        for (uint32_t y = 0; y < level.height; ++y) {
-            check_time();
+        for (uint32_t y = 0, rows = 0; y < level.height; y += rows) {
             if (used + row_bytes > staging.bytes()) flush();
-            const bool goes_on = !copies.empty() && copies.back().imageSubresource.mipLevel == l;
-            if (!goes_on)
-                copies.push_back({.bufferOffset = used,
-                                  .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, l, 0, 1},
-                                  .imageOffset = {0, int32_t(y), 0},
-                                  .imageExtent = {level.width, 0, 1}});
-            ++copies.back().imageExtent.height;
-            level.row(y, row.data());
-            std::byte* to = staging.data() + used;
-            for (size_t i = 0; i < size_t(level.width) * 4; i += 4, to += texel_bytes)
-                pack(format, {row[i], row[i + 1], row[i + 2], row[i + 3]}, to);
-            used += row_bytes;
+            rows = uint32_t(std::min<uint64_t>(level.height - y, (staging.bytes() - used) / row_bytes));
+            copies.push_back({.bufferOffset = used,
+                              .imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, l, 0, 1},
+                              .imageOffset = {0, int32_t(y), 0},
+                              .imageExtent = {level.width, rows, 1}});
+            in_parallel(
+                rows, rows_together(level.width),
+                [&](size_t begin, size_t end) {
+                    std::vector<float> row(size_t(level.width) * 4);
+                    for (size_t i = begin; i < end; ++i) {
+                        level.row(y + uint32_t(i), row.data());
+                        pack(format, row, level.width, staging.data() + used + i * row_bytes);
+                    }
+                },
+                in_time);
+            used += rows * row_bytes;
         }
     }
     part.last = true;

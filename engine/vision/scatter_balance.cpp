@@ -71,6 +71,10 @@ public:
                 columns_.values[c] += double(fit.top[r * columns + c]) * made_.back().values[r];
     }
 
+    /// To be called when the kernels of the fit have changed.
+    void forget() {
+        for (Texels& known : gives_) std::ranges::fill(known.values, std::numeric_limits<double>::quiet_NaN());
+    }
     double steradians(ivec2 pixel) const {
         const dvec2 size = fit_.image.pixel();
         return size.x * size.y * steradians_per_area(fit_.image.at(dvec2(pixel) + 0.5));
@@ -147,10 +151,9 @@ double wanted(const EyeScatter& psf, const ImageAngles& image, ivec2 pixel) {
 }
 
 // What is missing away from the border, each node's part of it, is what pixels keep there beyond what the fit says.
-void balance_nodes(const EyeScatter& psf, ScatterFit& fit) {
+void balance_nodes(const EyeScatter& psf, Conserved& conserved, ScatterFit& fit) {
     constexpr int kSamples = 3;  // from node to node, along either axis
     const ivec2 size(fit.image.width, fit.image.height), low = glm::min(ivec2(EdgeLight::kDeep), (size - 1) / 2);
-    Conserved conserved(fit);
     struct Sample {
         BetweenNodes x, y;
         double missing;
@@ -196,8 +199,9 @@ int EdgeLight::Axis::pixel(int place) const {
 }
 
 void conserve_light(const EyeScatter& psf, ScatterFit& fit) {
-    balance_nodes(psf, fit);
     Conserved conserved(fit);
+    balance_nodes(psf, conserved, fit);
+    conserved.forget();
     const auto axis = [](int pixels, int nodes) {
         const int deep = std::min(EdgeLight::kDeep, pixels / 2);
         return EdgeLight::Axis{pixels, deep, std::min(nodes, pixels - 2 * deep)};

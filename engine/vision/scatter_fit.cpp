@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 
 #include "base/angle.h"
+#include "base/parallel.h"
 #include "vision/scatter_balance.h"
 #include "vision/scatter_cascade.h"
 
@@ -213,21 +214,26 @@ std::vector<size_t> mirrored_taps(int levels, const Samples& samples, bvec2 mirr
 // The fit at every node; where the picture is symmetric, those of one side are mirrored.
 Fits fit_nodes(const EyeScatter& psf, const ImageAngles& image, int levels, int reach, ivec2 nodes) {
     const Samples samples(levels, reach);
-    Fits fits;
+    const auto twin_of = [&](ivec2 node) {
+        return ivec2(image.symmetric_x() ? std::min(node.x, nodes.x - 1 - node.x) : node.x,
+                     image.symmetric_y() ? std::min(node.y, nodes.y - 1 - node.y) : node.y);
+    };
+    std::vector<ivec2> fitted, others;
     for (int y = 0; y < nodes.y; ++y)
-        for (int x = 0; x < nodes.x; ++x) {
-            const ivec2 twin(image.symmetric_x() ? std::min(x, nodes.x - 1 - x) : x,
-                             image.symmetric_y() ? std::min(y, nodes.y - 1 - y) : y);
-            if (twin == ivec2(x, y)) {
-                const dvec2 place = image.at(dvec2(image.width, image.height) * dvec2(x, y) / dvec2(nodes - 1));
-                fits.push_back(fit_node(psf, image, levels, samples, place));
-                continue;
-            }
-            const std::vector<double> of_twin = fits[size_t(twin.y * nodes.x + twin.x)];
-            std::vector<double> mirrored;
-            for (size_t i : mirrored_taps(levels, samples, {twin.x != x, twin.y != y})) mirrored.push_back(of_twin[i]);
-            fits.push_back(mirrored);
-        }
+        for (int x = 0; x < nodes.x; ++x) (twin_of({x, y}) == ivec2(x, y) ? fitted : others).push_back({x, y});
+    Fits fits(size_t(nodes.x) * size_t(nodes.y));
+    const auto fit_at = [&](ivec2 node) -> std::vector<double>& { return fits[size_t(node.y * nodes.x + node.x)]; };
+    in_parallel(fitted.size(), 1, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i)
+            fit_at(fitted[i]) =
+                fit_node(psf, image, levels, samples,
+                         image.at(dvec2(image.width, image.height) * dvec2(fitted[i]) / dvec2(nodes - 1)));
+    });
+    for (const ivec2 node : others) {
+        const ivec2 twin = twin_of(node);
+        for (size_t i : mirrored_taps(levels, samples, {twin.x != node.x, twin.y != node.y}))
+            fit_at(node).push_back(fit_at(twin)[i]);
+    }
     return fits;
 }
 
@@ -237,10 +243,12 @@ std::vector<float> top_matrix(const EyeScatter& psf, const ScatterFit& fit, cons
     const ivec2 rows = fit.top_rows(), columns = fit.top_columns();
     const double size = std::exp2(fit.levels);
     const auto middle = [&](ivec2 texel, int margin) { return size * (dvec2(texel - margin) + 0.5); };
-    std::vector<float> matrix;
-    matrix.reserve(size_t(rows.x * rows.y) * size_t(columns.x * columns.y));
-    for (int y = 0; y < rows.y; ++y)
-        for (int x = 0; x < rows.x; ++x) {
+    const size_t row_size = size_t(columns.x * columns.y);
+    std::vector<float> matrix(size_t(rows.x * rows.y) * row_size);
+    in_parallel(size_t(rows.x * rows.y), size_t(rows.x), [&](size_t begin, size_t end) {
+        for (size_t row = begin; row < end; ++row) {
+            const int x = int(row) % rows.x, y = int(row) / rows.x;
+            float* weight = &matrix[row * row_size];
             const dvec2 to = middle({x, y}, kScatterReach);
             const BetweenNodes bx = between_nodes(to.x / image.width, fit.nodes.x),
                                by = between_nodes(to.y / image.height, fit.nodes.y);
@@ -250,17 +258,18 @@ std::vector<float> top_matrix(const EyeScatter& psf, const ScatterFit& fit, cons
                 for (int u = 0; u < columns.x; ++u) {
                     const ivec2 d = ivec2(u, v) - kScatterMargin - (ivec2(x, y) - kScatterReach);
                     if (std::max(std::abs(d.x), std::abs(d.y)) > kNearTaps) {
-                        matrix.push_back(float(far[size_t(v * columns.x + u)]));
+                        *weight++ = float(far[size_t(v * columns.x + u)]);
                         continue;
                     }
                     const size_t tap = size_t(fit.taps() * fit.levels) + top_tap(d);
                     const auto at = [&](int dx, int dy) {
                         return fits[size_t((by.first + dy) * fit.nodes.x + bx.first + dx)][tap];
                     };
-                    matrix.push_back(float(glm::mix(glm::mix(at(0, 0), at(1, 0), bx.part),
-                                                    glm::mix(at(0, 1), at(1, 1), bx.part), by.part)));
+                    *weight++ = float(glm::mix(glm::mix(at(0, 0), at(1, 0), bx.part),
+                                               glm::mix(at(0, 1), at(1, 1), bx.part), by.part));
                 }
         }
+    });
     return matrix;
 }
 

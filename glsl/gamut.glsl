@@ -17,14 +17,25 @@ Gamut rec709_gamut() {
 
 float largest(vec3 light) { return max(light.r, max(light.g, light.b)); }
 
-// Light that is too bright for its colour goes towards white in Oklab, on a straight line of one hue, and is as bright as its
+// Light as bright as white at most, of its colour.
+vec3 dimmed(Gamut gamut, vec3 light) { return light / max(dot(gamut.luminance, light), 1.0); }
+
+// How dimmed light lies to what a display has.
+struct Excess {
+    float x, most, knee;  // its largest channel, and of that chromaticity at luminance 1; where its colour begins to give way
+};
+
+Excess excess_of(Gamut gamut, vec3 light) {
+    const float x = largest(light), most = x / dot(gamut.luminance, light);
+    return Excess(x, most, min(kGamutKnee, most - 1.0));
+}
+
+bool is_too_bright(Excess of) { return of.x > 1.0 - of.knee; }
+
+// Dimmed light that is too bright for its colour, towards white in Oklab, on a straight line of one hue, and as bright as its
 // largest channel lets it be. No channel of `light` is negative.
-vec3 towards_white(Gamut gamut, vec3 light) {
-    light /= max(dot(gamut.luminance, light), 1.0);
-    const float x = largest(light), luminance = dot(gamut.luminance, light);
-    const float most = x / luminance;  // largest channel of that chromaticity at luminance 1
-    const float knee = min(kGamutKnee, most - 1.0);
-    if (!(x > 1.0 - knee)) return light;
+vec3 whitened(Gamut gamut, vec3 light, Excess of) {
+    const float x = of.x, most = of.most, knee = of.knee;
     // max(x, 1), and what it leaves of x, with a parabola across the edge. Light of the luminance of white ends behind it.
     const float into = x - (1.0 - knee);
     const float beyond = x >= 1.0 + knee ? x : 1.0 + into * into / (4.0 * knee);
@@ -38,10 +49,18 @@ vec3 towards_white(Gamut gamut, vec3 light) {
     return moved * (channel / max(largest(moved), 1e-30));
 }
 
-// Light of displayed luminance d as the display can show it. A colour outside its primaries goes towards the grey of d as far as it must.
-vec3 in_gamut(Gamut gamut, uint tone, vec3 light, float d) {
+// Light of displayed luminance d as the display can show it, but for what whitened() does: with kGamutLuminance it is dimmed. A colour
+// outside the primaries goes towards the grey of d as far as it must.
+vec3 near_gamut(Gamut gamut, uint tone, vec3 light, float d) {
     if ((tone & kGamutMask) == kGamutClip) return clamp(light, 0.0, 1.0);
     const float least = min(light.r, min(light.g, light.b));
     if (least < 0.0) light = max(d + (light - d) * (d / (d - least)), vec3(0.0));
-    return (tone & kGamutMask) == kGamutChromaticity ? light / max(largest(light), 1.0) : towards_white(gamut, light);
+    return (tone & kGamutMask) == kGamutChromaticity ? light / max(largest(light), 1.0) : dimmed(gamut, light);
+}
+
+vec3 in_gamut(Gamut gamut, uint tone, vec3 light, float d) {
+    light = near_gamut(gamut, tone, light, d);
+    if ((tone & kGamutMask) != kGamutLuminance) return light;
+    const Excess of = excess_of(gamut, light);
+    return is_too_bright(of) ? whitened(gamut, light, of) : light;
 }

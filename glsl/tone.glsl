@@ -82,16 +82,30 @@ vec3 faded(vec3 ratios, Mapped to) {
     return mix(vec3(1.0), pow(ratios, vec3(to.exponent)), to.share);
 }
 
-// Displayed light of a pixel, RGB in [0, 1]; `own` is its colour in the display's primaries, `gamut`. Pixels that are not finite are
-// black; those without luminance are shown as what has hardly any.
-vec3 displayed(samplerBuffer curve, Tone tone, vec3 rgb, vec3 own, Gamut gamut, float display_low, float display_high) {
-    if (kForm == kToneLdr) return is_finite(rgb.r) && is_finite(rgb.g) && is_finite(rgb.b) ? clamp(own, 0.0, 1.0) : vec3(0.0);
+// Light that a pixel asks of the display, in its primaries.
+struct Asked {
+    vec3 light;
+    float luminance;  // of it, displayed
+    bool shown;       // it is as it is displayed, in [0, 1]
+};
+
+// `own` is the colour of the pixel in the display's primaries. Pixels that are not finite are black; those without luminance are shown as
+// what has hardly any.
+Asked asked(samplerBuffer curve, Tone tone, vec3 rgb, vec3 own, float display_low, float display_high) {
+    if (kForm == kToneLdr)
+        return Asked(is_finite(rgb.r) && is_finite(rgb.g) && is_finite(rgb.b) ? clamp(own, 0.0, 1.0) : vec3(0.0), 0.0, true);
     const float luminance = luminance_of(rgb);
-    if (!is_finite(luminance)) return vec3(0.0);
+    if (!is_finite(luminance)) return Asked(vec3(0.0), 0.0, true);
     const Mapped to = mapped(curve, tone, rgb, display_low, display_high);
     const float d = clamp(to.luminance, 0.0, 1.0);
-    if (luminance <= 0.0) return vec3(d);
-    return in_gamut(gamut, kTone, kForm == kToneColour ? faded(own / luminance, to) * d : own * (d / luminance), d);
+    if (luminance <= 0.0) return Asked(vec3(d), d, true);
+    return Asked(kForm == kToneColour ? faded(own / luminance, to) * d : own * (d / luminance), d, false);
+}
+
+// Displayed light of a pixel, RGB in [0, 1], in the primaries of `gamut`.
+vec3 displayed(samplerBuffer curve, Tone tone, vec3 rgb, vec3 own, Gamut gamut, float display_low, float display_high) {
+    const Asked of = asked(curve, tone, rgb, own, display_low, display_high);
+    return of.shown ? of.light : in_gamut(gamut, kTone, of.light, of.luminance);
 }
 
 // The same in Rec. 709, whatever the display's limits.

@@ -16,10 +16,11 @@ layout(binding = 4, r32ui) writeonly uniform uimage2D display_image;
 void main() {
     const Tone tone = read_tone(curve);
     const Gamut gamut = gamut_of_the_display();
+    const uvec2 first = gl_GlobalInvocationID.xy * uvec2(1u, kRows);
+    find_light(tone, gamut, first);
     [[unroll]] for (uint row = 0u; row < kRows; ++row) {
-        const uvec2 at = gl_GlobalInvocationID.xy * uvec2(1u, kRows) + uvec2(0u, row);
-        const vec3 light = shown_light(tone, gamut, at);
-        const uint codes = codes_of(cells, push.encode, kBlueFirst == 0u ? light : light.bgr);
+        const uvec2 at = first + uvec2(0u, row);
+        const uint codes = codes_of(cells, push.encode, kBlueFirst == 0u ? light[row] : light[row].bgr);
         if (all(lessThan(at, push.size))) imageStore(display_image, ivec2(at), uvec4(codes));
     }
 }

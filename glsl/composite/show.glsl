@@ -31,9 +31,28 @@ vec3 bloom_light(uvec2 at) {
     return push.bloom * textureLod(bloom, (vec2(at) + 0.5) / (float(kBloomShrink) * blocks), 0.0).rgb;
 }
 
-// What the display shows of a pixel, in its primaries: 0 at its darkest, 1 at its brightest.
-vec3 shown_light(Tone tone, Gamut gamut, uvec2 at) {
-    const vec3 rgb = perceived(tone, scene_light(at));
-    const vec3 light = displayed(curve, tone, rgb, of_the_display(rgb), gamut, push.display_low, push.display_high);
-    return kBloom == 0u ? light : clamp(light + of_the_display(bloom_light(at)), 0.0, 1.0);
+vec3 light[kRows];  // that the display shows of the pixels of a column, in its primaries: 0 at its darkest, 1 at its brightest
+
+void find_light(Tone tone, Gamut gamut, uvec2 first) {
+    uint bright = 0u;  // rows, a bit for each
+    [[unroll]] for (uint row = 0u; row < kRows; ++row) {
+        const vec3 rgb = perceived(tone, scene_light(first + uvec2(0u, row)));
+        const Asked of = asked(curve, tone, rgb, of_the_display(rgb), push.display_low, push.display_high);
+        light[row] = of.shown ? of.light : near_gamut(gamut, kTone, of.light, of.luminance);
+        bright |= !of.shown && is_too_bright(excess_of(gamut, light[row])) ? 1u << row : 0u;
+    }
+    if ((kTone & kGamutMask) == kGamutLuminance) {
+        // Few are. A loop over these that asks at its end, since a CPU device goes through what a branch leaves out.
+        do {
+            const uint at = uint(findLSB(bright));
+            vec3 one = light[0];
+            [[unroll]] for (uint row = 1u; row < kRows; ++row) one = row == at ? light[row] : one;
+            if (bright != 0u) one = whitened(gamut, one, excess_of(gamut, one));
+            [[unroll]] for (uint row = 0u; row < kRows; ++row) light[row] = row == at ? one : light[row];
+            bright &= bright - 1u;
+        } while (bright != 0u);
+    }
+    if (kBloom != 0u)
+        [[unroll]] for (uint row = 0u; row < kRows; ++row)
+            light[row] = clamp(light[row] + of_the_display(bloom_light(first + uvec2(0u, row))), 0.0, 1.0);
 }

@@ -29,8 +29,7 @@ graph::Resource add_casting_lamps(const FrameContext& frame, const BlockLists& l
                    across = (blocks.columns + step - 1) / step, down = (rows + step - 1) / step;
     // As fine as fits the sum of all blocks into a word, rounded up in each.
     const uint32_t whole = std::min(~0u / (across * down) - 1, 1u << 24u), lamps = uint32_t(maps.size());
-    const graph::Resource sums =
-        graph.transient("light of lamps", graph::buffer_shape((lamps + 1) * sizeof(uint32_t)));
+    const graph::Resource sums = graph.transient("light of lamps", graph::buffer_shape((lamps + 1) * sizeof(uint32_t)));
     graph.clear("clear light of lamps", sums);
     graph.dispatch("light shares", frame.kernels.get(kLightShares, {kinds.powers, kinds.tables, frame.lockstep()}),
                    {load(surfaces.surface), sample(clusters.lamps), sample(blocks.counts), sample(blocks.entries),

@@ -27,7 +27,8 @@ inline std::vector<double> light_shares(std::span<const shared::Lamp> lamps, con
 }
 
 /// Of lamps that may be left out, the faintest that together give at most `most`.
-inline std::vector<uint32_t> unshadowed(const std::vector<double>& shares, std::vector<uint32_t> optional, double most) {
+inline std::vector<uint32_t> unshadowed(const std::vector<double>& shares, std::vector<uint32_t> optional,
+                                        double most) {
     std::ranges::stable_sort(optional, {}, [&](uint32_t lamp) { return shares[lamp]; });
     std::vector<uint32_t> left_out;
     double sum = 0;

@@ -188,7 +188,7 @@ TEST(Layering, EveryPassOfShadowsHasItsReference) {
         EXPECT_EQ(missing_of(pass, true), std::vector<std::string>()) << pass;
         ++passes;
     }
-    EXPECT_EQ(passes, 4u);
+    EXPECT_EQ(passes, 5u);
 }
 
 // A folder of shaders belongs to the pass of its name; the other folders are listed here.

@@ -54,7 +54,7 @@ SceneLight declare(const FrameContext& frame, ResidentScene& scene, const Prepar
     FrameClipmaps directional;
     if (prepared.shadows) {
         const BlockLists lists{surfaces, clusters, blocks};
-        shading.maps = scene.maps->declare(frame, prepared.lamps, poses, &lists, prepared.unshadowed_share);
+        shading.maps = scene.maps->declare(frame, prepared.lamps, poses, &lists);
         if (scene.directional) directional = scene.directional->declare(frame, prepared.lamps, poses, view);
     }
     blocks =

@@ -27,7 +27,6 @@ struct Prepared {
     transport::RadiosityLight radiosity;       ///< of Indirect::Cells
     std::vector<transport::LitPatch> patches;  ///< likewise, of lamps that move
     ShadowReport maps;                         ///< with shadows
-    float unshadowed_share = 0;                ///< of ShadowMaps::declare
     uint32_t directional_levels = 0;           ///< of maps, to be drawn
 };
 

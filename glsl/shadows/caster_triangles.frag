@@ -7,4 +7,4 @@
 #include "shared/shadow_map.h"
 #include "fragment.glsl"
 
-void main() { draw_fragment(); }
+void main() { draw_fragment(true); }

@@ -8,10 +8,10 @@ layout(binding = 2, scalar) buffer Changed { uint changed[]; };
 
 #include "nearer.glsl"
 
-void draw_fragment() {
+void draw_fragment(bool is_drawn) {
     // Invocations that only help others cover nothing.
     const uvec2 texel = uvec2(gl_FragCoord.xy);
-    const bool covered = gl_SampleMaskIn[0] != 0 && all(lessThan(texel, uvec2(side)));
+    const bool covered = is_drawn && gl_SampleMaskIn[0] != 0 && all(lessThan(texel, uvec2(side)));
     if (kOver != 0u && covered) list_changed(first, side, texel);
     keep_nearer(covered, first + (covered ? texel.y * side + texel.x : 0u), gl_FragCoord.z);
 }

@@ -20,6 +20,5 @@ layout(push_constant) uniform Push {
 #include "fragment.glsl"
 
 void main() {
-    if (kMask != 0u && push.base_opacity * opacity * texture(base_texture, texture_uv).a < push.cutoff) discard;
-    draw_fragment();
+    draw_fragment(kMask == 0u || push.base_opacity * opacity * texture(base_texture, texture_uv).a >= push.cutoff);
 }

@@ -22,9 +22,8 @@ InQuadrant to_quadrant(vec3 q, MapQuadrant quadrant) {
     return at;
 }
 
-// The same where it is rasterized: all hemispheres lie in the corner of one square of this side, texels.
-const float kRasterSide = 2048.0;
+// The same where it is rasterized: all hemispheres lie in the corner of one square.
 vec4 in_raster(InQuadrant at, MapQuadrant quadrant) {
-    const float part = float(quadrant.side) / kRasterSide;
+    const float part = float(quadrant.side) / float(kRasterSide);
     return vec4((at.position.xy + at.position.w) * part - at.position.w, at.position.zw);
 }

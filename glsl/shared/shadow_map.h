@@ -81,6 +81,7 @@ struct ChangedTile {
 SHARED_SIZE(ChangedTile, 12)
 const uint kChangedHead = 4u;
 const uint kTileTexels = kRegion * kRegion;
+const uint kRasterSide = 2048u;  // texels, of the square in whose corner a hemisphere is rasterized: of the largest
 
 // Texels of a whole map, as many as a tile has, that were drawn.
 struct DrawnTexels {

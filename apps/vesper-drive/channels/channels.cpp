@@ -278,6 +278,7 @@ ChannelMosaic ChannelRenderer::render(render::Renderer& renderer, const Channels
     const size_t screens = channels.screens.size();
     const std::vector<size_t> own = link_.own(screens);
     render::RenderSettings settings = render::ldr_baseline(given);
+    settings.unshadowed_share = 0;  // what casts shadows is the same for all screens, and drawn once for them
     if (pictures_.size() != screens) {
         eye_ = std::make_unique<render::SharedEye>(device_, std::max<size_t>(own.size(), 1));
         pictures_ = std::vector<Picture>(screens);

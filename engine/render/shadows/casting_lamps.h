@@ -16,11 +16,11 @@ struct BlockLists {
 };
 
 /// Takes the maps from the faintest of the lamps `optional` (numbers, ascending), as many as together give at most the
-/// share `most_share` of the picture's light: nothing hides these, and the picture is off by at most that share in the
-/// mean. The share of a lamp is the mean, over the middle pixels of blocks, of its illuminance over that of all lamps
-/// of the block, as if nothing hid them: of all blocks in pictures of up to 16,384, of every fourth in larger ones.
-/// Where a block looks at every lamp (shade.h) all keep theirs. `maps`: of the lamps of the list. Returns them,
-/// rgba32f.
+/// share `most_share` of the picture's light: nothing hides these, and the picture as it were if nothing hid any lamp
+/// is off by at most that share in the mean. The share of a lamp is the mean, over the middle pixels of blocks, of its
+/// illuminance over that of all lamps of the block, as if nothing hid them: of all blocks in pictures of up to 16,384,
+/// of every fourth in larger ones. Where a block looks at every lamp (shade.h) all keep theirs. `maps`: of the lamps of
+/// the list. Returns them, rgba32f.
 graph::Resource add_casting_lamps(const FrameContext& frame, const BlockLists& lists,
                                   const std::vector<shared::ShadowMap>& maps, std::vector<uint32_t> optional,
                                   float most_share);

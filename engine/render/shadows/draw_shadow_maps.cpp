@@ -11,6 +11,7 @@
 #include "scene/scene.h"
 #include "shaders/shadows/masked_casters.frag.inc"
 #include "shaders/shadows/masked_casters.vert.inc"
+#include "shaders/shadows/restore_shadow_maps.comp.inc"
 #include "shaders/shadows/store_shadow_maps.comp.inc"
 
 namespace vesper::render {
@@ -19,7 +20,8 @@ namespace {
 using gpu_scene::GpuScene, gpu_scene::PlacedPart;
 using graph::load, graph::update;
 
-constexpr gpu::Shader kStore{"store_shadow_maps.comp", store_shadow_maps_comp};
+constexpr gpu::Shader kStore{"store_shadow_maps.comp", store_shadow_maps_comp},
+    kRestore{"restore_shadow_maps.comp", restore_shadow_maps_comp};
 
 constexpr VkVertexInputBindingDescription kMapBuffers[]{
     {0, sizeof(scene::Vertex), VK_VERTEX_INPUT_RATE_VERTEX},
@@ -37,6 +39,8 @@ constexpr VkDescriptorType kBindings[]{kMapBindings[0], kMapBindings[1], kMapBin
 constexpr gpu::GraphicsShaders kMapShaders{
     "masked_casters.frag", masked_casters_vert,          masked_casters_frag, kBindings,
     sizeof(MaskPush),      VK_SHADER_STAGE_FRAGMENT_BIT, kMapBuffers,         kMapAttributes};
+
+static_assert(ShadowMapScratch::kMostTexels >= 2 * kMostMapSide * kMostMapSide);
 
 constexpr double kNear = 25;  // m: nearer to a lamp all casters are drawn as they are
 
@@ -323,7 +327,7 @@ void add_shadow_maps(const FrameContext& frame, const GpuScene& scene, const gpu
                 list.push_back({texels + k, (map->layout.first + k) / 2});
             texels += map->layout.texels();
         }
-        if (list.empty()) return;
+        if (list.empty()) continue;
         const std::string name = of_target(graph, distances) + "." + std::to_string(round++);
         graph.fill("clear drawn shadow maps", scratch.drawn, 0, {{0, 0, texels * sizeof(float)}});
         draw(frame, scene, drawn, name, {{}, scratch.drawn, scratch.changed}, scratch);
@@ -341,6 +345,15 @@ void add_over_shadow_maps(const FrameContext& frame, const GpuScene& scene, cons
     for (const ShadowMapToDraw& map : maps) collector.collect(map, map.layout.first, drawn);
     draw(frame, scene, drawn, of_target(frame.graph, distances) + ", bodies", {{}, distances, scratch.changed, true},
          scratch);
+}
+
+void restore_shadow_maps(const FrameContext& frame, graph::Resource still, graph::Resource distances,
+                         const ShadowMapScratch& scratch) {
+    graph::FrameGraph& graph = frame.graph;
+    graph.copy("count changed tiles", scratch.changed, scratch.draws, {{0, 0, sizeof(VkDispatchIndirectCommand)}});
+    graph.dispatch("restore shadow maps", frame.kernels.get(kRestore, {frame.lockstep() ? 8u : 64u}),
+                   {load(still), update(distances), update(scratch.changed)}, graph::Arguments{scratch.draws});
+    graph.fill("empty changed tiles", scratch.changed, 0, {{0, 0, sizeof(uint32_t)}});
 }
 
 void add_shadow_map_shaders(Digest& digest) {

@@ -43,6 +43,10 @@ void add_over_shadow_maps(const FrameContext& frame, const gpu_scene::GpuScene& 
                           const gpu_scene::SceneFrame& poses, std::span<const ShadowMapToDraw> maps,
                           graph::Resource distances, const ShadowMapScratch& scratch);
 
+/// Puts the tiles that are listed in `scratch.changed` back as they are in `still`, and empties the list.
+void restore_shadow_maps(const FrameContext& frame, graph::Resource still, graph::Resource distances,
+                         const ShadowMapScratch& scratch);
+
 /// The shaders that draw them.
 void add_shadow_map_shaders(Digest& digest);
 

@@ -53,5 +53,6 @@ inline std::vector<graph::Use> map_uses(const MapTargets& to, std::initializer_l
 
 /// Of a raster pass: every hemisphere lies in its corner.
 inline constexpr VkExtent2D kMapRaster{kMostMapSide, kMostMapSide};
+static_assert(shared::kRasterSide == kMostMapSide);
 
 }  // namespace vesper::render

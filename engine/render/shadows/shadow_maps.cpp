@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 #include "render/shadows/caster_parts.h"
 #include "render/shadows/casters.h"
-#include "shaders/shadows/restore_shadow_maps.comp.inc"
 
 namespace vesper::render {
 namespace {
@@ -19,8 +19,6 @@ uint64_t cost_of(const ShadowMapLayout& layout) {
 
 constexpr double kFaintestMoving = 0.1;    // lx: light below, of a lamp that moves, casts no shadow
 constexpr double kLeastShare = 1.0 / 100;  // of the light at a moving placement: below, it casts no shadow
-
-constexpr gpu::Shader kRestore{"restore_shadow_maps.comp", restore_shadow_maps_comp};
 
 uint64_t changed_bytes(const ShadowAtlas& atlas) {
     const uint64_t tiles = atlas.texels() / shared::kTileTexels;
@@ -50,29 +48,43 @@ ShadowMaps::ShadowMaps(const gpu::Device& device, const gpu_scene::GpuScene& res
 }
 
 void ShadowMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses, const gpu_scene::View& view,
-                      uint64_t budget, double caster_error) {
+                      uint64_t budget, double caster_error, float unshadowed_share) {
     report_ = {};
     maps_to_draw_.clear();
     if (std::exchange(caster_error_, caster_error) != caster_error)
         for (uint32_t lamp = 0; lamp < maps_.size(); ++lamp) maps_[lamp].drawn &= !moves(lamp);
+    update_light(list, view, unshadowed_share);
     update_view(view, poses);
     const uint64_t most_texels = budget == kUnlimited ? budget : budget / 2 * shared::kTileTexels;
     std::vector<bool> moving;
-    for (uint32_t lamp = 0; lamp < lamps_.size(); ++lamp) moving.push_back(moves(lamp));
+    for (uint32_t lamp = 0; lamp < lamps_.size(); ++lamp) {
+        moving.push_back(moves(lamp));
+        if (moves(lamp) && !std::exchange(maps_[lamp].moves, true)) maps_[lamp].drawn = false;
+    }
     ShadowAtlas::Change change = atlas_.fit(list, most_texels, moving);
     moves_ = std::move(change.moves);
     for (const uint32_t lamp : change.lamps) maps_[lamp].drawn = false;
+    current_ = most_texels == kUnlimited;
     plan_new_maps(list, budget);
     const auto stands = [&](uint32_t lamp) { return !moves(lamp); };
     bodies_ = bodies_in_light(list, view);
     draws_bodies_ =
         bodies_ != drawn_bodies_ || !moves_.empty() || (!bodies_.empty() && std::ranges::any_of(maps_to_draw_, stands));
-    current_ = most_texels == kUnlimited;
     plan_moved_maps(list, budget);
     find_cached(poses);
     report_.maps = uint32_t(maps_to_draw_.size());
     for (const auto& [lamp, placements] : bodies_) report_.bodies += draws_bodies_ ? uint32_t(placements.size()) : 0;
     report_.bytes = arena_.bytes();
+}
+
+void ShadowMaps::update_light(const gpu_scene::LampList& list, const gpu_scene::View& view, float unshadowed_share) {
+    const auto same = [](const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof a) == 0; };
+    is_same_light_ = unshadowed_share_ == unshadowed_share && view_.extent.width == view.extent.width &&
+                     view_.extent.height == view.extent.height && view_.world_to_view == view.world_to_view &&
+                     view_.tangent_low == view.tangent_low && view_.tangent_high == view.tangent_high &&
+                     std::ranges::equal(lamps_seen_, list.lamps, same);
+    unshadowed_share_ = unshadowed_share;
+    lamps_seen_ = list.lamps;
 }
 
 void ShadowMaps::update_view(const gpu_scene::View& view, const gpu_scene::SceneFrame& poses) {
@@ -193,7 +205,7 @@ void ShadowMaps::find_cached(const gpu_scene::SceneFrame& poses) {
             missing.push_back(lamp);
             continue;
         }
-        maps_[lamp] = {.drawn = true, .culled = false, .version = moving_.version()};
+        maps_[lamp] = {.drawn = true, .version = moving_.version()};
         copied_.push_back(lamp);
         ++report_.cached;
     }
@@ -203,20 +215,14 @@ void ShadowMaps::find_cached(const gpu_scene::SceneFrame& poses) {
 // Tiles that what moves was drawn into are as they are without it.
 void ShadowMaps::declare_restoring(const Declared& to) {
     graph::FrameGraph& graph = to.frame.graph;
-    const uint32_t tiles = uint32_t(atlas_.texels() / shared::kTileTexels);
-    const graph::Resource nothing = graph.upload("no changed tiles listed", std::vector<uint32_t>{0, 1, 1, tiles});
-    const graph::Region head{0, 0, shared::kChangedHead * sizeof(uint32_t)};
-    const bool empties = std::exchange(lists_nothing_, false);
-    if (empties) {
+    if (std::exchange(lists_nothing_, false)) {
+        const uint32_t tiles = uint32_t(atlas_.texels() / shared::kTileTexels);
         graph.clear("clear changed tiles", to.scratch.changed);
+        graph.copy("begin changed tiles", graph.upload("no changed tiles", std::vector<uint32_t>{0, 1, 1, tiles}),
+                   to.scratch.changed, {{0, 0, shared::kChangedHead * sizeof(uint32_t)}});
     } else if (draws_bodies_) {
-        graph.copy("count changed tiles", to.scratch.changed, to.scratch.draws,
-                   {{0, 0, sizeof(VkDispatchIndirectCommand)}});
-        graph.dispatch("restore shadow maps", to.frame.kernels.get(kRestore, {to.frame.lockstep() ? 8u : 64u}),
-                       {graph::load(to.still), graph::update(to.distances), graph::update(to.scratch.changed)},
-                       graph::Arguments{to.scratch.draws});
+        restore_shadow_maps(to.frame, to.still, to.distances, to.scratch);
     }
-    if (empties || draws_bodies_) graph.copy("empty changed tiles", nothing, to.scratch.changed, {head});
 }
 
 // By way of another buffer, so that no map is overwritten before it has moved.
@@ -245,7 +251,7 @@ void ShadowMaps::declare_still_maps(const Declared& to) {
     for (const uint32_t lamp : maps_to_draw_) {
         if (moves(lamp)) continue;
         maps.push_back(map_of(lamp, to.poses));
-        maps_[lamp] = {.drawn = true, .culled = false, .version = moving_.version()};
+        maps_[lamp] = {.drawn = true, .version = moving_.version()};
         copied_.push_back(lamp);
     }
     if (!maps.empty()) add_shadow_maps(to.frame, resident_, to.poses, {}, maps, to.still, to.scratch);
@@ -265,7 +271,8 @@ void ShadowMaps::declare_what_moves(const Declared& to) {
         if (!moves(lamp)) continue;
         ShadowMapToDraw& map = maps.emplace_back(map_of(lamp, to.poses));
         map.is_caster = casters_of(lamp, to), map.number = number_of(lamp, to.list);
-        maps_[lamp] = {.drawn = true, .culled = culls(), .version = moving_.version()};
+        maps_[lamp] = {
+            .drawn = true, .moves = true, .culled = culls(), .optional = may_leave_out(), .version = moving_.version()};
     }
     if (!maps.empty())
         add_shadow_maps(to.frame, resident_, to.poses, standing_cells(resident_, moving_.still(), to.poses), maps,
@@ -283,21 +290,20 @@ void ShadowMaps::declare_what_moves(const Declared& to) {
     add_over_shadow_maps(to.frame, resident_, to.poses, maps, to.distances, to.scratch);
 }
 
-graph::Resource ShadowMaps::lamps_of(const Declared& to, const BlockLists* lists, float unshadowed_share) const {
+graph::Resource ShadowMaps::lamps_of(const Declared& to, const BlockLists* lists) const {
     std::vector<shared::ShadowMap> maps;
     std::vector<uint32_t> optional;
     for (const uint32_t lamp : std::span(to.list.indices).first(to.list.placed())) {
-        if (culls() && moves(lamp)) optional.push_back(uint32_t(maps.size()));
+        if (moves(lamp)) optional.push_back(uint32_t(maps.size()));
         maps.push_back(shadow_map(atlas_[lamp], map_frame(to.poses.world[lamps_[lamp].node]), view_));
     }
-    if (lists && unshadowed_share > 0 && !moving_.moving().empty())
-        return add_casting_lamps(to.frame, *lists, maps, std::move(optional), unshadowed_share);
+    if (lists && may_leave_out() && !moving_.moving().empty())
+        return add_casting_lamps(to.frame, *lists, maps, std::move(optional), unshadowed_share_);
     return to.frame.graph.upload("shadow maps", maps, VK_FORMAT_R32G32B32A32_SFLOAT);
 }
 
 FrameShadowMaps ShadowMaps::declare(const FrameContext& frame, const gpu_scene::LampList& list,
-                                    const gpu_scene::SceneFrame& poses, const BlockLists* lists,
-                                    float unshadowed_share) {
+                                    const gpu_scene::SceneFrame& poses, const BlockLists* lists) {
     const uint64_t bytes = atlas_.texels() * sizeof(uint16_t);
     const graph::Resource still = frame.graph.persistent("distances of what stands still", still_, bytes),
                           distances = frame.graph.persistent("distances", distances_, bytes, VK_FORMAT_R16_SFLOAT);
@@ -306,7 +312,7 @@ FrameShadowMaps ShadowMaps::declare(const FrameContext& frame, const gpu_scene::
     declare_restoring(to);
     declare_moves(to);
     declare_still_maps(to);
-    if (list.placed() > 0) to.scratch.lamps = lamps_of(to, lists, unshadowed_share);
+    if (list.placed() > 0) to.scratch.lamps = lamps_of(to, lists);
     declare_what_moves(to);
     return list.placed() > 0 ? FrameShadowMaps{to.scratch.lamps, distances} : FrameShadowMaps{};
 }

@@ -41,15 +41,14 @@ public:
     /// tiles of shared::kRegion texels square; a map counts as its tiles, but at least as 128. What gives the picture
     /// most comes first, the rest is counted as deferred. Host work only. Throws Error where the maps of all lamps do
     /// not fit. `caster_error`: texels, see ShadowMapToDraw; where it is another one than before, all maps are drawn
-    /// anew.
+    /// anew. `unshadowed_share`: without a budget, lamps that move cast no shadow where they are the faintest, together
+    /// that share of the light of this view (add_casting_lamps); with one, and with 0, all cast shadows.
     void plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses, const gpu_scene::View& view,
-              uint64_t budget, double caster_error);
-    /// Declares the work that plan() found, with its arguments; declared again, nothing is left to draw. Lamps that
-    /// move cast none where one view alone asks and they give little light, together `unshadowed_share`
-    /// (add_casting_lamps); without `lists` all do. Returns the maps of the lamps of the list.
+              uint64_t budget, double caster_error, float unshadowed_share = 0);
+    /// Declares the work that plan() found, with its arguments; declared again, nothing is left to draw. `lists`: of
+    /// the frame, where plan() had an unshadowed share. Returns the maps of the lamps of the list.
     FrameShadowMaps declare(const FrameContext& frame, const gpu_scene::LampList& list,
-                            const gpu_scene::SceneFrame& poses, const BlockLists* lists = nullptr,
-                            float unshadowed_share = 0);
+                            const gpu_scene::SceneFrame& poses, const BlockLists* lists = nullptr);
     /// A frame that was declared has failed: all maps are drawn anew.
     void forget();
     /// Gives maps of a finished frame to the cache. Returns why the cache keeps no more, once.
@@ -62,9 +61,11 @@ public:
 private:
     /// The content of a lamp's map.
     struct Map {
-        bool drawn = false;    // it holds what stands still
-        bool culled = false;   // of a lamp that moves: it holds casters of one view alone
-        uint64_t version = 0;  // of what moves, in maps of lamps that move
+        bool drawn = false;     // it holds what stands still
+        bool moves = false;     // with its lamp
+        bool culled = false;    // of a lamp that moves: it holds casters of one view alone
+        bool optional = false;  // likewise: it may hold nothing, where its lamp gave little light of one view
+        uint64_t version = 0;   // of what moves, in maps of lamps that move
     };
     /// Whether maps of lamps that move hold the casters of one view alone. Frames at the same poses from other
     /// places are known only after the first: a moment is drawn for one view if the moment before had one.
@@ -92,15 +93,18 @@ private:
     void find_cached(const gpu_scene::SceneFrame& poses);
     ShadowMapToDraw map_of(uint32_t lamp, const gpu_scene::SceneFrame& poses) const;
     static uint32_t number_of(uint32_t lamp, const gpu_scene::LampList& list);
-    graph::Resource lamps_of(const Declared& to, const BlockLists* lists, float unshadowed_share) const;
+    graph::Resource lamps_of(const Declared& to, const BlockLists* lists) const;
     IsCaster casters_of(uint32_t lamp, const Declared& to) const;
+    void update_light(const gpu_scene::LampList& list, const gpu_scene::View& view, float unshadowed_share);
     void update_view(const gpu_scene::View& view, const gpu_scene::SceneFrame& poses);
     void forget_still(const std::vector<uint32_t>& placements);
     bool moves(uint32_t lamp) const { return moving_.moves(lamps_[lamp].node); }
     bool is_out_of_date(const Map& map) const {
-        return map.version != moving_.version() || (map.culled && culling_ != ViewCulling::On);
+        if (map.version != moving_.version()) return true;
+        return map.optional ? !is_same_light_ : map.culled && culling_ != ViewCulling::On;
     }
-    bool culls() const { return current_ && culling_ == ViewCulling::On; }
+    bool may_leave_out() const { return current_ && unshadowed_share_ > 0; }
+    bool culls() const { return may_leave_out() || (current_ && culling_ == ViewCulling::On); }
     void plan_new_maps(const gpu_scene::LampList& list, uint64_t& budget);
     void plan_moved_maps(const gpu_scene::LampList& list, uint64_t budget);
     Bodies bodies_in_light(const gpu_scene::LampList& list, const gpu_scene::View& view) const;
@@ -118,13 +122,16 @@ private:
     std::vector<Map> maps_;       // of lamps
     gpu_scene::View view_;        // of the last plan()
     ViewCulling culling_ = ViewCulling::Off;
-    double caster_error_ = 0;             // texels
-    bool current_ = true;                 // no map is ever out of date
-    Bodies bodies_, drawn_bodies_;        // wanted, and in the maps
-    bool draws_bodies_ = false;           // in this frame
-    std::vector<uint32_t> maps_to_draw_;  // lamps
-    std::vector<uint32_t> copied_;        // likewise: still maps that are new
-    std::vector<graph::Region> moves_;    // of texels, to be made before, bytes
+    double caster_error_ = 0;  // texels
+    float unshadowed_share_ = 0;
+    std::vector<shared::Lamp> lamps_seen_;  // of the last plan()
+    bool is_same_light_ = false;            // as in the plan() before: view, lamps and share
+    bool current_ = true;                   // no map is ever out of date
+    Bodies bodies_, drawn_bodies_;          // wanted, and in the maps
+    bool draws_bodies_ = false;             // in this frame
+    std::vector<uint32_t> maps_to_draw_;    // lamps
+    std::vector<uint32_t> copied_;          // likewise: still maps that are new
+    std::vector<graph::Region> moves_;      // of texels, to be made before, bytes
     std::map<uint32_t, uint32_t> deferred_maps_;
     ShadowReport report_;
     Cache* cache_ = nullptr;

@@ -15,12 +15,15 @@ shared::Lamp point(glm::vec3 position, float candela) {
 
 // 90 cd at 3 m above give 10 lx; 20 cd at 2 m 5 lx; the third is below the ground.
 TEST(CastingLampsReference, SharesAreThoseOfIlluminance) {
-    const std::vector<shared::Lamp> lamps{point({0, 3, 0}, 90), point({0, 2, 0}, 20), point({0, -1, 0}, 500)};
-    const std::vector<double> shares = light_shares(lamps, {3, 0, 0, 0}, {0, 0, 0}, {0, 1, 0}, 1e-9);
-    EXPECT_NEAR(shares[0], 10.0 / 15, 1e-9);
-    EXPECT_NEAR(shares[1], 5.0 / 15, 1e-9);
+    const glm::vec3 ground(0, -1.5f, -4);
+    const std::vector<shared::Lamp> lamps{point(ground + glm::vec3(0, 3, 0), 90),
+                                          point(ground + glm::vec3(0, 2, 0), 20),
+                                          point(ground - glm::vec3(0, 1, 0), 500)};
+    const std::vector<double> shares = light_shares(lamps, {3, 0, 0, 0}, ground, {0, 1, 0}, 1e-9);
+    EXPECT_NEAR(shares[0], 10.0 / 15, 1e-6);
+    EXPECT_NEAR(shares[1], 5.0 / 15, 1e-6);
     EXPECT_EQ(shares[2], 0);
-    EXPECT_EQ(light_shares(lamps, {3, 0, 0, 0}, {0, -9, 0}, {0, -1, 0}, 1e-9), std::vector<double>(3));
+    EXPECT_EQ(light_shares(std::span(lamps).first(2), {2, 0, 0, 0}, ground, {0, -1, 0}, 1e-9), std::vector<double>(2));
 }
 
 TEST(CastingLampsReference, TheFaintestAreLeftOut) {

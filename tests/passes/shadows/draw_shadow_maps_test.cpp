@@ -239,6 +239,58 @@ TEST(ShadowMap, TexelsDoNotDependOnWhatElseIsDrawn) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+/// An empty list of the changed tiles of maps of so many texels.
+graph::Resource no_changed_tiles(graph::FrameGraph& graph, uint32_t texels) {
+    const uint32_t tiles = texels / shared::kTileTexels;
+    const graph::Resource changed = graph.transient(
+        "changed", graph::buffer_shape((shared::kChangedHead + tiles) * 4 + tiles * sizeof(shared::ChangedTile)));
+    graph.clear("clear changed", changed);
+    graph.copy("begin changed", graph.upload("head", std::vector<uint32_t>{0, 1, 1, tiles}), changed,
+               {{0, 0, shared::kChangedHead * 4}});
+    return changed;
+}
+
+// Half of a room is drawn over the other half: as if all were drawn at once, and it goes away again without a trace.
+TEST(ShadowMap, WhatIsDrawnOverAMapIsTheNearerAndGoesAway) {
+    PassRig rig;
+    OccluderScene s = room();
+    const gpu_scene::GpuScene resident(rig.device(), s.scene());
+    const gpu_scene::SceneFrame poses{scene::world_transforms(s.scene(), 0), {}, {}, {}, {}};
+    std::vector<uint32_t> all, even, odd;
+    for (uint32_t p = 0; p < resident.placements().size(); ++p) all.push_back(p), (p % 2 ? odd : even).push_back(p);
+    std::vector<render::ShadowMapToDraw> maps{
+        {{.side = 128, .hemispheres = 2, .zoom = 1, .range = 100, .radius = 0, .first = 0},
+         render::map_frame(glm::translate(glm::dmat4(1), glm::dvec3(0.2, 1, -0.3))),
+         {},
+         {}},
+        {{.side = 64, .hemispheres = 1, .zoom = 1.2f, .flat = true, .range = 100, .radius = 0, .first = 32768},
+         render::map_frame(glm::mat4_cast(glm::angleAxis(-1.4, glm::normalize(glm::dvec3(1, 0.1, 0.2))))),
+         {},
+         {}}};
+    constexpr uint32_t kTexels = 32768 + 4096;
+    const auto with = [&](const std::vector<uint32_t>& placements) {
+        for (render::ShadowMapToDraw& map : maps) map.placements = placements;
+        return std::span<const render::ShadowMapToDraw>(maps);
+    };
+    const auto drawn = [&](const std::vector<uint32_t>& first, const std::vector<uint32_t>& over, bool goes_away) {
+        return drawn_texels(rig, kTexels, [&](const render::FrameContext& frame, graph::Resource words) {
+            const render::ShadowMapScratch scratch =
+                render::add_shadow_map_scratch(frame, resident, no_changed_tiles(frame.graph, kTexels));
+            const graph::Resource still = frame.graph.transient("still", graph::buffer_shape(kTexels * 2));
+            frame.graph.clear("clear still", still);
+            render::add_shadow_maps(frame, resident, poses, {}, with(first), still, scratch);
+            frame.graph.copy("copy still", still, words, {{0, 0, kTexels * 2}});
+            render::add_over_shadow_maps(frame, resident, poses, with(over), words, scratch);
+            if (goes_away) render::restore_shadow_maps(frame, still, words, scratch);
+        });
+    };
+    const std::vector<float> together = drawn(all, {}, false), alone = drawn(even, {}, false);
+    EXPECT_NE(together, alone);
+    EXPECT_EQ(drawn(even, odd, false), together);
+    EXPECT_EQ(drawn(even, odd, true), alone);
+    EXPECT_EQ(rig.complaints(), "");
+}
+
 // The opacity of a mask's texture decides texel by texel.
 TEST(ShadowMap, MasksLetLightThrough) {
     PassRig rig;

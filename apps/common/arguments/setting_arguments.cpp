@@ -88,8 +88,9 @@ void add_row_option(Command command, const Setting& row, double value) {
 
 void add_quality_option(Command command, SettingArguments& a) {
     command
-        .add_option("--quality", a.quality,
-                    "Of scenes: fast, interactive, standard, or exact, which leaves nothing out (docs/quality.md)")
+        .add_option(
+            "--quality", a.quality,
+            "Of scenes: fast, interactive (a window's), standard, or exact, which leaves nothing out (docs/quality.md)")
         .check({[](const std::string& given) {
                     try {
                         render::quality_named(given);

@@ -1,4 +1,4 @@
-// What part of a picture's light lamps give, and which cast no shadows. SPDX-License-Identifier: MIT
+// Shares of lamps in a picture's light, and lamps without shadows. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <algorithm>

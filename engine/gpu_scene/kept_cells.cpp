@@ -4,6 +4,8 @@
 #include <optional>
 #include <string_view>
 
+#include <meshoptimizer.h>
+
 #include "scene/fixtures.h"
 #include "scene/placement.h"
 #include "scene/scene.h"
@@ -98,6 +100,8 @@ void write_cells(Cache& cache, const Digest::Value& key, const std::vector<Caste
 Digest::Value cells_key(const scene::Scene& scene, const Digest::Value& occluders) {
     Digest digest;
     digest.add_list(std::string_view("cells of casters"));
+    digest.add_list(std::string_view(VESPER_VERSION));
+    digest.add_value(MESHOPTIMIZER_VERSION);
     digest.add_value(kCellsVersion), digest.add_value(kCellSide), digest.add_value(kMostCellTriangles);
     digest.add_value(occluders);
     digest.add_value(scene::nodes_with_lamps(scene).empty());

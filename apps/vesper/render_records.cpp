@@ -68,9 +68,8 @@ void print_statistics(const RenderArguments& arguments, const gpu::Device& devic
               1e-4 * unshadowed_light);
     if (arguments.settings.shadows)
         print(
-            "shadow maps: %u, %.0f MiB; for this frame %u were drawn anew, %u taken from the cache, and bodies that "
-            "move "
-            "drawn %u times over others; %u are out of date\n",
+            "shadow maps: %u, %.0f MiB; for this frame %u were drawn anew, %u taken from the cache, and bodies "
+            "that move drawn %u times over others; %u are out of date\n",
             frame.maps.lamps, double(frame.maps.bytes) / (1 << 20), frame.maps.maps, frame.maps.cached,
             frame.maps.bodies, frame.maps.deferred);
     if (frame.directional_levels > 0)

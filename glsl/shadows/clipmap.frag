@@ -2,7 +2,7 @@
 
 // Clipmaps, fragments: masked materials let light through where their texture does.
 
-layout(constant_id = 1) const uint kMask = 0u;
+layout(constant_id = 0) const uint kMask = 0u;
 
 layout(location = 0) in vec2 texture_uv;
 layout(location = 1) in float opacity;

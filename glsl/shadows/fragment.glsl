@@ -1,6 +1,6 @@
 // A fragment of what is rasterized into a shadow map. Needs what nearer.glsl needs.
 
-layout(constant_id = 0) const uint kOver = 0u;
+layout(constant_id = 1) const uint kOver = 0u;
 layout(location = 0) flat in uint first;  // texel of the hemisphere
 layout(location = 1) flat in uint side;   // of it, texels
 layout(binding = 1, scalar) buffer Words { uint words[]; };

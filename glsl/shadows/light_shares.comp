@@ -4,7 +4,7 @@
 #extension GL_KHR_shader_subgroup_vote : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
-// What part of the picture's light each lamp gives, as if nothing hid it: in the middle pixel of some blocks, one block per
+// The share of each lamp in the picture's light, as if nothing hid it: in the middle pixel of some blocks, one block per
 // workgroup, the illuminance of each lamp on the block's list over that of all of them. Sums are whole numbers, so that they have no order.
 
 #include "blocks.glsl"

@@ -6,7 +6,7 @@
 
 #include "shared/shadow_map.h"
 
-layout(constant_id = 1) const uint kMask = 0u;
+layout(constant_id = 0) const uint kMask = 0u;
 
 layout(location = 2) in vec2 texture_uv;
 layout(location = 3) in float opacity;

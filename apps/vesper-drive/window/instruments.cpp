@@ -142,9 +142,8 @@ void Instruments::draw_status(const FrameState& now) const {
         ImGui::Text("%3.0f km/h  %s%s%s", std::abs(me.speed) * 3.6, beam, input.reverse ? "  reverse" : "",
                     input.autopilot ? "  autopilot" : "");
         ImGui::TextUnformatted(
-            apps::format("%s  |  glare %s  |  display %s  |  observer of %.0f  |  adapted to %.3g cd/m²  |  quality "
-                         "%s, %.0f ms a "
-                         "picture, %.1f/s%s%s",
+            apps::format("%s  |  glare %s  |  display %s  |  observer of %.0f  |  adapted to %.3g cd/m²  |  "
+                         "quality %s, %.0f ms a picture, %.1f/s%s%s",
                          apps::name_of(settings.tone_operator).c_str(), value_or("glare", "none").c_str(),
                          value_or("display", vision::known_displays().front().name).c_str(), settings.tone.observer.age,
                          double(now.frame.curve.adaptation), now.session.settings().quality().c_str(),

@@ -71,6 +71,11 @@ void record_casters(const graph::Recording& recording, const gpu::GraphicsPipeli
     vkCmdBindIndexBuffer(commands, scene.indices().get(), 0, VK_INDEX_TYPE_UINT32);
     vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
     vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+    std::vector<VkWriteDescriptorSet> writes(others.begin(), others.end());
+    writes.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
+                      .dstBinding = uint32_t(others.size()),
+                      .descriptorCount = 1,
+                      .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER});
     uint32_t last_material = scene::kNone;
     const gpu::GraphicsPipeline* last_pipeline = nullptr;
     for (const CasterBatch& batch : batches) {
@@ -78,17 +83,12 @@ void record_casters(const graph::Recording& recording, const gpu::GraphicsPipeli
         const gpu_scene::GpuScene::Surface& surface = scene.surfaces()[part.material];
         const scene::Material& m = surface.material;
         const bool mask = m.alpha == scene::Material::Alpha::Mask;
-        variant.constants[1] = mask ? 1 : 0;
+        variant.constants[0] = mask ? 1 : 0;
         const gpu::GraphicsPipeline* pipeline = &pipelines.get(shaders, variant);
         if (pipeline != last_pipeline)
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline->pipeline());
         if (part.material != last_material) {
-            std::vector<VkWriteDescriptorSet> writes(others.begin(), others.end());
-            writes.push_back({.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
-                              .dstBinding = uint32_t(others.size()),
-                              .descriptorCount = 1,
-                              .descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-                              .pImageInfo = &surface.textures[0]});
+            writes.back().pImageInfo = &surface.textures[0];
             recording.bind(*pipeline, writes);
             const MaskPush push{m.base_colour.a, m.alpha_cutoff};
             vkCmdPushConstants(commands, pipeline->layout(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof push, &push);

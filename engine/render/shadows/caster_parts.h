@@ -50,7 +50,7 @@ inline void add_to_batches(std::vector<CasterBatch>& batches, uint32_t part, uin
 }
 
 /// Draws from both sides. `shaders`: of MaskPush, with `others` at the first bindings and then a texture; buffers of
-/// vertices and `instances`. `variant`: of their pipelines; constant 1 is whether a material is masked.
+/// vertices and `instances`. `variant`: of their pipelines; constant 0 is whether a material is masked.
 void record_casters(const graph::Recording& recording, const gpu::GraphicsPipelineCache& pipelines,
                     const gpu::GraphicsShaders& shaders, gpu::GraphicsVariant variant, const gpu_scene::GpuScene& scene,
                     graph::Resource instances, const std::vector<CasterBatch>& batches,

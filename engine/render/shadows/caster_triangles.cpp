@@ -80,7 +80,7 @@ void CasterTriangles::draw(const FrameContext& frame, const std::string& name, c
             [&pipelines = frame.pipelines, to, large, draws](const graph::Recording& recording) {
                 const VkCommandBuffer commands = recording.commands();
                 const gpu::GraphicsPipeline& pipeline =
-                    pipelines.get(kTriangles, {.targets = {}, .constants = {to.over ? 1u : 0u}});
+                    pipelines.get(kTriangles, {.targets = {}, .constants = {0, to.over ? 1u : 0u}});
                 MapBindings bindings(recording, to);
                 recording.bind(pipeline, bindings.writes());
                 const VkBuffer buffer = recording.buffer(large);

@@ -8,7 +8,7 @@
 
 namespace vesper::render {
 
-/// What the lists of a frame's lamps tell of their light.
+/// A frame's lists of lamps, and the surfaces that they light.
 struct BlockLists {
     const GBuffer& surfaces;
     const Clusters& clusters;

@@ -104,7 +104,7 @@ void add_clipmaps(const FrameContext& frame, const GpuScene& scene, const gpu_sc
             [&pipelines = frame.pipelines, &scene, placed,
              batches = std::move(batches)](const graph::Recording& recording) {
                 record_casters(recording, pipelines, kLevelShaders,
-                               {.targets = {}, .depth = kDepthFormat, .constants = {0, 0}}, scene, placed, batches);
+                               {.targets = {}, .depth = kDepthFormat, .constants = {0}}, scene, placed, batches);
             });
         const shared::StoreClipmapPush push{.first = uint32_t(level.first),
                                             .side = side,

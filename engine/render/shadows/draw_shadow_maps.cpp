@@ -281,7 +281,7 @@ void rasterize_parts(const FrameContext& frame, const GpuScene& scene, const Dra
         [&pipelines = frame.pipelines, &scene, placed, to,
          batches = std::move(parts.batches)](const graph::Recording& recording) {
             MapBindings bindings(recording, to);
-            record_casters(recording, pipelines, kMapShaders, {.targets = {}, .constants = {to.over ? 1u : 0u, 0}},
+            record_casters(recording, pipelines, kMapShaders, {.targets = {}, .constants = {0, to.over ? 1u : 0u}},
                            scene, placed, batches, bindings.writes());
         },
         kMapRaster);

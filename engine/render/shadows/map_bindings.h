@@ -1,4 +1,4 @@
-// What shaders bind that rasterize into shadow maps. SPDX-License-Identifier: MIT
+// Bindings of shaders that rasterize into shadow maps. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct MapTargets {
 /// Bindings 0 to 2 of caster_triangles and masked_casters (.vert and .frag).
 inline constexpr VkDescriptorType kMapBindings[]{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                                  VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
-/// What is bound there. Refers to itself.
+/// Descriptors of these. Refers to itself.
 class MapBindings {
 public:
     MapBindings(const graph::Recording& recording, const MapTargets& to) {

@@ -20,6 +20,11 @@ uint64_t cost_of(const ShadowMapLayout& layout) {
 constexpr double kFaintestMoving = 0.1;    // lx: light below, of a lamp that moves, casts no shadow
 constexpr double kLeastShare = 1.0 / 100;  // of the light at a moving placement: below, it casts no shadow
 
+// At whatever extent.
+bool sees_the_same(const gpu_scene::View& a, const gpu_scene::View& b) {
+    return a.world_to_view == b.world_to_view && a.tangent_low == b.tangent_low && a.tangent_high == b.tangent_high;
+}
+
 uint64_t changed_bytes(const ShadowAtlas& atlas) {
     const uint64_t tiles = atlas.texels() / shared::kTileTexels;
     return (shared::kChangedHead + tiles) * sizeof(uint32_t) + tiles * sizeof(shared::ChangedTile);
@@ -79,9 +84,8 @@ void ShadowMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneFra
 
 void ShadowMaps::update_light(const gpu_scene::LampList& list, const gpu_scene::View& view, float unshadowed_share) {
     const auto same = [](const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof a) == 0; };
-    is_same_light_ = unshadowed_share_ == unshadowed_share && view_.extent.width == view.extent.width &&
-                     view_.extent.height == view.extent.height && view_.world_to_view == view.world_to_view &&
-                     view_.tangent_low == view.tangent_low && view_.tangent_high == view.tangent_high &&
+    is_same_light_ = unshadowed_share_ == unshadowed_share && sees_the_same(view_, view) &&
+                     view_.extent.width == view.extent.width && view_.extent.height == view.extent.height &&
                      std::ranges::equal(lamps_seen_, list.lamps, same);
     unshadowed_share_ = unshadowed_share;
     lamps_seen_ = list.lamps;
@@ -92,8 +96,7 @@ void ShadowMaps::update_view(const gpu_scene::View& view, const gpu_scene::Scene
     forget_still(moving_.update(poses));
     if (moving_.version() != version) {
         culling_ = culling_ == ViewCulling::Off ? ViewCulling::Pending : ViewCulling::On;
-    } else if (view.world_to_view != view_.world_to_view || view.tangent_low != view_.tangent_low ||
-               view.tangent_high != view_.tangent_high) {
+    } else if (!sees_the_same(view_, view)) {
         culling_ = ViewCulling::Off;
     }
     view_ = view;
@@ -148,7 +151,7 @@ void ShadowMaps::plan_moved_maps(const gpu_scene::LampList& list, uint64_t budge
     }
 }
 
-// What moves before lamps that stand still, where they light it.
+// Bodies before lamps at rest that light them.
 ShadowMaps::Bodies ShadowMaps::bodies_in_light(const gpu_scene::LampList& list, const gpu_scene::View& view) const {
     Bodies lit;
     std::vector<double> light(list.placed());  // lx

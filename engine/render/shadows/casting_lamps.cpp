@@ -20,7 +20,7 @@ constexpr uint32_t kMostBlocks = 16384;  // of a picture whose blocks are all ta
 
 graph::Resource add_casting_lamps(const FrameContext& frame, const BlockLists& lists,
                                   const std::vector<shared::ShadowMap>& maps, std::vector<uint32_t> optional,
-                                  float most_share) {
+                                  float most_share, size_t most_lamps) {
     const auto& [surfaces, clusters, blocks] = lists;
     graph::FrameGraph& graph = frame.graph;
     const VkExtent2D extent = frame.view.extent;
@@ -29,7 +29,8 @@ graph::Resource add_casting_lamps(const FrameContext& frame, const BlockLists& l
                    across = (blocks.columns + step - 1) / step, down = (rows + step - 1) / step;
     // As fine as fits the sum of all blocks into a word, rounded up in each.
     const uint32_t whole = std::min(~0u / (across * down) - 1, 1u << 24u), lamps = uint32_t(maps.size());
-    const graph::Resource sums = graph.transient("light of lamps", graph::buffer_shape((lamps + 1) * sizeof(uint32_t)));
+    const graph::Resource sums =
+        graph.transient("light of lamps", graph::buffer_shape((most_lamps + 1) * sizeof(uint32_t)));
     graph.clear("clear light of lamps", sums);
     graph.dispatch("light shares", frame.kernels.get(kLightShares, {kinds.powers, kinds.tables, frame.lockstep()}),
                    {load(surfaces.surface), sample(clusters.lamps), sample(blocks.counts), sample(blocks.entries),
@@ -44,7 +45,7 @@ graph::Resource add_casting_lamps(const FrameContext& frame, const BlockLists& l
                                            .whole = whole},
                    graph::Groups{across, down, 1});
     const graph::Resource kept = graph.transient(
-        "shadow maps", graph::buffer_shape(maps.size() * sizeof(shared::ShadowMap), VK_FORMAT_R32G32B32A32_SFLOAT));
+        "shadow maps", graph::buffer_shape(most_lamps * sizeof(shared::ShadowMap), VK_FORMAT_R32G32B32A32_SFLOAT));
     if (optional.empty()) optional.push_back(lamps);
     const gpu::Kernel& casting = frame.kernels.get(kCastingLamps, {});
     graph.dispatch("casting lamps", casting,

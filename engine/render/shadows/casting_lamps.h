@@ -20,9 +20,9 @@ struct BlockLists {
 /// is off by at most that share in the mean. The share of a lamp is the mean, over the middle pixels of blocks, of its
 /// illuminance over that of all lamps of the block, as if nothing hid them: of all blocks in pictures of up to 16,384,
 /// of every fourth in larger ones. Where a block looks at every lamp (shade.h) all keep theirs. `maps`: of the lamps of
-/// the list. Returns them, rgba32f.
+/// the list; `most_lamps`: of any frame of the scene, so that all have buffers of one size. Returns the maps, rgba32f.
 graph::Resource add_casting_lamps(const FrameContext& frame, const BlockLists& lists,
                                   const std::vector<shared::ShadowMap>& maps, std::vector<uint32_t> optional,
-                                  float most_share);
+                                  float most_share, size_t most_lamps);
 
 }  // namespace vesper::render

@@ -301,7 +301,7 @@ graph::Resource ShadowMaps::lamps_of(const Declared& to, const BlockLists* lists
         maps.push_back(shadow_map(atlas_[lamp], map_frame(to.poses.world[lamps_[lamp].node]), view_));
     }
     if (lists && may_leave_out() && !moving_.moving().empty())
-        return add_casting_lamps(to.frame, *lists, maps, std::move(optional), unshadowed_share_);
+        return add_casting_lamps(to.frame, *lists, maps, std::move(optional), unshadowed_share_, lamps_.size());
     return to.frame.graph.upload("shadow maps", maps, VK_FORMAT_R32G32B32A32_SFLOAT);
 }
 

@@ -1,4 +1,5 @@
-// Shadow maps from frame to frame, on the device: after any frames they are as if drawn anew. SPDX-License-Identifier: MIT
+// Shadow maps from frame to frame, on the device: after any frames they are as if drawn anew. SPDX-License-Identifier:
+// MIT
 #include <cmath>
 #include <optional>
 #include <vector>

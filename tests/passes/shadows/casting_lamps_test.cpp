@@ -71,8 +71,8 @@ Kept casting(PassRig& rig, const Surfaces& s, const gpu_scene::LampList& list, c
     const render::Blocks blocks = render::add_blocks(frame, g, clusters);
     std::vector<shared::ShadowMap> maps(list.lamps.size());
     for (size_t i = 0; i < maps.size(); ++i) maps[i] = {{0, 0, 0, 1}, float(i), i == 1 ? 0.0f : 64.0f, 1, 0};
-    const graph::Resource made =
-        keep<shared::ShadowMap>(graph, render::add_casting_lamps(frame, {g, clusters, blocks}, maps, optional, most));
+    const graph::Resource made = keep<shared::ShadowMap>(
+        graph, render::add_casting_lamps(frame, {g, clusters, blocks}, maps, optional, most, maps.size()));
     const graph::Resource report = keep<shared::VisibilityReport>(graph, blocks.visibility);
     rig.run(graph);
     Kept kept{{}, rig.got<shared::VisibilityReport>(report).at(0), clusters.push.grid};

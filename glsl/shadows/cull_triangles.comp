@@ -12,7 +12,8 @@
 #include "shared/edges.h"
 
 layout(local_size_x_id = 0) in;
-layout(constant_id = 2) const uint kOver = 0u;  // see nearer.glsl
+layout(constant_id = 2) const uint kOver = 0u;    // see nearer.glsl
+layout(constant_id = 3) const uint kSmall = 16u;  // texels: triangles in boxes of that side are drawn here
 
 TEXELS(0, vec2, vertices);
 TEXELS(1, uint, indices);
@@ -48,6 +49,18 @@ InImage in_image(InQuadrant at[3], MapQuadrant quadrant) {
     return image;
 }
 
+// Of a row of texels those whose middles may lie within the edges: the first and the last.
+vec2 span_of(vec3 edges[3], vec3 per_x, float y, InImage image) {
+    const float kRounding = 0.03;  // of a distance from an edge, times its length
+    vec2 span = vec2(image.first.x, image.last.x);
+    [[unroll]] for (int k = 0; k < 3; ++k) {
+        const float end = -(edges[k].y * (y + 0.5) + edges[k].z + kRounding) * per_x[k] - 0.5;
+        span.x = edges[k].x > 1e-3 ? max(span.x, end) : span.x;
+        span.y = edges[k].x < -1e-3 ? min(span.y, end) : span.y;
+    }
+    return vec2(ceil(span.x), floor(span.y));
+}
+
 void draw_small(InImage image, InQuadrant at[3], MapQuadrant quadrant) {
     const vec2 a = image.corners[1] - image.corners[0], b = image.corners[2] - image.corners[0];
     const float area = a.x * b.y - a.y * b.x, turn = area < 0.0 ? -1.0 : 1.0;
@@ -64,18 +77,20 @@ void draw_small(InImage image, InQuadrant at[3], MapQuadrant quadrant) {
     const float per_area = 1.0 / area;
     const vec2 rise = inverse.yz - inverse.x;
     const vec2 slope = per_area * vec2(rise.x * b.y - rise.y * a.y, rise.y * a.x - rise.x * b.x);
-    const uint width = uint(image.last.x - image.first.x) + 1u, count = width * (uint(image.last.y - image.first.y) + 1u);
-    uvec2 place = uvec2(0u);
-    uint n = 0u;
+    const vec3 per_x = 1.0 / vec3(edges[0].x, edges[1].x, edges[2].x);
+    float y = image.first.y;
+    vec2 span = span_of(edges, per_x, y, image);
     do {
-        const vec2 texel = image.first + vec2(place), middle = texel + 0.5;
-        bool covered = true;
+        const vec2 texel = vec2(span.x, y), middle = texel + 0.5;
+        bool covered = span.x <= span.y;
         [[unroll]] for (int k = 0; k < 3; ++k) covered = covered && dot(edges[k].xy, middle) + edges[k].z >= 0.0;
         const float value = clamp(inverse.x + dot(slope, middle - image.corners[0]), least, most);
         keep_nearer(covered, quadrant.first + uint(texel.y) * quadrant.side + uint(texel.x), value);
-        const bool ends = ++place.x == width;
-        place = ends ? uvec2(0u, place.y + 1u) : place;
-    } while (++n < count);
+        const bool ends = !(span.x < span.y);
+        y += ends ? 1.0 : 0.0;
+        const vec2 next = span_of(edges, per_x, y, image);
+        span = ends ? next : vec2(span.x + 1.0, span.y);
+    } while (y <= image.last.y);
     if (kOver == 0u) return;
     for (uint corner = 0u; corner < 4u; ++corner)
         list_changed(quadrant.first, quadrant.side, uvec2((corner & 1u) == 0u ? image.first.x : image.last.x, corner < 2u ? image.first.y : image.last.y));
@@ -88,7 +103,7 @@ void draw(uint number, MapQuadrant quadrant, vec3 q[3], InQuadrant at[3]) {
     [[unroll]] for (int i = 0; i < 3; ++i) whole = whole && min(at[0].outside[i], min(at[1].outside[i], at[2].outside[i])) >= 0.0;
     const InImage image = in_image(at, quadrant);
     if (whole && any(greaterThan(image.first, image.last))) return;
-    const bool is_small = whole && all(lessThan(image.last - image.first, vec2(float(kSmallTriangle))));
+    const bool is_small = whole && all(lessThan(image.last - image.first, vec2(float(kSmall))));
     for (uint once = 0u; once < (is_small ? 1u : 0u); ++once) draw_small(image, at, quadrant);  // a CPU device skips loops, not branches
     if (is_small) return;
     const uint corner = atomicAdd(draws[0], 3u);

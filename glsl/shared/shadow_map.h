@@ -62,7 +62,6 @@ struct TriangleRun {
 };
 SHARED_SIZE(TriangleRun, 20)
 const uint kTrianglesOfRun = 128u;
-const uint kSmallTriangle = 16u;  // texels: triangles in boxes of that side are drawn by cull_triangles.comp itself
 
 // A corner of one of the others, which are rasterized.
 struct LargeCorner {

@@ -27,6 +27,9 @@ constexpr gpu::GraphicsShaders kTriangles{
 // Of a dispatch: what any device has workgroups for.
 constexpr std::ptrdiff_t kMostRuns = 65535;
 
+// Texels: triangles in boxes of that side are drawn one by one; fewer where many wait for the largest of them.
+constexpr uint32_t kSmallInLockstep = 32, kSmall = 16;
+
 }  // namespace
 
 bool has_caster_triangles(const gpu::Device& device, const gpu_scene::GpuScene& scene) {
@@ -60,7 +63,8 @@ void CasterTriangles::draw(const FrameContext& frame, const std::string& name, c
                           draws = scratch.draws,
                           nothing = graph.upload("no large shadow casters" + name,
                                                  std::vector<VkDrawIndirectCommand>{{0, 1, 0, 0}});
-    const uint32_t lanes = frame.lockstep() ? 8 : 64, snap = std::bit_cast<uint32_t>(map_snap(frame.kernels.device()));
+    const uint32_t lanes = frame.lockstep() ? 8 : 64, small = frame.lockstep() ? kSmallInLockstep : kSmall,
+                   snap = std::bit_cast<uint32_t>(map_snap(frame.kernels.device()));
     uint32_t number = 0;
     for (auto begin = runs_.begin(); begin != runs_.end();) {
         auto end = begin;
@@ -70,7 +74,7 @@ void CasterTriangles::draw(const FrameContext& frame, const std::string& name, c
         const graph::Resource list = graph.upload("shadow runs" + name + "." + std::to_string(number++), runs);
         begin = end;
         graph.copy("clear large shadow casters", nothing, draws);
-        graph.dispatch("cull shadow triangles", frame.kernels.get(kCull, {lanes, snap, to.over}),
+        graph.dispatch("cull shadow triangles", frame.kernels.get(kCull, {lanes, snap, to.over, small}),
                        {sample(scratch.vertices), sample(scratch.indices), load(rows), load(list), load(to.quadrants),
                         update(draws), store(large), update(to.words),
                         sample(scratch.lamps ? scratch.lamps : scratch.vertices), update(to.changed)},

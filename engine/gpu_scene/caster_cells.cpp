@@ -16,10 +16,10 @@
 namespace vesper::gpu_scene {
 namespace {
 
-constexpr double kFirstError = 0.07;  // m
+constexpr double kFirstError = 0.035;  // m
 constexpr double kQuadricShare =
     0.35;  // of an error: quadrics are means of squares, a sphere is up to 2.7 times as far off
-constexpr int kMostLevels = 6;
+constexpr int kMostLevels = 7;
 constexpr double kWorthwhile = 0.8;  // of the triangles of the level before
 
 // A part of a placement with what it is made of.

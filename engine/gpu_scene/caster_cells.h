@@ -34,12 +34,12 @@ struct CasterCell {
     std::vector<Level> levels;        ///< ascending by error, descending by triangles
 };
 
-constexpr double kCellSide = 16;                    ///< m
+constexpr double kCellSide = 8;                     ///< m
 constexpr uint64_t kMostCellTriangles = 2u << 20u;  ///< at rest: a scene of more would start late
 
 /// The cells of all nodes that no animation moves, at the poses that the scene has. Masked and clear parts are in none,
 /// and no cell is a single part alone. The first level has all triangles; others are simplified by quadric error
-/// metrics (Garland and Heckbert 1997, in meshoptimizer), from 0.07 m of error on, twice as much from one to the next.
+/// metrics (Garland and Heckbert 1997, in meshoptimizer), from 0.035 m of error on, twice as much from one to the next.
 /// A scene without lamps, or of more than kMostCellTriangles, has none.
 std::vector<CasterCell> caster_cells(const scene::Scene& scene);
 

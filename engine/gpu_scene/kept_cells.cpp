@@ -14,7 +14,7 @@ namespace vesper::gpu_scene {
 namespace {
 
 // To be raised whenever the same scene gives other cells.
-constexpr uint64_t kCellsVersion = 1;
+constexpr uint64_t kCellsVersion = 2;
 
 struct KeptHeader {
     uint64_t cells = 0, bytes = 0;  // of all that follows

@@ -42,7 +42,7 @@ constexpr gpu::GraphicsShaders kMapShaders{
 
 static_assert(ShadowMapScratch::kMostTexels >= 2 * kMostMapSide * kMostMapSide);
 
-constexpr double kNear = 25;  // m: nearer to a lamp all casters are drawn as they are
+constexpr double kNear = 4;  // m: nearer to a lamp all casters are drawn as they are
 
 // A hemisphere of a map.
 struct Hemisphere {

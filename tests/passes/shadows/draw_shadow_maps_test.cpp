@@ -170,7 +170,7 @@ TEST(ShadowMap, FarCellsAreSimplifiedByLessThanTheErrorOfTheMap) {
     PassRig rig;
     OccluderScene s;
     for (int i = 0; i < 60; ++i)
-        s.plate({-6 + 0.2f * float(i), 0, -40 - 0.005f * float(i % 2)}, {0.1f, 0, 0}, {0, 6, 0});
+        s.plate({-6 + 0.2f * float(i), 0, -41 - 0.005f * float(i % 2)}, {0.1f, 0, 0}, {0, 3, 0});
     s.lamp({}, {});
     const render::ShadowMapLayout layout{
         .side = 64, .hemispheres = 1, .zoom = 4, .range = 200, .radius = 0, .first = 0};

@@ -15,5 +15,6 @@ void add_compare(apps::Command program);
 void add_display(apps::Command program);
 void add_study(apps::Command program);
 void add_saliency(apps::Command program);
+void add_devices(apps::Command program);
 
 }  // namespace vesper::commands

@@ -1,10 +1,6 @@
 // The `vesper` program: convert a daytime database to photometry, render it at night. SPDX-License-Identifier: MIT
-#include <string>
-
 #include "arguments/command_line.h"
 #include "commands.h"
-#include "gpu/device.h"
-#include "print.h"
 
 int main(int argc, char** argv) {
     vesper::apps::Program program{"What a driver sees at night, on the screen you have.", "vesper"};
@@ -25,9 +21,6 @@ int main(int argc, char** argv) {
     vesper::commands::add_display(program);
     vesper::commands::add_study(program);
     vesper::commands::add_saliency(program);
-    vesper::apps::Command devices = program.add_command("devices", "List the Vulkan devices of this machine");
-    devices.callback([] {
-        for (const std::string& line : vesper::gpu::list_devices()) vesper::apps::print("%s\n", line.c_str());
-    });
+    vesper::commands::add_devices(program);
     return program.run(argc, argv);
 }

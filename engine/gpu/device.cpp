@@ -149,10 +149,8 @@ std::vector<std::string> list_devices() {
     } instance;
     std::vector<std::string> lines;
     for (const VkPhysicalDevice device : physical_devices(instance.handle)) {
-        VkPhysicalDeviceProperties properties;
-        vkGetPhysicalDeviceProperties(device, &properties);
         const std::string reason = missing(device);
-        lines.push_back(std::to_string(lines.size()) + ": " + properties.deviceName +
+        lines.push_back(std::to_string(lines.size()) + ": " + described(device) +
                         (reason.empty() ? "" : " (unusable: " + reason + ")"));
     }
     return lines;

@@ -98,6 +98,21 @@ std::string version_text(uint32_t version) {
     return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version));
 }
 
+std::string kind_of(VkPhysicalDeviceType type) {
+    switch (type) {
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return "discrete GPU";
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return "integrated GPU";
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return "virtual GPU";
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return "CPU";
+        default:
+            return "other device";
+    }
+}
+
 }  // namespace
 
 std::string missing_support(VkPhysicalDevice device) {
@@ -182,6 +197,21 @@ bool is_queue_family(VkPhysicalDevice device, uint32_t family) {
     vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
     constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
     return family < count && (families[family].queueFlags & wanted) == wanted;
+}
+
+std::string described(VkPhysicalDevice device) {
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(device, &properties);
+    const uint32_t version = properties.apiVersion;
+    std::string text = std::string(properties.deviceName) + " (" + kind_of(properties.deviceType) + ", Vulkan " +
+                       version_text(version) + "." + std::to_string(VK_API_VERSION_PATCH(version));
+    if (version >= VK_API_VERSION_1_2) {
+        VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+        VkPhysicalDeviceProperties2 more{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
+        vkGetPhysicalDeviceProperties2(device, &more);
+        text += std::string(", ") + driver.driverName + " " + driver.driverInfo;
+    }
+    return text + ")";
 }
 
 }  // namespace vesper::gpu

@@ -31,6 +31,8 @@ bool filters_along(const VkDeviceCreateInfo&);
 bool pushes_descriptors(const VkDeviceCreateInfo&);
 
 bool has_extension(VkPhysicalDevice, const char* name);
+/// "NAME (KIND, Vulkan VERSION, DRIVER)"; the driver from Vulkan 1.2 on.
+std::string described(VkPhysicalDevice);
 /// Whether a queue family is for graphics and compute.
 bool is_queue_family(VkPhysicalDevice, uint32_t family);
 

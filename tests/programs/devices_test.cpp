@@ -1,4 +1,4 @@
-// The list of devices. SPDX-License-Identifier: MIT
+// The list of devices, and wrong use of the script that checks one. SPDX-License-Identifier: MIT
 #include <regex>
 
 #include "support/program.h"
@@ -17,6 +17,20 @@ TEST_F(Devices, HaveKindVersionAndDriver) {
         << printed;
     EXPECT_NE(all.find(": " + printed), all.npos) << all << printed;
     expect_refused("devices --default", {"no such device"}, "VESPER_DEVICE='no such device'");
+}
+
+class GpuCheck : public ProgramTest {
+protected:
+    GpuCheck() : ProgramTest(VESPER_SOURCE_DIR "/scripts/gpu-check") {}
+};
+
+TEST_F(GpuCheck, RefusesWrongUseBeforeItWritesAnything) {
+    expect_refused("--fast", {"--fast"});
+    expect_refused("--size 100", {"100"});
+    expect_refused("--device", {"--device"});
+    expect_refused("a b", {"b"});
+    EXPECT_FALSE(exists("a"));
+    EXPECT_EQ(run("--help"), 0);
 }
 
 }  // namespace

@@ -6,8 +6,6 @@
 namespace vesper::gpu {
 namespace {
 
-constexpr uint64_t kBlockBytes = 16ull << 20;
-
 uint64_t align_up(uint64_t value, uint64_t alignment) { return (value + alignment - 1) / alignment * alignment; }
 
 }  // namespace
@@ -143,7 +141,7 @@ std::pair<VkDeviceMemory, uint64_t> Arena::place(const VkMemoryRequirements& nee
         block.used = offset + needs.size;
         return {block.memory.get(), offset};
     }
-    const uint64_t bytes = std::max(needs.size, kBlockBytes);
+    const uint64_t bytes = std::max(needs.size, block_);
     blocks_.push_back({allocate(*device_, bytes, type), type, needs.size, bytes});
     bytes_ += bytes;
     return {blocks_.back().memory.get(), 0};

@@ -92,7 +92,9 @@ private:
 /// Device-local memory for things that live and die together: handed out in order, freed at once.
 class Arena {
 public:
-    explicit Arena(const Device& device) : device_(&device) {}
+    static constexpr uint64_t kBlockBytes = 16ull << 20;
+    /// `block`: least size of what is allocated at once, bytes; 0: what is bound, and no more.
+    explicit Arena(const Device& device, uint64_t block = kBlockBytes) : device_(&device), block_(block) {}
 
     void bind(VkBuffer buffer);
     void bind(VkImage image);
@@ -107,6 +109,7 @@ private:
     std::pair<VkDeviceMemory, uint64_t> place(const VkMemoryRequirements& needs);
 
     const Device* device_;
+    uint64_t block_;
     std::vector<Block> blocks_;
     uint64_t bytes_ = 0;
 };

@@ -13,9 +13,7 @@ void prepare_shadows(Prepared& frame, ResidentScene& scene, const gpu::Device& d
                      const RenderSettings& settings, const gpu_scene::View& view, const gpu_scene::SceneFrame& poses) {
     const SceneData& data = scene.data;
     if (!scene.maps) {
-        scene.maps =
-            std::make_unique<ShadowMaps>(device, data.resident, data.lamps, data.maps, settings.shadow_resolution);
-        scene.shadow_resolution = settings.shadow_resolution;
+        scene.maps = std::make_unique<ShadowMaps>(device, data.resident, data.lamps, data.maps, map_sizes(settings));
         scene.maps->use(map_cache);
     }
     const uint64_t budget = settings.samples > 1 ? kUnlimited : settings.shadow_budget;

@@ -57,7 +57,7 @@ struct Renderer::State {
           frames(d) {}
 
     Prepared prepare(const Request& of) {
-        if (scene->maps && scene->shadow_resolution != of.settings.shadow_resolution) {
+        if (scene->maps && scene->maps->sizes() != map_sizes(of.settings)) {
             frames.wait();  // frames under way use the maps that go
             scene->maps.reset();
         }

@@ -56,7 +56,6 @@ struct ResidentScene {
 
     const SceneData data;
     std::unique_ptr<ShadowMaps> maps;
-    double shadow_resolution = 1;  ///< of the maps
     std::unique_ptr<Clipmaps> directional;
     std::unique_ptr<IndirectLight> indirect;
     std::shared_ptr<const transport::LampReflections> lamp_reflections;

@@ -245,7 +245,7 @@ def check_refusals(checks, folder):
 
 
 # Numbers of the engine that the oracle repeats, by their names there.
-REPEATED = {"const uint kRegion": tracing.LEAST_SIDE, "kMostMapSide": tracing.MOST_SIDE, "kMostMapTexels": tracing.MOST_TEXELS, "kMostZoom": tracing.MOST_ZOOM,
+REPEATED = {"const uint kRegion": tracing.LEAST_SIDE, "kMostMapSide": tracing.MOST_SIDE, "kMostZoom": tracing.MOST_ZOOM,
             "kFaintestLight": tracing.FAINTEST, "kWidestFlat": tracing.WIDEST_FLAT, "kFarthestAside": FARTHEST_ASIDE, "kFarthestUp": FARTHEST_UP}
 
 
@@ -256,6 +256,8 @@ def check_constants(checks):
         found = {text.strip() for text in re.findall(rf"\b{name} = ([^,;]+)[,;]", code)}
         values = {eval(re.sub(r"(\d)u\b", r"\1", text), {"kPi": np.pi}) for text in found}
         checks.check(f"{name} as in the engine", values == {value}, f"{value} here, {', '.join(found) or 'nothing'} there")
+    rows = re.findall(r'X\(uint32_t, shadow_memory, "MiB", \d+, \d+, \d+, \d+, (\d+),', code)
+    checks.check("shadow_memory as in the engine", rows == [str(tracing.SHADOW_MEMORY)], f"{tracing.SHADOW_MEMORY} here, {rows} there")
 
 
 def main(folder):

@@ -8,6 +8,11 @@
 #include "shared/shadow_map.h"
 
 namespace vesper::render {
+namespace {
+
+constexpr uint64_t kLargeBytes = uint64_t{ShadowMapScratch::kMostTriangles} * 3 * sizeof(shared::LargeCorner);
+
+}  // namespace
 
 gpu::OwnedBuffer make_shadow_texels(const gpu::Device& device, gpu::Arena& arena, uint64_t texels) {
     gpu::OwnedBuffer buffer =
@@ -17,24 +22,26 @@ gpu::OwnedBuffer make_shadow_texels(const gpu::Device& device, gpu::Arena& arena
     return buffer;
 }
 
+uint64_t ShadowMapScratch::bytes(uint64_t texels) {
+    return sizeof(VkDrawIndirectCommand) + kLargeBytes + std::min<uint64_t>(texels, kMostTexels) * sizeof(float);
+}
+
 ShadowMapScratch add_shadow_map_scratch(const FrameContext& frame, const gpu_scene::GpuScene& scene,
-                                        graph::Resource changed) {
+                                        graph::Resource changed, uint64_t texels) {
     using graph::Access;
     graph::FrameGraph& graph = frame.graph;
     ShadowMapScratch scratch;
     scratch.changed = changed;
+    scratch.texels = uint32_t(std::min<uint64_t>(texels, ShadowMapScratch::kMostTexels));
     if (!changed) {
         scratch.changed = graph.transient("no changed tiles", graph::buffer_shape(sizeof(uint32_t)));
         graph.clear("clear no changed tiles", scratch.changed);
     }
     scratch.draws = graph.reserved("shadow draws", graph::buffer_shape(sizeof(VkDrawIndirectCommand)),
                                    {Access::CopyPart, Access::CopyTarget, Access::Update, Access::Arguments});
-    scratch.large = graph.reserved(
-        "large shadow casters",
-        graph::buffer_shape(uint64_t{ShadowMapScratch::kMostTriangles} * 3 * sizeof(shared::LargeCorner)),
-        {Access::Store, Access::Vertices});
-    scratch.drawn = graph.reserved("drawn shadow maps",
-                                   graph::buffer_shape(uint64_t{ShadowMapScratch::kMostTexels} * sizeof(float)),
+    scratch.large =
+        graph.reserved("large shadow casters", graph::buffer_shape(kLargeBytes), {Access::Store, Access::Vertices});
+    scratch.drawn = graph.reserved("drawn shadow maps", graph::buffer_shape(uint64_t{scratch.texels} * sizeof(float)),
                                    {Access::CopyPart, Access::Update, Access::Load});
     if (scene.caster_vertex_count() > 0) {
         scratch.vertices = graph.external("vertices of casters", scene.vertices(),

@@ -19,14 +19,17 @@ struct ShadowMapScratch {
     graph::Resource changed;  ///< tiles that are listed as changed, see shared::ChangedTile; a word where none is
     graph::Resource draws;    ///< VkDrawIndirectCommand
     graph::Resource large;    ///< shared::LargeCorner, of kMostTriangles
-    graph::Resource drawn;    ///< texels of whole maps as they are drawn, floats, kMostTexels
+    graph::Resource drawn;    ///< texels of whole maps as they are drawn, floats, `texels`
+    uint32_t texels = 0;      ///< of maps that are drawn at once: at least of the largest
 
     static constexpr uint32_t kMostTriangles = 1u << 19u;  ///< of a dispatch
-    static constexpr uint32_t kMostTexels = 1u << 23u;     ///< of maps that are drawn at once: of the largest
+    static constexpr uint32_t kMostTexels = 1u << 23u;     ///< of the largest map that there is
+    /// Of a scratch for maps that take so many texels together.
+    static uint64_t bytes(uint64_t texels);
 };
-/// `changed`: for maps over which something is drawn.
+/// `changed`: for maps over which something is drawn. `texels`: that all maps take together, or more.
 ShadowMapScratch add_shadow_map_scratch(const FrameContext& frame, const gpu_scene::GpuScene& scene,
-                                        graph::Resource changed = {});
+                                        graph::Resource changed = {}, uint64_t texels = ShadowMapScratch::kMostTexels);
 
 /// Of clipmap.frag and masked_casters.frag: the opacity of a masked material.
 struct MaskPush {

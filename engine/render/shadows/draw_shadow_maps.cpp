@@ -321,7 +321,7 @@ void add_shadow_maps(const FrameContext& frame, const GpuScene& scene, const gpu
         Drawn drawn;
         std::vector<shared::DrawnTexels> list;
         uint32_t texels = 0;
-        for (; map != maps.end() && texels + map->layout.texels() <= ShadowMapScratch::kMostTexels; ++map) {
+        for (; map != maps.end() && texels + map->layout.texels() <= scratch.texels; ++map) {
             collector.collect(*map, texels, drawn);
             for (uint32_t k = 0; k < map->layout.texels(); k += shared::kTileTexels)
                 list.push_back({texels + k, (map->layout.first + k) / 2});

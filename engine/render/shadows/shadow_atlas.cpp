@@ -27,20 +27,21 @@ uint64_t largest_texels(const std::vector<ShadowMapLayout>& layouts) {
 
 }  // namespace
 
-ShadowAtlas::ShadowAtlas(std::vector<ShadowMapLayout> layouts, double scale)
+ShadowAtlas::ShadowAtlas(std::vector<ShadowMapLayout> layouts, double scale, uint64_t most_texels)
     : layouts_(std::move(layouts)),
       scale_(scale),
-      texels_(std::clamp<uint64_t>(largest_texels(layouts_), kPiece, kMostMapTexels)),
+      texels_(std::clamp<uint64_t>(largest_texels(layouts_), kPiece, most_texels / kPiece * kPiece)),
       places_(uint32_t(texels_ / kPiece)) {}
 
-ShadowAtlas::Change ShadowAtlas::fit(const gpu_scene::LampList& list, uint64_t most_texels,
-                                     const std::vector<bool>& moving) {
+std::optional<ShadowAtlas::Change> ShadowAtlas::fit(const gpu_scene::LampList& list, uint64_t most_texels,
+                                                    const std::vector<bool>& moving) {
     std::vector<ShadowMapLayout> wanted;
     std::vector<double> distances;
     for (uint32_t i = 0; i < list.placed(); ++i) {
         wanted.push_back(layouts_[list.indices[i]]);
         distances.push_back(double(glm::length(list.lamps[i].position)));
     }
+    if (least_texels(wanted) > texels_) return std::nullopt;
     choose_sides(wanted, distances, scale_, texels_);
     for (uint32_t i = 0; i < list.placed(); ++i)
         if (moving[list.indices[i]] && wanted[i].side > kLeastMapSide) wanted[i].side /= 2;
@@ -63,7 +64,7 @@ ShadowAtlas::Change ShadowAtlas::fit(const gpu_scene::LampList& list, uint64_t m
         layout.side = wanted[i].side;
         changed.push_back(list.indices[i]);
     }
-    if (place(changed)) return {std::move(changed), {}};
+    if (place(changed)) return Change{std::move(changed), {}};
     return place_all(list, wanted, std::move(changed));
 }
 

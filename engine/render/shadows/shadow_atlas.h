@@ -1,6 +1,7 @@
 // The atlas: shadow maps of all lamps in one buffer of texels. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "gpu/buddy_allocator.h"
@@ -12,8 +13,8 @@ namespace vesper::render {
 /// Allocates maps, with sides that depend on the view.
 class ShadowAtlas {
 public:
-    /// `scale`: of sides, see choose_sides.
-    ShadowAtlas(std::vector<ShadowMapLayout> layouts, double scale);
+    /// `scale`: of sides, see choose_sides. `most_texels`: of the buffer; it has no more than the largest maps take.
+    ShadowAtlas(std::vector<ShadowMapLayout> layouts, double scale, uint64_t most_texels);
 
     const ShadowMapLayout& operator[](uint32_t lamp) const { return layouts_[lamp]; }
     uint64_t texels() const { return texels_; }  ///< of the buffer
@@ -24,9 +25,9 @@ public:
     };
     /// Fits the sides of the maps of a list to its view; those of lamps that move, which are drawn in each frame, have
     /// half the side. `moving`: of each lamp, whether it does. `most_texels`: of maps that may change their side,
-    /// beside those that have none yet; then maps within a factor of two keep theirs. Throws Error where the maps of
-    /// all lamps do not fit kMostMapTexels.
-    Change fit(const gpu_scene::LampList& list, uint64_t most_texels, const std::vector<bool>& moving);
+    /// beside those that have none yet; then maps within a factor of two keep theirs. Returns nothing, and changes
+    /// nothing, where maps of the least side do not fit.
+    std::optional<Change> fit(const gpu_scene::LampList& list, uint64_t most_texels, const std::vector<bool>& moving);
 
 private:
     bool place(std::vector<uint32_t> lamps);

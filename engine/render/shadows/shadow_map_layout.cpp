@@ -5,12 +5,10 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <string>
 
 #include <glm/gtc/quaternion.hpp>
 
 #include "base/angle.h"
-#include "base/error.h"
 #include "scene/fixtures.h"
 #include "scene/lamp.h"
 #include "scene/placement.h"
@@ -117,9 +115,8 @@ ShadowMapPlan shadow_map_plan(const scene::Scene& scene, const gpu_scene::GpuSce
     const std::vector<glm::dmat4> world = scene::world_transforms(scene, 0);
     std::vector<glm::dvec3> places;
     for (const gpu_scene::PlacedLamp& lamp : lamps) places.emplace_back(world[lamp.node][3]);
-    std::vector<ShadowMapLayout> layouts = layouts_of(scene, lamps);
-    const double scale = scene_scale(layouts, places);
-    return {std::move(layouts), scale, fixtures_of(scene, resident, lamps, world), scene::animated_nodes(scene)};
+    return {layouts_of(scene, lamps), std::move(places), fixtures_of(scene, resident, lamps, world),
+            scene::animated_nodes(scene)};
 }
 
 double choose_sides(std::vector<ShadowMapLayout>& layouts, const std::vector<double>& distances, double scale,
@@ -138,24 +135,26 @@ double choose_sides(std::vector<ShadowMapLayout>& layouts, const std::vector<dou
         }
         return texels_of(layouts);
     };
-    for (; with(scale) > most_texels; scale -= kStep)
-        if (scale < kLeastScale)
-            throw Error("shadows of " + std::to_string(layouts.size()) + " lamps take shadow maps of more than " +
-                        std::to_string(most_texels) + " texels; without shadows the scene can be rendered");
+    while (with(scale) > most_texels && scale >= kLeastScale) scale -= kStep;
     return scale;
 }
 
-double scene_scale(const std::vector<ShadowMapLayout>& layouts, const std::vector<glm::dvec3>& places) {
+uint64_t least_texels(const std::vector<ShadowMapLayout>& layouts) {
+    uint64_t texels = 0;
+    for (const ShadowMapLayout& layout : layouts)
+        if (layout.range > 0) texels += uint64_t{layout.hemispheres} * kLeastMapSide * kLeastMapSide;
+    return texels;
+}
+
+double scene_scale(const ShadowMapPlan& plan, uint64_t most_texels) {
     constexpr size_t kMostEyes = 64;
     double scale = kMostScale;
-    std::vector<ShadowMapLayout> tried = layouts;
-    if (choose_sides(tried, std::vector<double>(layouts.size()), kLeastScale, ~uint64_t{0});
-        texels_of(tried) > kMostMapTexels)
-        return scale;  // an error is thrown when they are wanted
-    for (size_t eye = 0; eye < places.size(); eye += std::max<size_t>(places.size() / kMostEyes, 1)) {
+    if (least_texels(plan.layouts) > most_texels) return scale;  // only some of the lamps may shine at a time
+    std::vector<ShadowMapLayout> tried = plan.layouts;
+    for (size_t eye = 0; eye < plan.places.size(); eye += std::max<size_t>(plan.places.size() / kMostEyes, 1)) {
         std::vector<double> distances;
-        for (const glm::dvec3 place : places) distances.push_back(glm::distance(place, places[eye]));
-        scale = choose_sides(tried, distances, scale, kMostMapTexels);
+        for (const glm::dvec3 place : plan.places) distances.push_back(glm::distance(place, plan.places[eye]));
+        scale = choose_sides(tried, distances, scale, most_texels);
     }
     return scale;
 }

@@ -32,12 +32,10 @@ struct ShadowMapLayout {
     uint32_t texels() const { return hemispheres * side * side; }
 };
 
-constexpr uint64_t kMostMapTexels = 48u << 20u;  ///< of all maps: 96 MiB
-
 /// The maps of all lamps of a scene, in the order of placed_lamps().
 struct ShadowMapPlan {
     std::vector<ShadowMapLayout> layouts;  ///< without sides and places, which depend on the view
-    double scale = 0;                      ///< of sides, see choose_sides
+    std::vector<glm::dvec3> places;        ///< of the lamps at the start, m, world
     /// For each lamp the placements that belong to its fixture and never hide it (scene/fixtures.h), ascending.
     std::vector<std::vector<uint32_t>> fixtures;
     std::vector<bool> animated;  ///< per node, whether the scene's animations move it
@@ -48,13 +46,15 @@ ShadowMapPlan shadow_map_plan(const scene::Scene& scene, const gpu_scene::GpuSce
 constexpr uint32_t kLeastMapSide = shared::kRegion, kMostMapSide = 2048;  ///< texels
 /// Sets the sides of maps that an eye at these distances (m) sees: powers of two within the limits above, nearest to
 /// 2^scale I^1/4 / (sqrt(distance) zoom), I the largest intensity, distances of at least 4 m; 0 for lamps without a
-/// map. Where these take more than `most_texels` the scale is less by steps of 1/8. Returns it. Throws Error if nothing
-/// fits.
+/// map. Where these take more than `most_texels` the scale is less by steps of 1/8. Returns it. Maps that do not fit at
+/// the least side, see least_texels(), have that.
 double choose_sides(std::vector<ShadowMapLayout>& layouts, const std::vector<double>& distances, double scale,
                     uint64_t most_texels);
-/// The largest scale, up to a limit, at which the maps of a scene take at most kMostMapTexels seen from its lamps: so
+/// Of maps that have all the least side.
+uint64_t least_texels(const std::vector<ShadowMapLayout>& layouts);
+/// The largest scale, up to a limit, at which the maps of a scene take at most `most_texels` seen from its lamps: so
 /// that sides change with the distance of the eye alone.
-double scene_scale(const std::vector<ShadowMapLayout>& layouts, const std::vector<glm::dvec3>& places);
+double scene_scale(const ShadowMapPlan& plan, uint64_t most_texels);
 
 /// A frame of axes that a map is drawn in: z along the axis of its first hemisphere.
 struct MapFrame {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <numeric>
 
+#include "base/error.h"
 #include "render/shadows/caster_parts.h"
 #include "render/shadows/casters.h"
 
@@ -25,28 +26,59 @@ bool sees_the_same(const gpu_scene::View& a, const gpu_scene::View& b) {
     return a.world_to_view == b.world_to_view && a.tangent_low == b.tangent_low && a.tangent_high == b.tangent_high;
 }
 
-uint64_t changed_bytes(const ShadowAtlas& atlas) {
-    const uint64_t tiles = atlas.texels() / shared::kTileTexels;
+uint64_t changed_bytes(uint64_t texels) {
+    const uint64_t tiles = texels / shared::kTileTexels;
     return (shared::kChangedHead + tiles) * sizeof(uint32_t) + tiles * sizeof(shared::ChangedTile);
+}
+
+// What maps of so many texels take: two atlases, the list of changed tiles, and what they are drawn with.
+uint64_t bytes_of(uint64_t texels) {
+    constexpr uint64_t kRounding = 256 << 10;  // of all buffers, as a device may want
+    return 2 * texels * sizeof(uint16_t) + changed_bytes(texels) + ShadowMapScratch::bytes(texels) + kRounding;
+}
+
+// Of all maps, in this memory (MiB) and in buffers of the device.
+uint64_t most_texels(const gpu::Device& device, uint32_t memory) {
+    constexpr uint64_t kMostTiles = 65535;  // that are put back: what any device has workgroups for
+    const uint64_t most = std::min({device.most_texels(sizeof(uint16_t)),
+                                    uint64_t{device.limits().maxStorageBufferRange} / sizeof(uint16_t),
+                                    kMostTiles * shared::kTileTexels});
+    uint64_t fits = 0, tiles = most / shared::kTileTexels;
+    while (fits < tiles) {
+        const uint64_t middle = (fits + tiles + 1) / 2;
+        if (bytes_of(middle * shared::kTileTexels) <= uint64_t{memory} << 20u) {
+            fits = middle;
+        } else {
+            tiles = middle - 1;
+        }
+    }
+    return fits * shared::kTileTexels;
+}
+
+ShadowAtlas make_atlas(const gpu::Device& device, const ShadowMapPlan& plan, const ShadowMapSizes& sizes) {
+    const uint64_t most = most_texels(device, sizes.memory);
+    return {plan.layouts, scene_scale(plan, most) + std::log2(sizes.resolution), most};
 }
 
 }  // namespace
 
 ShadowMaps::ShadowMaps(const gpu::Device& device, const gpu_scene::GpuScene& resident,
-                       const std::vector<gpu_scene::PlacedLamp>& lamps, const ShadowMapPlan& plan, double resolution)
+                       const std::vector<gpu_scene::PlacedLamp>& lamps, const ShadowMapPlan& plan,
+                       const ShadowMapSizes& sizes)
     : resident_(resident),
       lamps_(lamps),
       fixtures_(plan.fixtures),
-      atlas_(plan.layouts, plan.scale + std::log2(resolution)),
+      sizes_(sizes),
+      atlas_(make_atlas(device, plan, sizes)),
       moving_(resident, plan.animated),
-      arena_(device),
+      arena_(device, 0),
       maps_(lamps.size()),
       device_(device),
       everything_(resident.placements().size()) {
     still_ = make_shadow_texels(device, arena_, atlas_.texels());
     distances_ = make_shadow_texels(device, arena_, atlas_.texels());
     changed_ = gpu::make_buffer(
-        device, changed_bytes(atlas_),
+        device, changed_bytes(atlas_.texels()),
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     arena_.bind(changed_.get());
     std::iota(everything_.begin(), everything_.end(), 0u);
@@ -66,9 +98,14 @@ void ShadowMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneFra
         moving.push_back(moves(lamp));
         if (moves(lamp) && !std::exchange(maps_[lamp].moves, true)) maps_[lamp].drawn = false;
     }
-    ShadowAtlas::Change change = atlas_.fit(list, most_texels, moving);
-    moves_ = std::move(change.moves);
-    for (const uint32_t lamp : change.lamps) maps_[lamp].drawn = false;
+    std::optional<ShadowAtlas::Change> change = atlas_.fit(list, most_texels, moving);
+    if (!change)
+        throw Error("shadow maps of " + std::to_string(list.placed()) + " lamps do not fit --shadow-memory " +
+                    std::to_string(sizes_.memory) + " (MiB) on this device, at the least side of " +
+                    std::to_string(kLeastMapSide) +
+                    " texels; with more, or with --shadows off, the scene can be rendered");
+    moves_ = std::move(change->moves);
+    for (const uint32_t lamp : change->lamps) maps_[lamp].drawn = false;
     current_ = most_texels == kUnlimited;
     plan_new_maps(list, budget);
     const auto stands = [&](uint32_t lamp) { return !moves(lamp); };
@@ -79,7 +116,7 @@ void ShadowMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneFra
     find_cached(poses);
     report_.maps = uint32_t(maps_to_draw_.size());
     for (const auto& [lamp, placements] : bodies_) report_.bodies += draws_bodies_ ? uint32_t(placements.size()) : 0;
-    report_.bytes = arena_.bytes();
+    report_.bytes = arena_.bytes() + ShadowMapScratch::bytes(atlas_.texels());
 }
 
 void ShadowMaps::update_light(const gpu_scene::LampList& list, const gpu_scene::View& view, float unshadowed_share) {
@@ -228,23 +265,19 @@ void ShadowMaps::declare_restoring(const Declared& to) {
     }
 }
 
-// By way of another buffer, so that no map is overwritten before it has moved.
+// From one atlas to the other, so that no map is overwritten before it has moved: without what moves both hold the
+// same, but for maps of lamps that move, which only one has.
 void ShadowMaps::declare_moves(const Declared& to) {
     if (moves_.empty()) return;
-    std::vector<graph::Region> out, in;
-    uint64_t at = 0;
+    std::vector<graph::Region> out, back;
     for (const graph::Region& move : moves_) {
-        out.push_back({move.from, at, move.bytes});
-        in.push_back({at, move.to, move.bytes});
-        at += move.bytes;
+        out.push_back({move.from, move.from, move.bytes});
+        back.push_back({move.to, move.to, move.bytes});
     }
-    moves_.clear();
     graph::FrameGraph& graph = to.frame.graph;
-    const graph::Resource between = graph.transient("moved shadow maps", graph::buffer_shape(at));
-    for (const graph::Resource texels : {to.still, to.distances}) {
-        graph.copy("move shadow maps out", texels, between, out);
-        graph.copy("move shadow maps in", between, texels, in);
-    }
+    graph.copy("move shadow maps out", to.distances, to.still, std::move(out));
+    graph.copy("move shadow maps", to.still, to.distances, std::exchange(moves_, {}));
+    graph.copy("move shadow maps back", to.distances, to.still, std::move(back));
 }
 
 // Maps of lamps that stand still, which are copied to those with what moves.
@@ -310,8 +343,9 @@ FrameShadowMaps ShadowMaps::declare(const FrameContext& frame, const gpu_scene::
     const uint64_t bytes = atlas_.texels() * sizeof(uint16_t);
     const graph::Resource still = frame.graph.persistent("distances of what stands still", still_, bytes),
                           distances = frame.graph.persistent("distances", distances_, bytes, VK_FORMAT_R16_SFLOAT);
-    const graph::Resource changed = frame.graph.persistent("changed tiles", changed_, changed_bytes(atlas_));
-    Declared to{frame, list, poses, still, distances, add_shadow_map_scratch(frame, resident_, changed)};
+    const graph::Resource changed = frame.graph.persistent("changed tiles", changed_, changed_bytes(atlas_.texels()));
+    Declared to{frame, list,      poses,
+                still, distances, add_shadow_map_scratch(frame, resident_, changed, atlas_.texels())};
     declare_restoring(to);
     declare_moves(to);
     declare_still_maps(to);

@@ -20,6 +20,16 @@
 
 namespace vesper::render {
 
+/// What sides of maps follow from, beside scene and view.
+struct ShadowMapSizes {
+    double resolution;  ///< a factor
+    uint32_t memory;    ///< MiB: of ShadowReport::bytes, at most
+    bool operator==(const ShadowMapSizes&) const = default;
+};
+inline ShadowMapSizes map_sizes(const LightSettings& settings) {
+    return {settings.shadow_resolution, settings.shadow_memory};
+}
+
 /// Owns the maps on the device: finds on the host which are out of date, and declares passes that bring them up to date
 /// in the graph of a frame. A map holds what stands still around its lamp, drawn when its lamp moves or the view wants
 /// another size; and over it what moves, drawn in each frame: a placement whose node is animated, said to move by a
@@ -29,9 +39,10 @@ namespace vesper::render {
 /// moved once. Not thread-safe.
 class ShadowMaps {
 public:
-    /// Refers to all of these. `resolution`: of the sides that the plan chooses, as a factor.
+    /// Refers to all of these but the sizes.
     ShadowMaps(const gpu::Device& device, const gpu_scene::GpuScene& resident,
-               const std::vector<gpu_scene::PlacedLamp>& lamps, const ShadowMapPlan& plan, double resolution = 1);
+               const std::vector<gpu_scene::PlacedLamp>& lamps, const ShadowMapPlan& plan,
+               const ShadowMapSizes& sizes = map_sizes({}));
 
     /// Takes maps of lamps that stand still from a cache where it has them, and gives it those that are drawn; null:
     /// draws all. The cache must outlive its use here.
@@ -54,9 +65,10 @@ public:
     /// Gives maps of a finished frame to the cache. Returns why the cache keeps no more, once.
     std::string keep(const ShadowCache& drawn, const graph::Executor& executor) const;
 
+    const ShadowMapSizes& sizes() const { return sizes_; }
     const ShadowReport& report() const { return report_; }            ///< of the last plan()
     ShadowCache take_cached() { return std::exchange(cached_, {}); }  ///< of the last declare()
-    uint64_t bytes() const { return arena_.bytes(); }                 ///< of device memory
+    uint64_t bytes() const { return arena_.bytes(); }                 ///< of device memory, between frames
 
 private:
     /// The content of a lamp's map.
@@ -112,6 +124,7 @@ private:
     const gpu_scene::GpuScene& resident_;
     const std::vector<gpu_scene::PlacedLamp>& lamps_;
     const std::vector<std::vector<uint32_t>>& fixtures_;
+    ShadowMapSizes sizes_;
     ShadowAtlas atlas_;
     MovingPlacements moving_;
     gpu::Arena arena_;

@@ -13,7 +13,7 @@ struct ShadowReport {
     uint32_t cached = 0;    ///< taken from the cache, beside these
     uint32_t bodies = 0;    ///< placements that move, drawn into maps of lamps that do not, over what stands still
     uint32_t deferred = 0;  ///< maps that are out of date: the budget did not reach them
-    uint64_t bytes = 0;     ///< of device memory
+    uint64_t bytes = 0;     ///< of device memory, with what maps are drawn with, which other passes of a frame share
     std::string note;       ///< why the cache keeps no more maps, in the frame after which it does not
 };
 

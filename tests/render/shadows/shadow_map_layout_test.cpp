@@ -8,7 +8,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "base/error.h"
 #include "passes/shadows/draw_shadow_maps_reference.h"
 #include "support/noise.h"
 
@@ -123,7 +122,9 @@ TEST(ShadowMapLayout, SidesFallWithDistanceAndFillTheMemory) {
             EXPECT_GT(texels, most) << "a step more would not fit";
         }
     }
-    EXPECT_THROW(render::choose_sides(layouts, distances, 8, 199 << 12), Error);
+    EXPECT_EQ(render::least_texels(layouts), uint64_t(200) << 12);
+    render::choose_sides(layouts, distances, 8, 199 << 12);
+    EXPECT_EQ(layouts[3].side, render::kLeastMapSide);
     // A beam's map is as much smaller as it holds less of the hemisphere.
     layouts.resize(2), layouts[0].zoom = 8, distances = {10, 10};
     render::choose_sides(layouts, distances, 6, uint64_t(1) << 20);
@@ -132,6 +133,18 @@ TEST(ShadowMapLayout, SidesFallWithDistanceAndFillTheMemory) {
     distances[0] = std::numeric_limits<double>::quiet_NaN();
     render::choose_sides(layouts, distances, 6, uint64_t(1) << 20);
     EXPECT_EQ(layouts[0].side, render::kLeastMapSide);
+}
+
+// A quarter of the memory halves the sides.
+TEST(ShadowMapLayout, TheScaleOfASceneFollowsFromTheMemory) {
+    render::ShadowMapPlan plan;
+    for (int i = 0; i < 100; ++i) {
+        plan.layouts.push_back({.side = 0, .hemispheres = 1, .zoom = 1, .range = 1000, .radius = 0, .first = 0});
+        plan.places.emplace_back(30.0 * i, 5, 0);
+    }
+    const double scale = render::scene_scale(plan, uint64_t(16) << 20);
+    EXPECT_NEAR(render::scene_scale(plan, uint64_t(4) << 20), scale - 1, 0.25);
+    EXPECT_GT(render::scene_scale(plan, uint64_t(99) << 12), scale) << "they fit only where some do not shine";
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct Lamps {
         add_rectangle(scene, grey, {-10, 0, 10}, {20, 0, 0}, {0, 0, -20});
         add_rectangle(scene, grey, {-1.03f, 2, 1.07f}, {2, 0, 0.3f}, {-0.3f, 0, -2});
         for (int x = 0; x < rows; ++x)
-            for (int z = 0; z < rows; ++z) add_lamp(scene, 100, {0.37 * x - 2, 4, 0.41 * z - 2});
+            for (int z = 0; z < rows; ++z) add_lamp(scene, 100, {0.27 * x - 2, 4, 0.31 * z - 2});
         moment.world = scene::world_transforms(scene, 0);
         settings.indirect = settings.anti_aliasing = false;
     }
@@ -67,25 +67,25 @@ TEST(ShadowMemory, IsNotTakenWithoutNeed) {
     Lamps lamp(1);
     gpu::Device device({.select = ""});
     render::Renderer renderer(device, lamp.scene);
-    EXPECT_LE(mebibytes(lamp.render(renderer, 1024)), 2 * 16 + 32 + 24 + 1u);
+    EXPECT_LE(mebibytes(lamp.render(renderer, 1024)), 2 * 16 + 16 + 12 + 1u);
 }
 
 TEST(ShadowMemory, TooManyLampsAreAnErrorThatNamesIt) {
-    Lamps lamps(27);
+    Lamps lamps(34);
     gpu::Device device({.select = ""});
     render::Renderer renderer(device, lamps.scene);
     try {
         lamps.render(renderer, 64);
-        ADD_FAILURE() << "729 lamps to all sides fit";
+        ADD_FAILURE() << "1156 lamps to all sides fit";
     } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("729 lamps do not fit --shadow-memory 64 (MiB)"), std::string::npos)
+        EXPECT_NE(std::string(error.what()).find("1156 lamps do not fit --shadow-memory 64 (MiB)"), std::string::npos)
             << error.what();
     }
     lamps.settings.shadows = false;
     EXPECT_EQ(lamps.render(renderer, 64).maps.lamps, 0u);
     lamps.settings.shadows = true;
     const render::Frame more = lamps.render(renderer, 96);
-    EXPECT_EQ(more.maps.lamps, 729u);
+    EXPECT_EQ(more.maps.lamps, 1156u);
     EXPECT_LE(more.maps.bytes, 96ull << 20u);
 }
 

@@ -5,7 +5,7 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 
 SHADOW_MEMORY = 192  # MiB
-MOST_TEXELS = 8679 << 12  # that it has room for
+MOST_TEXELS = 10469 << 12  # that it has room for
 LEAST_SIDE, MOST_SIDE, MOST_ZOOM, FAINTEST, WIDEST_FLAT = 64, 2048, 8, 0.01, np.pi / 6  # docs/design/shadows.md
 OFF_SURFACE = 1e-3   # m, from a surface to where its rays begin
 PAST_HIT = 1e-4      # m, from a hit that does not count to where its ray goes on

@@ -19,11 +19,11 @@ struct ShadowMapScratch {
     graph::Resource changed;  ///< tiles that are listed as changed, see shared::ChangedTile; a word where none is
     graph::Resource draws;    ///< VkDrawIndirectCommand
     graph::Resource large;    ///< shared::LargeCorner, of kMostTriangles
-    graph::Resource drawn;    ///< texels of whole maps as they are drawn, floats, `texels`
-    uint32_t texels = 0;      ///< of maps that are drawn at once: at least of the largest
+    graph::Resource drawn;    ///< texels of hemispheres as they are drawn, floats, `texels`
+    uint32_t texels = 0;      ///< of hemispheres that are drawn at once: at least of the largest
 
-    static constexpr uint32_t kMostTriangles = 1u << 19u;  ///< of a dispatch
-    static constexpr uint32_t kMostTexels = 1u << 23u;     ///< of the largest map that there is
+    static constexpr uint32_t kMostTriangles = 1u << 18u;  ///< of a dispatch
+    static constexpr uint32_t kMostTexels = 1u << 22u;     ///< of the largest that there is
     /// Of a scratch for maps that take so many texels together.
     static uint64_t bytes(uint64_t texels);
 };

@@ -40,7 +40,7 @@ constexpr gpu::GraphicsShaders kMapShaders{
     "masked_casters.frag", masked_casters_vert,          masked_casters_frag, kBindings,
     sizeof(MaskPush),      VK_SHADER_STAGE_FRAGMENT_BIT, kMapBuffers,         kMapAttributes};
 
-static_assert(ShadowMapScratch::kMostTexels >= 2 * kMostMapSide * kMostMapSide);
+static_assert(ShadowMapScratch::kMostTexels >= kMostMapSide * kMostMapSide);
 
 constexpr double kNear = 4;  // m: nearer to a lamp all casters are drawn as they are
 
@@ -49,7 +49,17 @@ struct Hemisphere {
     const ShadowMapToDraw& map;
     bool second;
     uint32_t first;  // texel, of those that are drawn into
+
+    uint32_t texels() const { return map.layout.side * map.layout.side; }
 };
+
+std::vector<Hemisphere> hemispheres_of(std::span<const ShadowMapToDraw> maps) {
+    std::vector<Hemisphere> all;
+    for (const ShadowMapToDraw& map : maps)
+        for (uint32_t h = 0; h < map.layout.hemispheres && map.layout.side > 0; ++h)
+            all.push_back({map, h == 1, map.layout.first + h * map.layout.side * map.layout.side});
+    return all;
+}
 
 // Casters: triangles of opaque parts; and of masked ones, or of all where there is no room for these, parts and an
 // instance each, side by side.
@@ -81,14 +91,6 @@ public:
         for (const PlacedPart part : in_cells_) --loose_[part.placement];
     }
 
-    /// `first`: texel of the map, of those that are drawn into.
-    void collect(const ShadowMapToDraw& map, uint32_t first, Drawn& drawn) {
-        const uint32_t side = map.layout.side;
-        for (uint32_t h = 0; h < map.layout.hemispheres && side > 0; ++h)
-            collect({map, h == 1, first + h * side * side}, drawn);
-    }
-
-private:
     void collect(const Hemisphere& hemisphere, Drawn& drawn) {
         const ShadowMapToDraw& map = hemisphere.map;
         Seen seen{hemisphere,
@@ -108,6 +110,7 @@ private:
         }
     }
 
+private:
     // Of a placement in the world, and of its parts.
     struct Bounds {
         gpu_scene::WorldSphere whole{glm::dvec3(0), -1};
@@ -317,17 +320,17 @@ void add_shadow_maps(const FrameContext& frame, const GpuScene& scene, const gpu
     graph::FrameGraph& graph = frame.graph;
     Collector collector(scene, poses, frame.kernels.device(), standing);
     uint32_t round = 0;
-    for (auto map = maps.begin(); map != maps.end();) {
+    const std::vector<Hemisphere> all = hemispheres_of(maps);
+    for (auto next = all.begin(); next != all.end();) {
         Drawn drawn;
         std::vector<shared::DrawnTexels> list;
         uint32_t texels = 0;
-        for (; map != maps.end() && texels + map->layout.texels() <= scratch.texels; ++map) {
-            collector.collect(*map, texels, drawn);
-            for (uint32_t k = 0; k < map->layout.texels(); k += shared::kTileTexels)
-                list.push_back({texels + k, (map->layout.first + k) / 2});
-            texels += map->layout.texels();
+        for (; next != all.end() && texels + next->texels() <= scratch.texels; ++next) {
+            collector.collect({next->map, next->second, texels}, drawn);
+            for (uint32_t k = 0; k < next->texels(); k += shared::kTileTexels)
+                list.push_back({texels + k, (next->first + k) / 2});
+            texels += next->texels();
         }
-        if (list.empty()) continue;
         const std::string name = of_target(graph, distances) + "." + std::to_string(round++);
         graph.fill("clear drawn shadow maps", scratch.drawn, 0, {{0, 0, texels * sizeof(float)}});
         draw(frame, scene, drawn, name, {{}, scratch.drawn, scratch.changed}, scratch);
@@ -342,7 +345,7 @@ void add_over_shadow_maps(const FrameContext& frame, const GpuScene& scene, cons
                           const ShadowMapScratch& scratch) {
     Collector collector(scene, poses, frame.kernels.device(), {});
     Drawn drawn;
-    for (const ShadowMapToDraw& map : maps) collector.collect(map, map.layout.first, drawn);
+    for (const Hemisphere& hemisphere : hemispheres_of(maps)) collector.collect(hemisphere, drawn);
     draw(frame, scene, drawn, of_target(frame.graph, distances) + ", bodies", {{}, distances, scratch.changed, true},
          scratch);
 }

@@ -39,12 +39,11 @@ std::optional<ShadowAtlas::Change> ShadowAtlas::fit(const gpu_scene::LampList& l
     std::vector<double> distances;
     for (uint32_t i = 0; i < list.placed(); ++i) {
         wanted.push_back(layouts_[list.indices[i]]);
+        wanted.back().moves = moving[list.indices[i]];
         distances.push_back(double(glm::length(list.lamps[i].position)));
     }
     if (least_texels(wanted) > texels_) return std::nullopt;
     choose_sides(wanted, distances, scale_, texels_);
-    for (uint32_t i = 0; i < list.placed(); ++i)
-        if (moving[list.indices[i]] && wanted[i].side > kLeastMapSide) wanted[i].side /= 2;
     const auto ratio = [&](uint32_t i) {  // a power of two
         const uint32_t a = wanted[i].side, b = layouts_[list.indices[i]].side;
         return b == 0 ? ~0u : std::max(a, b) / std::max(std::min(a, b), 1u);

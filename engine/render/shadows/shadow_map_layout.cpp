@@ -115,8 +115,10 @@ ShadowMapPlan shadow_map_plan(const scene::Scene& scene, const gpu_scene::GpuSce
     const std::vector<glm::dmat4> world = scene::world_transforms(scene, 0);
     std::vector<glm::dvec3> places;
     for (const gpu_scene::PlacedLamp& lamp : lamps) places.emplace_back(world[lamp.node][3]);
-    return {layouts_of(scene, lamps), std::move(places), fixtures_of(scene, resident, lamps, world),
-            scene::animated_nodes(scene)};
+    std::vector<ShadowMapLayout> layouts = layouts_of(scene, lamps);
+    std::vector<bool> animated = scene::animated_nodes(scene);
+    for (size_t i = 0; i < lamps.size(); ++i) layouts[i].moves = animated[lamps[i].node];
+    return {std::move(layouts), std::move(places), fixtures_of(scene, resident, lamps, world), std::move(animated)};
 }
 
 double choose_sides(std::vector<ShadowMapLayout>& layouts, const std::vector<double>& distances, double scale,
@@ -132,6 +134,7 @@ double choose_sides(std::vector<ShadowMapLayout>& layouts, const std::vector<dou
             const double wanted = std::round(tried + powers[i]);
             const double power = wanted > kLeast ? std::min(wanted, kMost) : kLeast;  // also where it is no number
             layouts[i].side = layouts[i].range > 0 ? 1u << uint32_t(power) : 0;
+            if (layouts[i].moves && power > kLeast) layouts[i].side /= 2;
         }
         return texels_of(layouts);
     };

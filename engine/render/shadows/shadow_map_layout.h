@@ -28,6 +28,7 @@ struct ShadowMapLayout {
     float range = 0;           ///< m: no farther surface is a caster
     float radius = 0;          ///< of a disc of the area of its opening, m; 0 without
     uint32_t first = 0;        ///< texel, a multiple of shared::kMapUnit
+    bool moves = false;        ///< with its lamp: drawn in each frame, with half the side
 
     uint32_t texels() const { return hemispheres * side * side; }
 };
@@ -45,9 +46,9 @@ ShadowMapPlan shadow_map_plan(const scene::Scene& scene, const gpu_scene::GpuSce
 
 constexpr uint32_t kLeastMapSide = shared::kRegion, kMostMapSide = 2048;  ///< texels
 /// Sets the sides of maps that an eye at these distances (m) sees: powers of two within the limits above, nearest to
-/// 2^scale I^1/4 / (sqrt(distance) zoom), I the largest intensity, distances of at least 4 m; 0 for lamps without a
-/// map. Where these take more than `most_texels` the scale is less by steps of 1/8. Returns it. Maps that do not fit at
-/// the least side, see least_texels(), have that.
+/// 2^scale I^1/4 / (sqrt(distance) zoom), I the largest intensity, distances of at least 4 m; half of these for lamps
+/// that move; 0 for lamps without a map. Where these take more than `most_texels` the scale is less by steps of 1/8.
+/// Returns it. Maps that do not fit at the least side, see least_texels(), have that.
 double choose_sides(std::vector<ShadowMapLayout>& layouts, const std::vector<double>& distances, double scale,
                     uint64_t most_texels);
 /// Of maps that have all the least side.

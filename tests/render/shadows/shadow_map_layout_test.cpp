@@ -129,6 +129,10 @@ TEST(ShadowMapLayout, SidesFallWithDistanceAndFillTheMemory) {
     layouts.resize(2), layouts[0].zoom = 8, distances = {10, 10};
     render::choose_sides(layouts, distances, 6, uint64_t(1) << 20);
     EXPECT_EQ(layouts[0].side * 8, layouts[1].side);
+    // That of a lamp that moves has half the side.
+    layouts[1].moves = true;
+    render::choose_sides(layouts, distances, 6, uint64_t(1) << 20);
+    EXPECT_EQ(layouts[0].side * 4, layouts[1].side);
     // A lamp that is nowhere has the least map.
     distances[0] = std::numeric_limits<double>::quiet_NaN();
     render::choose_sides(layouts, distances, 6, uint64_t(1) << 20);

@@ -81,7 +81,7 @@ void draw_small(InImage image, InQuadrant at[3], MapQuadrant quadrant) {
     float y = image.first.y;
     vec2 span = span_of(edges, per_x, y, image);
     do {
-        const vec2 texel = vec2(span.x, y), middle = texel + 0.5;
+        const vec2 texel = vec2(min(span.x, image.last.x), y), middle = texel + 0.5;
         bool covered = span.x <= span.y;
         [[unroll]] for (int k = 0; k < 3; ++k) covered = covered && dot(edges[k].xy, middle) + edges[k].z >= 0.0;
         const float value = clamp(inverse.x + dot(slope, middle - image.corners[0]), least, most);

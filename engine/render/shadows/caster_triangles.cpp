@@ -102,6 +102,7 @@ void CasterTriangles::draw(const FrameContext& frame, const std::string& name, c
 void add_caster_triangle_shaders(Digest& digest) {
     for (const std::span<const uint32_t> spirv : {kTriangles.vertex, kTriangles.fragment, kCull.spirv})
         digest.add_list(spirv);
+    digest.add_value(kSmall), digest.add_value(kSmallInLockstep);
 }
 
 }  // namespace vesper::render

@@ -19,8 +19,7 @@ namespace {
 constexpr double kMostZoom = 8;
 constexpr double kWidestFlat = kPi / 6;  // rad: of a wider beam most texels of a flat map would be far from the axis
 constexpr double kNearestEye = 4;        // m: a lamp's light is not seen from nearer
-constexpr double kLeastScale = -16;
-constexpr double kMostScale = 8;  // log2 of the side for 0.001 cd, 1 m from the eye
+constexpr double kMostScale = 8;         // log2 of the side for 0.001 cd, 1 m from the eye
 
 // The largest angle from the lamp's axis at which it shines, rad; half a turn if it shines to all sides.
 double widest_angle(const scene::Scene& scene, const scene::Lamp& lamp) {
@@ -121,13 +120,21 @@ ShadowMapPlan shadow_map_plan(const scene::Scene& scene, const gpu_scene::GpuSce
     return {std::move(layouts), std::move(places), fixtures_of(scene, resident, lamps, world), std::move(animated)};
 }
 
+uint64_t least_texels(const std::vector<ShadowMapLayout>& layouts) {
+    uint64_t texels = 0;
+    for (const ShadowMapLayout& layout : layouts)
+        if (layout.range > 0) texels += uint64_t{layout.hemispheres} * kLeastMapSide * kLeastMapSide;
+    return texels;
+}
+
 double choose_sides(std::vector<ShadowMapLayout>& layouts, const std::vector<double>& distances, double scale,
                     uint64_t most_texels) {
     constexpr double kStep = 0.125, kLeast = std::countr_zero(kLeastMapSide), kMost = std::countr_zero(kMostMapSide);
     std::vector<double> powers;  // of two, at a scale of 0
     for (size_t i = 0; i < layouts.size(); ++i) {
         const double away = std::sqrt(std::max(distances[i], kNearestEye)) * double(layouts[i].zoom);
-        powers.push_back(std::log2(std::sqrt(std::max(double(layouts[i].range), 1e-30)) / away));
+        const double range = std::clamp(double(layouts[i].range), 1e-30, 1e30);  // so that steps come to an end
+        powers.push_back(std::log2(std::sqrt(range) / away));
     }
     const auto with = [&](double tried) {
         for (size_t i = 0; i < layouts.size(); ++i) {
@@ -138,15 +145,9 @@ double choose_sides(std::vector<ShadowMapLayout>& layouts, const std::vector<dou
         }
         return texels_of(layouts);
     };
-    while (with(scale) > most_texels && scale >= kLeastScale) scale -= kStep;
+    const uint64_t least = least_texels(layouts);
+    for (uint64_t texels = with(scale); texels > most_texels && texels > least; texels = with(scale)) scale -= kStep;
     return scale;
-}
-
-uint64_t least_texels(const std::vector<ShadowMapLayout>& layouts) {
-    uint64_t texels = 0;
-    for (const ShadowMapLayout& layout : layouts)
-        if (layout.range > 0) texels += uint64_t{layout.hemispheres} * kLeastMapSide * kLeastMapSide;
-    return texels;
 }
 
 double scene_scale(const ShadowMapPlan& plan, uint64_t most_texels) {

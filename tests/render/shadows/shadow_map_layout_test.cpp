@@ -125,6 +125,15 @@ TEST(ShadowMapLayout, SidesFallWithDistanceAndFillTheMemory) {
     EXPECT_EQ(render::least_texels(layouts), uint64_t(200) << 12);
     render::choose_sides(layouts, distances, 8, 199 << 12);
     EXPECT_EQ(layouts[3].side, render::kLeastMapSide);
+    // However far they shine.
+    for (const float range : {1e19f, std::numeric_limits<float>::infinity()}) {
+        std::vector<ShadowMapLayout> bright = layouts;
+        for (ShadowMapLayout& layout : bright) layout.range = range;
+        render::choose_sides(bright, distances, 8, uint64_t(250) << 12);
+        uint64_t texels = 0;
+        for (const ShadowMapLayout& layout : bright) texels += layout.texels();
+        EXPECT_LE(texels, uint64_t(250) << 12);
+    }
     // A beam's map is as much smaller as it holds less of the hemisphere.
     layouts.resize(2), layouts[0].zoom = 8, distances = {10, 10};
     render::choose_sides(layouts, distances, 6, uint64_t(1) << 20);

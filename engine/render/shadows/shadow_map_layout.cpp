@@ -129,7 +129,7 @@ uint64_t least_texels(const std::vector<ShadowMapLayout>& layouts) {
 
 double choose_sides(std::vector<ShadowMapLayout>& layouts, const std::vector<double>& distances, double scale,
                     uint64_t most_texels) {
-    constexpr double kStep = 0.125, kLeast = std::countr_zero(kLeastMapSide), kMost = std::countr_zero(kMostMapSide);
+    constexpr double kStep = 1.0 / 64, kLeast = std::countr_zero(kLeastMapSide), kMost = std::countr_zero(kMostMapSide);
     std::vector<double> powers;  // of two, at a scale of 0
     for (size_t i = 0; i < layouts.size(); ++i) {
         const double away = std::sqrt(std::max(distances[i], kNearestEye)) * double(layouts[i].zoom);

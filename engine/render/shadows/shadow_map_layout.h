@@ -47,7 +47,7 @@ ShadowMapPlan shadow_map_plan(const scene::Scene& scene, const gpu_scene::GpuSce
 constexpr uint32_t kLeastMapSide = shared::kRegion, kMostMapSide = 2048;  ///< texels
 /// Sets the sides of maps that an eye at these distances (m) sees: powers of two within the limits above, nearest to
 /// 2^scale I^1/4 / (sqrt(distance) zoom), I the largest intensity, distances of at least 4 m; half of these for lamps
-/// that move; 0 for lamps without a map. Where these take more than `most_texels` the scale is less by steps of 1/8.
+/// that move; 0 for lamps without a map. Where these take more than `most_texels` the scale is less by steps of 1/64.
 /// Returns it. Maps that do not fit at the least side, see least_texels(), have that.
 double choose_sides(std::vector<ShadowMapLayout>& layouts, const std::vector<double>& distances, double scale,
                     uint64_t most_texels);

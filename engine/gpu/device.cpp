@@ -276,13 +276,11 @@ void Device::choose(const std::string& select) {
 void Device::learn(bool filters_along, bool pushes_descriptors) {
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
     VkPhysicalDeviceSubgroupProperties subgroup{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
-    VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES,
-                                            .pNext = &subgroup};
-    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
+    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &subgroup};
     vkGetPhysicalDeviceProperties2(physical_, &properties);
     subgroup_size_ = subgroup.subgroupSize;
     if (as_least_) properties_.limits.maxTexelBufferElements = kLeastTexelBuffer;
-    driver_ = std::string(driver.driverName) + " " + driver.driverInfo;
+    driver_ = driver_of(physical_);
     uint32_t families = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical_, &families, nullptr);
     std::vector<VkQueueFamilyProperties> queues(families);

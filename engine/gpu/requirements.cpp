@@ -199,18 +199,20 @@ bool is_queue_family(VkPhysicalDevice device, uint32_t family) {
     return family < count && (families[family].queueFlags & wanted) == wanted;
 }
 
+std::string driver_of(VkPhysicalDevice device) {
+    VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
+    vkGetPhysicalDeviceProperties2(device, &properties);
+    return std::string(driver.driverName) + " " + driver.driverInfo;
+}
+
 std::string described(VkPhysicalDevice device) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(device, &properties);
     const uint32_t version = properties.apiVersion;
     std::string text = std::string(properties.deviceName) + " (" + kind_of(properties.deviceType) + ", Vulkan " +
                        version_text(version) + "." + std::to_string(VK_API_VERSION_PATCH(version));
-    if (version >= VK_API_VERSION_1_2) {
-        VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
-        VkPhysicalDeviceProperties2 more{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
-        vkGetPhysicalDeviceProperties2(device, &more);
-        text += std::string(", ") + driver.driverName + " " + driver.driverInfo;
-    }
+    if (version >= VK_API_VERSION_1_2) text += ", " + driver_of(device);
     return text + ")";
 }
 

@@ -31,6 +31,8 @@ bool filters_along(const VkDeviceCreateInfo&);
 bool pushes_descriptors(const VkDeviceCreateInfo&);
 
 bool has_extension(VkPhysicalDevice, const char* name);
+/// Name and version of the driver of a device of Vulkan 1.2 or later.
+std::string driver_of(VkPhysicalDevice);
 /// "NAME (KIND, Vulkan VERSION, DRIVER)"; the driver from Vulkan 1.2 on.
 std::string described(VkPhysicalDevice);
 /// Whether a queue family is for graphics and compute.

@@ -9,6 +9,8 @@
 
 namespace vesper::render {
 
+constexpr uint32_t kMostGroups = 65535;  ///< workgroups of a dispatch along an axis, which any device has
+
 /// A buffer for so many texels of shadow maps, halves, two a word; at least one word. Bound in `arena`.
 gpu::OwnedBuffer make_shadow_texels(const gpu::Device& device, gpu::Arena& arena, uint64_t texels);
 

@@ -24,9 +24,6 @@ constexpr VkVertexInputAttributeDescription kAttributes[]{
 constexpr gpu::GraphicsShaders kTriangles{
     "caster_triangles.frag", caster_triangles_vert, caster_triangles_frag, kMapBindings, 0, 0, kBuffers, kAttributes};
 
-// Of a dispatch: what any device has workgroups for.
-constexpr std::ptrdiff_t kMostRuns = 65535;
-
 // Texels: triangles in boxes of that side are drawn one by one; fewer where many wait for the largest of them.
 constexpr uint32_t kSmallInLockstep = 32, kSmall = 16;
 
@@ -68,7 +65,7 @@ void CasterTriangles::draw(const FrameContext& frame, const std::string& name, c
     uint32_t number = 0;
     for (auto begin = runs_.begin(); begin != runs_.end();) {
         auto end = begin;
-        for (uint32_t triangles = 0; end != runs_.end() && end - begin < kMostRuns; ++end)
+        for (uint32_t triangles = 0; end != runs_.end() && uint64_t(end - begin) < kMostGroups; ++end)
             if ((triangles += end->triangles) > ShadowMapScratch::kMostTriangles) break;
         const std::vector<shared::TriangleRun> runs(begin, end);
         const graph::Resource list = graph.upload("shadow runs" + name + "." + std::to_string(number++), runs);

@@ -31,7 +31,7 @@ uint64_t changed_bytes(uint64_t texels) {
     return (shared::kChangedHead + tiles) * sizeof(uint32_t) + tiles * sizeof(shared::ChangedTile);
 }
 
-// What maps of so many texels take: two atlases, the list of changed tiles, and what they are drawn with.
+// Memory of maps of so many texels: two atlases, the list of changed tiles, and the buffers that they are drawn in.
 uint64_t bytes_of(uint64_t texels) {
     constexpr uint64_t kRounding = 256 << 10;  // of all buffers, as a device may want
     return 2 * texels * sizeof(uint16_t) + changed_bytes(texels) + ShadowMapScratch::bytes(texels) + kRounding;
@@ -39,10 +39,9 @@ uint64_t bytes_of(uint64_t texels) {
 
 // Of all maps, in this memory (MiB) and in buffers of the device.
 uint64_t most_texels(const gpu::Device& device, uint32_t memory) {
-    constexpr uint64_t kMostTiles = 65535;  // that are put back: what any device has workgroups for
     const uint64_t most = std::min({device.most_texels(sizeof(uint16_t)),
                                     uint64_t{device.limits().maxStorageBufferRange} / sizeof(uint16_t),
-                                    kMostTiles * shared::kTileTexels});
+                                    uint64_t{kMostGroups} * shared::kTileTexels});  // a workgroup puts a tile back
     uint64_t fits = 0, tiles = most / shared::kTileTexels;
     while (fits < tiles) {
         const uint64_t middle = (fits + tiles + 1) / 2;

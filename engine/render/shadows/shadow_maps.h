@@ -20,7 +20,7 @@
 
 namespace vesper::render {
 
-/// What sides of maps follow from, beside scene and view.
+/// Settings that sides of maps follow from, beside scene and view.
 struct ShadowMapSizes {
     double resolution;  ///< a factor
     uint32_t memory;    ///< MiB: of ShadowReport::bytes, at most

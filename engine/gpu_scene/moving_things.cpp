@@ -25,7 +25,7 @@ void take_first(Ranked<Thing>& things, size_t most, Take take) {
 }
 
 // Pixels and depths of a box, which `to_view` takes to the view frame; false if it is out of view.
-bool cover(const glm::dmat4& to_view, glm::dvec3 low, glm::dvec3 high, const View& view, shared::HiddenPush& push) {
+bool cover(const glm::dmat4& to_view, glm::dvec3 low, glm::dvec3 high, const View& view, shared::HidingBody& body) {
     const glm::dvec2 all(view.extent.width, view.extent.height), scale(view.ray_scale()), offset(view.ray_offset());
     const double near = double(view.near);
     glm::dvec2 least = all, most(0);
@@ -47,13 +47,13 @@ bool cover(const glm::dmat4& to_view, glm::dvec3 low, glm::dvec3 high, const Vie
                 add(glm::dvec3(glm::dvec2(glm::mix(p, q, (near + p.z) / (p.z - q.z))), -near));
     }
     least = glm::max(glm::floor(least), 0.0), most = glm::max(glm::min(glm::ceil(most), all), 0.0);
-    push.first_pixel = glm::uvec2(glm::min(least, all)), push.end_pixel = glm::uvec2(most);
-    push.depths = glm::vec2(nearest, farthest);
+    body.pixels = {glm::uvec2(glm::min(least, all)), glm::uvec2(most)};
+    body.depths = glm::vec2(nearest, farthest);
     return farthest >= near && least.x < most.x && least.y < most.y;
 }
 
 void add_body(const transport::OcclusionVolume& volume, const glm::dmat4& world, const View& view,
-              Ranked<shared::HiddenPush>& found) {
+              Ranked<shared::HidingBody>& found) {
     const glm::dmat4 to_view = view.world_to_view * world, back = glm::inverse(to_view);
     if (!std::isfinite(back[0].x + back[3].x)) return;
     const glm::dvec3 size = volume.step * glm::dvec3(volume.count - 1u);
@@ -61,18 +61,16 @@ void add_body(const transport::OcclusionVolume& volume, const glm::dmat4& world,
         const glm::dvec4 own(back[0][axis], back[1][axis], back[2][axis], back[3][axis] - volume.low[axis]);
         return glm::vec4(own / volume.step);
     };
-    shared::HiddenPush push{.first_pixel = {},
-                            .end_pixel = {},
+    shared::HidingBody body{.pixels = {},
                             .depths = {},
-                            .ray_scale = view.ray_scale(),
-                            .ray_offset = view.ray_offset(),
+                            .unused = {},
+                            .volume = {volume.count, volume.first},
                             .x = row(0),
                             .y = row(1),
-                            .z = row(2),
-                            .volume = {volume.count, volume.first}};
+                            .z = row(2)};
     // A surface may be one step outside and look in.
-    if (cover(to_view, volume.low - volume.step, volume.low + size + volume.step, view, push))
-        found.emplace_back(glm::length(glm::dvec3(to_view * glm::dvec4(volume.low + 0.5 * size, 1))), push);
+    if (cover(to_view, volume.low - volume.step, volume.low + size + volume.step, view, body))
+        found.emplace_back(glm::length(glm::dvec3(to_view * glm::dvec4(volume.low + 0.5 * size, 1))), body);
 }
 
 }  // namespace
@@ -80,10 +78,10 @@ void add_body(const transport::OcclusionVolume& volume, const glm::dmat4& world,
 MovingThings moving_things(const transport::MovingBodies& bodies, std::span<const transport::LitPatch> patches,
                            const SceneFrame& poses, const View& view) {
     MovingThings found;
-    Ranked<shared::HiddenPush> near;
+    Ranked<shared::HidingBody> near;
     for (const transport::MovingBodies::Body& body : bodies.bodies)
         add_body(bodies.volumes[body.volume], poses.world[body.node], view, near);
-    take_first(near, shared::kMostBodies, [&](const shared::HiddenPush& push) { found.bodies.push_back(push); });
+    take_first(near, shared::kMostBodies, [&](const shared::HidingBody& body) { found.bodies.push_back(body); });
     Ranked<const transport::LitPatch*> strong;
     for (const transport::LitPatch& patch : patches) {
         const glm::dvec3 off = patch.position - eye_of(view);
@@ -99,12 +97,22 @@ MovingThings moving_things(const transport::MovingBodies& bodies, std::span<cons
     return found;
 }
 
-std::vector<uint32_t> volume_texels(const transport::MovingBodies& bodies) {
-    std::vector<uint32_t> texels;
-    for (const std::array<uint8_t, transport::kSides>& parts : bodies.hidden) {
-        uint32_t& texel = texels.emplace_back(0);
+std::vector<glm::uvec4> volume_texels(const transport::MovingBodies& bodies) {
+    const auto word = [&](const transport::OcclusionVolume& volume, glm::uvec3 place) {
+        uint32_t word = 0;
+        if (place.x >= volume.count.x || place.y >= volume.count.y) return word;
+        const size_t at = volume.first + (size_t{place.z} * volume.count.y + place.y) * volume.count.x + place.x;
         for (uint32_t side = 0; side < transport::kSides; ++side)
-            texel |= uint32_t{parts[side]} << side * shared::kHiddenBits;
+            word |= uint32_t{bodies.hidden[at][side]} << side * shared::kHiddenBits;
+        return word;
+    };
+    std::vector<glm::uvec4> texels(bodies.hidden.size());
+    for (const transport::OcclusionVolume& volume : bodies.volumes) {
+        glm::uvec4* texel = texels.data() + volume.first;
+        for (uint32_t z = 0; z < volume.count.z; ++z)
+            for (uint32_t y = 0; y < volume.count.y; ++y)
+                for (uint32_t x = 0; x < volume.count.x; ++x)
+                    for (uint32_t k = 0; k < 4; ++k) (*texel)[k] = word(volume, {x + (k & 1), y + (k >> 1), z}), texel += k == 3;
     }
     return texels;
 }

@@ -14,14 +14,14 @@ namespace vesper::gpu_scene {
 
 /// What of them a view sees, as shared/moving_light.h has it.
 struct MovingThings {
-    std::vector<shared::HiddenPush> bodies;
+    std::vector<shared::HidingBody> bodies;
     std::vector<glm::vec4> patches;  ///< texels
 };
 /// The kMostBodies nearest to the eye and the kMostPatches that give it most.
 MovingThings moving_things(const transport::MovingBodies& bodies, std::span<const transport::LitPatch> patches,
                            const SceneFrame& poses, const View& view);
 
-/// MovingBodies::hidden as texels of r32ui.
-std::vector<uint32_t> volume_texels(const transport::MovingBodies& bodies);
+/// MovingBodies::hidden, likewise.
+std::vector<glm::uvec4> volume_texels(const transport::MovingBodies& bodies);
 
 }  // namespace vesper::gpu_scene

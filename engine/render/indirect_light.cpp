@@ -12,7 +12,7 @@ IndirectLight::IndirectLight(const gpu::Device& device, std::shared_ptr<const tr
         arena_.bind(texels_.get());
     }
     if (radiosity_->bodies.hidden.empty()) return;
-    const std::vector<uint32_t> volumes = gpu_scene::volume_texels(radiosity_->bodies);
+    const std::vector<glm::uvec4> volumes = gpu_scene::volume_texels(radiosity_->bodies);
     const auto bytes = std::as_bytes(std::span(volumes));
     volumes_ = gpu::upload_buffer(device, arena_, bytes, gpu::kTexelUsage);
     volume_bytes_ = bytes.size();
@@ -52,7 +52,7 @@ MovingLight IndirectLight::moving(graph::FrameGraph& graph, std::span<const tran
     const transport::MovingBodies& bodies = radiosity_->bodies;
     MovingLight moving{.things = gpu_scene::moving_things(bodies, patches, poses, view)};
     if (!bodies.hidden.empty())
-        moving.volumes = graph.external("volumes of occlusion", volumes_, volume_bytes_, VK_FORMAT_R32_UINT);
+        moving.volumes = graph.external("volumes of occlusion", volumes_, volume_bytes_, VK_FORMAT_R32G32B32A32_UINT);
     return moving;
 }
 

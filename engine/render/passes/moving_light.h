@@ -8,7 +8,7 @@ namespace vesper::render {
 
 /// Bodies and patches near an eye.
 struct MovingLight {
-    graph::Resource volumes;  ///< r32ui, of all bodies; none: there are no bodies
+    graph::Resource volumes;  ///< rgba32ui, of all bodies; none: there are no bodies
     gpu_scene::MovingThings things;
 };
 

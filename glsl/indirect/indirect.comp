@@ -2,7 +2,6 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
-#extension GL_KHR_shader_subgroup_vote : require
 
 // Light of emitting surfaces, of the sky, and reflected light: adds E rho lambert, E between the cells of surfaces that face the same
 // side.
@@ -47,10 +46,10 @@ vec3 light_of(uvec4 cell) { return kCellUnit * vec3(unpackHalf2x16(cell.y), unpa
 // The cells of the cube that a point is in, or nearest to, and of those beside it, across the side that its surface faces. They are the
 // same for all points of a part of a cube.
 struct Columns {
-    ivec4 of;          // the part, and the side
-    vec3 light[4];     // lx
-    float height[4];   // in cubes
-    uint walls[4];     // bits of hidden ones around; kNoCell: there is no cell
+    ivec4 of;         // the part, and the side
+    vec3 light[4];    // lx
+    float height[4];  // in cubes
+    uint walls[4];    // bits of hidden ones around; kNoCell: there is no cell
 };
 
 Columns columns_of(ivec4 of) {
@@ -111,43 +110,79 @@ vec4 in_air(vec3 at, vec3 normal) {
     return sum;
 }
 
+// A pixel's surface, and where it is in the grid.
+struct Point {
+    vec3 position, n;  // in the view frame, m
+    vec3 at, normal;   // in cubes; this is no unit vector
+    ivec4 part;        // of a cube, and the side
+    float plain;       // of roads, see road_in_diffuse
+    bool drawn;
+};
+
+Point point_of(uvec2 pixel) {
+    const vec4 surface = imageLoad(surface_image, ivec2(pixel));
+    Point point;
+    point.drawn = all(lessThan(pixel, push.size)) && surface.z > 0.0;
+    point.position = vec3(push.ray_scale * (vec2(pixel) + 0.5) + push.ray_offset, -1.0) * (point.drawn ? surface.z : 1.0);
+    point.n = decode_normal(point.drawn ? surface.xy : vec2(0.0));
+    point.at = push.eye + push.x_axis * point.position.x + push.y_axis * point.position.y + push.z_axis * point.position.z;
+    point.normal = push.x_axis * point.n.x + push.y_axis * point.n.y + push.z_axis * point.n.z;
+    point.plain = -surface.w;
+    const vec3 a = abs(point.normal);
+    const uint axis = a.x >= a.y && a.x >= a.z ? 0u : a.y >= a.z ? 1u : 2u;
+    const bvec3 along = bvec3(axis == 0u, axis == 1u, axis == 2u);
+    const bool backwards = (axis == 0u ? point.normal.x : axis == 1u ? point.normal.y : point.normal.z) < 0.0;
+    point.part = ivec4(mix(floor(point.at - 0.5), floor(point.at), along), 2u * axis + (backwards ? 1u : 0u));
+    return point;
+}
+
+// Light and its weight.
+void add(uvec2 pixel, Point point, vec4 found) {
+    const vec3 normal = point.normal;
+    const vec3 open = mix(push.sky_below, push.sky_above, 0.5 + 0.5 * normal.y * inversesqrt(dot(normal, normal)));
+    vec3 illuminance = found.w > 0.0 ? found.rgb / found.w : open;
+    if (kMoving != 0u) {
+        const vec4 moving = imageLoad(moving_light_image, ivec2(pixel));
+        illuminance = illuminance * moving.a + moving.rgb;
+    }
+    const vec4 reflectance = imageLoad(reflectance_image, ivec2(pixel)), was = imageLoad(scene_image, ivec2(pixel));
+    const bool road = reflectance.a <= kRoadKind;
+    const float seen = road ? road_in_diffuse(point.plain, -dot(point.n, normalize(point.position))) : 1.0;
+    imageStore(scene_image, ivec2(pixel), vec4(was.rgb + illuminance * reflectance.rgb * (push.lambert * seen), 1.0));
+}
+
 void main() {
     const uvec2 first = gl_GlobalInvocationID.xy * uvec2(1u, kRows);
-    Columns columns;
-    columns.of = ivec4(-1);
-    // Loops of one turn are there for CPU devices, which leave them when no lane takes them and would run both sides of an if.
-    for (uint r = 0u; r < kRows; ++r) {
-        const uvec2 pixel = first + uvec2(0u, r);
-        const bool inside = all(lessThan(pixel, push.size));
-        const vec4 surface = imageLoad(surface_image, ivec2(pixel));
-        const vec4 reflectance = imageLoad(reflectance_image, ivec2(pixel));
-        const bool drawn = inside && surface.z > 0.0;
-        const vec3 position = vec3(push.ray_scale * (vec2(pixel) + 0.5) + push.ray_offset, -1.0) * (drawn ? surface.z : 1.0);
-        const vec3 n = decode_normal(drawn ? surface.xy : vec2(0.0));
-        const vec3 at = push.eye + push.x_axis * position.x + push.y_axis * position.y + push.z_axis * position.z;
-        const vec3 normal = push.x_axis * n.x + push.y_axis * n.y + push.z_axis * n.z;
-        const vec3 a = abs(normal);
-        const uint axis = a.x >= a.y && a.x >= a.z ? 0u : a.y >= a.z ? 1u : 2u;
-        const bvec3 along = bvec3(axis == 0u, axis == 1u, axis == 2u);
-        const bool backwards = (axis == 0u ? normal.x : axis == 1u ? normal.y : normal.z) < 0.0;
-        const ivec4 of = ivec4(mix(floor(at - 0.5), floor(at), along), 2u * axis + (backwards ? 1u : 0u));
-        const bool any_elsewhere = subgroupAny(drawn && of != columns.of);
-        for (uint i = 0u; i < (any_elsewhere ? 1u : 0u); ++i) columns = columns_of(of);
-        vec4 found = on_surfaces(columns, at);
-        const bool alone = drawn && found.w < 2.0 * kElsewhere, any_alone = subgroupAny(alone);
-        for (uint i = 0u; i < (any_alone ? 1u : 0u); ++i) {
-            const vec4 air = in_air(at, normal);
-            found = alone && air.w > 0.0 ? air : found;
+    uint r = 0u, alone = 0u;  // rows beside no cell of a surface, a bit each
+    // A run of rows in one part of a cube shares its columns. A CPU device goes through what a branch leaves out, but leaves loops that
+    // ask at their end.
+    do {
+        const ivec4 part = point_of(first + uvec2(0u, r)).part;
+        const Columns columns = columns_of(part);
+        bool more;
+        do {
+            const uvec2 pixel = first + uvec2(0u, r);
+            const Point point = point_of(pixel);
+            if (point.drawn) {
+                const vec4 found = on_surfaces(columns, point.at);
+                if (found.w >= 2.0 * kElsewhere) {
+                    add(pixel, point, found);
+                } else {
+                    alone |= 1u << r;
+                }
+            }
+            ++r;
+            const Point next = point_of(first + uvec2(0u, r));
+            more = r < kRows && (!next.drawn || next.part == part);
+        } while (more);
+    } while (r < kRows);
+    do {
+        if (alone != 0u) {
+            const uvec2 pixel = first + uvec2(0u, uint(findLSB(alone)));
+            const Point point = point_of(pixel);
+            const vec4 air = in_air(point.at, point.normal);
+            add(pixel, point, air.w > 0.0 ? air : on_surfaces(columns_of(point.part), point.at));
         }
-        const vec3 open = mix(push.sky_below, push.sky_above, 0.5 + 0.5 * normal.y * inversesqrt(dot(normal, normal)));
-        vec3 illuminance = found.w > 0.0 ? found.rgb / found.w : open;
-        if (kMoving != 0u) {
-            const vec4 moving = imageLoad(moving_light_image, ivec2(pixel));
-            illuminance = illuminance * moving.a + moving.rgb;
-        }
-        const vec4 was = imageLoad(scene_image, ivec2(pixel));
-        const vec3 light = illuminance * reflectance.rgb *
-                           (push.lambert * (reflectance.a <= kRoadKind ? road_in_diffuse(-surface.w, -dot(n, normalize(position))) : 1.0));
-        if (drawn) imageStore(scene_image, ivec2(pixel), vec4(was.rgb + light, 1.0));
-    }
+        alone &= alone - 1u;
+    } while (alone != 0u);
 }

@@ -38,8 +38,8 @@ float map_snap(const gpu::Device& device) {
     return std::ldexp(1.0f, -int(std::min(device.limits().subPixelPrecisionBits, 8u)));
 }
 
-uint32_t CasterTriangles::add_rows(const glm::mat4& rows) {
-    rows_.emplace_back(rows[0], rows[1], rows[2]);
+uint32_t CasterTriangles::add_rows(const glm::mat3x4& rows) {
+    rows_.push_back(rows);
     return uint32_t(rows_.size()) - 1;
 }
 
@@ -50,6 +50,15 @@ void CasterTriangles::add(const gpu_scene::GpuScene::Part& part, uint32_t rows, 
                          .first_index = part.first_index + first,
                          .first_vertex = uint32_t(part.first_vertex),
                          .triangles = std::min((part.index_count - first) / 3, shared::kTrianglesOfRun)});
+}
+
+void CasterTriangles::append(const CasterTriangles& others, uint32_t first_quadrant) {
+    const uint32_t first_rows = uint32_t(rows_.size());
+    rows_.insert(rows_.end(), others.rows_.begin(), others.rows_.end());
+    for (shared::TriangleRun run : others.runs_) {
+        run.rows += first_rows, run.quadrant += first_quadrant;
+        runs_.push_back(run);
+    }
 }
 
 void CasterTriangles::draw(const FrameContext& frame, const std::string& name, const MapTargets& to,

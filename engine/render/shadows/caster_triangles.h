@@ -24,9 +24,11 @@ float map_snap(const gpu::Device& device);
 class CasterTriangles {
 public:
     /// Rows of the matrix from a mesh to the frame of a map, m: the columns of `rows`. Returns their number.
-    uint32_t add_rows(const glm::mat4& rows);
+    uint32_t add_rows(const glm::mat3x4& rows);
     /// A part, for the quadrant of that number.
     void add(const gpu_scene::GpuScene::Part& part, uint32_t rows, uint32_t quadrant);
+    /// Adds all casters of others, whose quadrants are numbered from `first_quadrant` on here.
+    void append(const CasterTriangles& others, uint32_t first_quadrant);
 
     /// Draws them. `name` follows those of passes.
     void draw(const FrameContext& frame, const std::string& name, const MapTargets& to,

@@ -57,33 +57,39 @@ double intensity_towards(const gpu_scene::LampList& list, uint32_t number, glm::
     const shared::Lamp& lamp = list.lamps[number];
     const double away = glm::length(to);
     if (number >= list.counts.cones + list.counts.powers || away <= radius) return double(lamp.intensity);
-    const double cosine = std::clamp(glm::dot(glm::dvec3(lamp.axis), to) / away, -1.0, 1.0);
-    const double nearest = std::cos(std::max(std::acos(cosine) - std::asin(radius / away), 0.0));
+    // Of the angles to the middle of the sphere, and between this and its edge.
+    const double cosine = std::clamp(glm::dot(glm::dvec3(lamp.axis), to) / away, -1.0, 1.0), edge_sine = radius / away,
+                 edge_cosine = std::sqrt(1 - edge_sine * edge_sine);
+    const double nearest =
+        cosine >= edge_cosine ? 1 : cosine * edge_cosine + std::sqrt(1 - cosine * cosine) * edge_sine;
     if (number >= list.counts.cones)
         return nearest > 0 ? double(lamp.intensity) * std::pow(nearest, double(lamp.lobe_a)) : 0;
     const double ramp = std::clamp(double(lamp.lobe_a) * nearest + double(lamp.lobe_b), 0.0, 1.0);
     return double(lamp.intensity) * ramp * ramp;
 }
 
-IsCaster select_casters(const CastingLamp& lamp, const gpu_scene::LampList& list, const gpu_scene::View& view,
-                        bool culled) {
-    std::vector<HalfSpace> paths;
-    if (culled) paths = light_paths(view, lamp.position, kPlaneReach);
-    const double beside = kAside * double(lamp.layout.radius);
-    const double texels = kTexelsAside * 2 / (double(lamp.layout.side) * double(lamp.layout.zoom));
+IsCaster::IsCaster(const CastingLamp& lamp, const gpu_scene::LampList& list, const gpu_scene::View& view, bool culled)
+    : list_(&list),
+      number_(lamp.number),
+      position_(lamp.position),
+      to_view_(view.world_to_view),
+      beside_(kAside * double(lamp.layout.radius)),
+      texels_(kTexelsAside * 2 / (double(lamp.layout.side) * double(lamp.layout.zoom))),
+      least_(lamp.least_light) {
+    if (culled) paths_ = light_paths(view, lamp.position, kPlaneReach);
     const double undimmed = kFaintestLight * double(lamp.layout.range) * double(lamp.layout.range);  // cd
-    const double share = undimmed / double(list.lamps[lamp.number].intensity);
-    const glm::dmat3 to_view(view.world_to_view);
-    const glm::dvec3 position = lamp.position;
-    const double least = lamp.least_light;
-    const uint32_t number = lamp.number;
-    return [=, &list](const gpu_scene::WorldSphere& sphere) {
-        const glm::dvec3 to = sphere.centre - position;
-        const double away = glm::length(to), nearest = std::max(away - sphere.radius, 0.0);
-        const double radius = sphere.radius + beside + texels * away;
-        return may_lie_in(paths, {sphere.centre, radius}) &&
-               share * intensity_towards(list, number, to_view * to, radius) >= least * nearest * nearest;
-    };
+    share_ = undimmed / double(list.lamps[lamp.number].intensity);
+}
+
+// Of spheres within it: room that grows with the distance does not bring them before a plane that leaves it out, since
+// the lamp is on the other side of it.
+bool IsCaster::operator()(const gpu_scene::WorldSphere& sphere) const {
+    if (!list_) return true;
+    const glm::dvec3 to = sphere.centre - position_;
+    const double away = glm::length(to), nearest = std::max(away - sphere.radius, 0.0);
+    const double radius = sphere.radius + beside_ + texels_ * away, wanted = least_ * nearest * nearest;
+    return share_ * double(list_->lamps[number_].intensity) >= wanted && may_lie_in(paths_, {sphere.centre, radius}) &&
+           share_ * intensity_towards(*list_, number_, to_view_ * to, radius) >= wanted;
 }
 
 }  // namespace vesper::render

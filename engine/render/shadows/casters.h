@@ -1,7 +1,6 @@
 // The selection of casters: surfaces whose shadows a view may see. SPDX-License-Identifier: MIT
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "gpu_scene/gpu_scene.h"
@@ -28,9 +27,6 @@ bool may_lie_in(const std::vector<HalfSpace>& spaces, const gpu_scene::WorldSphe
 /// the list; `to`: from the lamp to the middle of the sphere, m, in the frame of the view.
 double intensity_towards(const gpu_scene::LampList& list, uint32_t number, glm::dvec3 to, double radius);
 
-/// Whether surfaces in a sphere (world, m) may cast a shadow that is wanted.
-using IsCaster = std::function<bool(const gpu_scene::WorldSphere&)>;
-
 /// A lamp whose casters are selected.
 struct CastingLamp {
     uint32_t number;      ///< in the list
@@ -39,9 +35,26 @@ struct CastingLamp {
     double least_light;  ///< lx: light below casts no shadow
 };
 /// Selects the casters of a lamp of a list: surfaces that get enough light of it, undimmed, so that its map serves at
-/// any dimming. `culled`: only those on its paths to what the view sees, with room for penumbrae. The list must outlive
-/// the result.
-IsCaster select_casters(const CastingLamp& lamp, const gpu_scene::LampList& list, const gpu_scene::View& view,
-                        bool culled);
+/// any dimming.
+class IsCaster {
+public:
+    /// All surfaces are.
+    IsCaster() = default;
+    /// `culled`: only those on its paths to what the view sees, with room for penumbrae. The list must outlive this.
+    IsCaster(const CastingLamp& lamp, const gpu_scene::LampList& list, const gpu_scene::View& view, bool culled);
+
+    /// Whether surfaces in a sphere (world, m) may cast a shadow that is wanted; if not, those in no sphere within it
+    /// may, but for rounding.
+    bool operator()(const gpu_scene::WorldSphere& sphere) const;
+
+private:
+    const gpu_scene::LampList* list_ = nullptr;
+    uint32_t number_ = 0;
+    glm::dvec3 position_{0};
+    glm::dmat3 to_view_{1};
+    std::vector<HalfSpace> paths_;
+    double beside_ = 0, texels_ = 0;  // room around a sphere: m, and per m away
+    double share_ = 0, least_ = 0;    // of the intensity, undimmed; lx
+};
 
 }  // namespace vesper::render

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <deque>
 #include <optional>
 #include <string>
 
+#include "base/parallel.h"
 #include "render/shadows/caster_parts.h"
 #include "render/shadows/caster_triangles.h"
 #include "scene/scene.h"
@@ -68,77 +70,57 @@ struct Drawn {
     CasterTriangles opaque;
     std::vector<uint32_t> parts;
     std::vector<shared::MapInstance> instances;
+
+    void append(const Drawn& others) {
+        const uint32_t first = uint32_t(quadrants.size());
+        opaque.append(others.opaque, first);
+        quadrants.insert(quadrants.end(), others.quadrants.begin(), others.quadrants.end());
+        parts.insert(parts.end(), others.parts.begin(), others.parts.end());
+        for (shared::MapInstance instance : others.instances) {
+            instance.quadrant += first;
+            instances.push_back(instance);
+        }
+    }
 };
 
 // Collects the casters that hemispheres see.
 class Collector {
 public:
-    /// `standing`: of cells, whether they are drawn in place of their parts.
     Collector(const GpuScene& scene, const gpu_scene::SceneFrame& poses, const gpu::Device& device,
-              const std::vector<bool>& standing)
+              std::span<const ShadowMapToDraw> maps, const CasterGroups* groups)
         : scene_(scene),
           poses_(poses),
           triangles_(has_caster_triangles(device, scene)),
           snap_(map_snap(device)),
+          groups_(groups),
           bounds_(scene.placements().size()) {
-        for (const GpuScene::Placement& placement : scene.placements()) loose_.push_back(placement.part_count);
-        for (uint32_t i = 0; triangles_ && i < standing.size(); ++i) {
-            if (!standing[i]) continue;
-            const GpuScene::Cell& cell = *cells_.emplace_back(&scene.cells()[i]);
-            in_cells_.insert(in_cells_.end(), cell.parts.begin(), cell.parts.end());
-        }
-        std::ranges::sort(in_cells_);
-        for (const PlacedPart part : in_cells_) --loose_[part.placement];
+        for (uint32_t p = 0; groups && p < bounds_.size(); ++p) bounds_[p] = groups->bounds(p);
+        for (const ShadowMapToDraw& map : maps)
+            for (const uint32_t p : map.placements)
+                if (!bounds_[p])
+                    bounds_[p] = &moved_.emplace_back(caster_bounds(scene, p, poses.world[scene.placements()[p].node]));
     }
 
-    void collect(const Hemisphere& hemisphere, Drawn& drawn) {
-        const ShadowMapToDraw& map = hemisphere.map;
-        Seen seen{hemisphere,
-                  add_quadrants(hemisphere, drawn),
-                  2 / (double(map.layout.side) * double(map.layout.zoom)),
-                  0,
-                  {}};
-        const bool by_cells = map.caster_error > 0;
-        if (by_cells)
-            for (const GpuScene::Cell* cell : cells_) collect_cell(seen, *cell, drawn);
-        for (const uint32_t p : map.placements) {
-            const auto& [node, first, count, at_rest] = scene_.placements()[p];
-            if ((by_cells && loose_[p] == 0) || !sees(seen, bounds_of(p).whole) || is_fixture(map, p)) continue;
-            for (uint32_t part = first; part < first + count; ++part)
-                if (!by_cells || loose_[p] == count || !std::ranges::binary_search(in_cells_, PlacedPart{p, part}))
-                    collect_part(seen, {p, part}, drawn);
-        }
+    Drawn collect(std::span<const Hemisphere> hemispheres) const {
+        constexpr size_t kAtATime = 8;
+        std::vector<Drawn> apart(hemispheres.size());
+        in_parallel(apart.size(), kAtATime, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) collect(hemispheres[i], apart[i]);
+        });
+        Drawn all;
+        for (const Drawn& drawn : apart) all.append(drawn);
+        return all;
     }
 
 private:
-    // Of a placement in the world, and of its parts.
-    struct Bounds {
-        gpu_scene::WorldSphere whole{glm::dvec3(0), -1};
-        std::vector<gpu_scene::WorldSphere> parts;
-    };
-
-    // Computed when a placement is first asked for.
-    const Bounds& bounds_of(uint32_t placement) {
-        const GpuScene::Placement& of = scene_.placements()[placement];
-        Bounds& bounds = bounds_[placement];
-        if (bounds.whole.radius >= 0 || of.part_count == 0) return bounds;
-        for (uint32_t i = 0; i < of.part_count; ++i)
-            bounds.parts.push_back(
-                gpu_scene::world_sphere_of(scene_.parts()[of.first_part + i], poses_.world[of.node]));
-        bounds.whole = bounds.parts[0];
-        for (const gpu_scene::WorldSphere& part : bounds.parts)
-            bounds.whole.radius =
-                std::max(bounds.whole.radius, glm::distance(part.centre, bounds.whole.centre) + part.radius);
-        return bounds;
-    }
-
     struct Quadrant {
         glm::dvec2 signs;
         uint32_t number;  // among those that are drawn
+        bool open;        // it may see something of the group that is looked at
     };
     // Of the matrix of a placement to a map.
     struct Rows {
-        glm::mat4 rows;
+        glm::mat3x4 rows;
         std::optional<uint32_t> number{};  // among those of opaque triangles
     };
 
@@ -146,10 +128,43 @@ private:
     struct Seen {
         const Hemisphere& of;
         std::vector<Quadrant> quadrants;
-        double texel;  // rad, about
+        double texel;         // rad, about
+        bool fixture_stands;  // some of it
         uint32_t placement;
         std::optional<Rows> rows;  // of this placement
     };
+
+    void collect(const Hemisphere& hemisphere, Drawn& drawn) const {
+        const ShadowMapToDraw& map = hemisphere.map;
+        Seen seen{hemisphere,
+                  add_quadrants(hemisphere, drawn),
+                  2 / (double(map.layout.side) * double(map.layout.zoom)),
+                  std::ranges::any_of(map.fixture, [&](uint32_t own) { return groups_ && groups_->bounds(own); }),
+                  0,
+                  {}};
+        if (groups_ && map.caster_error > 0)
+            for (const CasterGroups::Group& group : groups_->groups()) collect_group(seen, group, drawn);
+        for (Quadrant& quadrant : seen.quadrants) quadrant.open = true;
+        for (const uint32_t p : map.placements) {
+            const auto& [node, first, count, at_rest] = scene_.placements()[p];
+            if (count == 0 || !sees(seen, bounds_[p]->whole) || is_fixture(map, p)) continue;
+            for (uint32_t part = first; part < first + count; ++part) collect_part(seen, {p, part}, drawn);
+        }
+    }
+
+    void collect_group(Seen& seen, const CasterGroups::Group& group, Drawn& drawn) const {
+        const ShadowMapToDraw& map = seen.of.map;
+        const glm::dvec3 centre = in_map(seen, group.bounds.centre);
+        bool open = false;
+        for (Quadrant& quadrant : seen.quadrants)
+            open |= quadrant.open = may_see(double(map.layout.zoom), quadrant.signs, centre, group.bounds.radius);
+        if (!open || !is_in_range(map, group.bounds) || !map.is_caster(group.bounds)) return;
+        for (const auto& [bounds, cell, parts] : group.casters) {
+            if (!sees(seen, bounds) || (cell && add_level(seen, *cell, drawn))) continue;
+            for (const PlacedPart part : parts)
+                if (!is_fixture(map, part.placement)) collect_part(seen, part, drawn);
+        }
+    }
 
     // In the frame of the map, mirrored for its second hemisphere.
     static glm::dvec3 in_map(const Seen& seen, glm::dvec3 place) {
@@ -157,42 +172,40 @@ private:
         return glm::dvec3(1, 1, seen.of.second ? -1 : 1) * (frame.rotation * (place - frame.position));
     }
     static bool sees(const Seen& seen, const gpu_scene::WorldSphere& sphere) {
-        return is_caster(seen.of.map, sphere) && in_map(seen, sphere.centre).z + sphere.radius >= 0;
+        return in_map(seen, sphere.centre).z + sphere.radius >= 0 && is_in_range(seen.of.map, sphere) &&
+               seen.of.map.is_caster(sphere);
     }
     static bool is_fixture(const ShadowMapToDraw& map, uint32_t placement) {
         return std::ranges::binary_search(map.fixture, placement);
     }
 
-    // The coarsest level within the error; near the lamp, or with its fixture, the parts.
-    void collect_cell(Seen& seen, const GpuScene::Cell& cell, Drawn& drawn) {
+    // The coarsest level within the error; near the lamp, or with its fixture, none: false.
+    bool add_level(const Seen& seen, const GpuScene::Cell& cell, Drawn& drawn) const {
         const ShadowMapToDraw& map = seen.of.map;
-        const gpu_scene::WorldSphere bounds{cell.centre, cell.radius};
-        if (!sees(seen, bounds)) return;
         const double away = glm::distance(cell.centre, map.frame.position) - cell.radius;
         const double error = away > kNear ? map.caster_error * seen.texel * away : 0;
         const auto coarser = std::ranges::find_if(cell.levels, [&](const auto& level) { return level.error > error; });
-        const bool has_fixture = std::ranges::any_of(map.fixture, [&](uint32_t own) {
-            return std::ranges::binary_search(cell.parts, own, {}, &PlacedPart::placement);
-        });
-        if (coarser == cell.levels.begin() || has_fixture) {
-            for (const PlacedPart part : cell.parts)
-                if (!is_fixture(map, part.placement)) collect_part(seen, part, drawn);
-            return;
-        }
-        Rows rows{rows_to_map(map.frame, glm::translate(glm::dmat4(1), cell.centre))};
-        add_seen(seen, bounds, (coarser - 1)->part, false, rows, drawn);
+        const auto is_own = [&](const PlacedPart& part) { return is_fixture(map, part.placement); };
+        if (!triangles_ || coarser == cell.levels.begin() ||
+            (seen.fixture_stands && std::ranges::any_of(cell.parts, is_own)))
+            return false;
+        Rows rows{rows_to_map(map.frame, glm::dmat3(1), cell.centre)};
+        add_seen(seen, {cell.centre, cell.radius}, (coarser - 1)->part, false, rows, drawn);
+        return true;
     }
 
-    void collect_part(Seen& seen, PlacedPart placed, Drawn& drawn) {
+    void collect_part(Seen& seen, PlacedPart placed, Drawn& drawn) const {
         const GpuScene::Placement& placement = scene_.placements()[placed.placement];
         const GpuScene::Part& part = scene_.parts()[placed.part];
         const ShadowMapToDraw& map = seen.of.map;
-        const gpu_scene::WorldSphere& bounds = bounds_of(placed.placement).parts[placed.part - placement.first_part];
+        const gpu_scene::WorldSphere& bounds = bounds_[placed.placement]->parts[placed.part - placement.first_part];
         if (part.index_count == 0 || scene_.surfaces()[part.material].material.clear || !sees(seen, bounds) ||
             bounds.radius < 0.25 * seen.texel * glm::distance(bounds.centre, map.frame.position))
             return;
-        if (!seen.rows || seen.placement != placed.placement)
-            seen.rows = Rows{rows_to_map(map.frame, poses_.world[placement.node])}, seen.placement = placed.placement;
+        if (!seen.rows || seen.placement != placed.placement) {
+            const glm::dmat4& world = poses_.world[placement.node];
+            seen.rows = Rows{rows_to_map(map.frame, glm::dmat3(world), world[3])}, seen.placement = placed.placement;
+        }
         const bool masked = scene_.surfaces()[part.material].material.alpha == scene::Material::Alpha::Mask;
         add_seen(seen, bounds, part, masked, *seen.rows, drawn);
     }
@@ -202,19 +215,21 @@ private:
                   Rows& rows, Drawn& drawn) const {
         const glm::dvec3 centre = in_map(seen, bounds.centre);
         for (const Quadrant& quadrant : seen.quadrants)
-            if (may_see(double(seen.of.map.layout.zoom), quadrant.signs, centre, bounds.radius))
+            if (quadrant.open && may_see(double(seen.of.map.layout.zoom), quadrant.signs, centre, bounds.radius))
                 add(quadrant.number, part, masked, rows, drawn);
     }
 
-    static bool is_caster(const ShadowMapToDraw& map, const gpu_scene::WorldSphere& sphere) {
+    static bool is_in_range(const ShadowMapToDraw& map, const gpu_scene::WorldSphere& sphere) {
         const glm::dvec3 to = sphere.centre - map.frame.position;
         const double far = double(map.layout.range) + sphere.radius;
-        return glm::dot(to, to) <= far * far && (!map.is_caster || map.is_caster(sphere));
+        return glm::dot(to, to) <= far * far;
     }
 
-    static glm::mat4 rows_to_map(const MapFrame& frame, const glm::dmat4& world) {
-        const glm::dmat4 from_lamp = glm::translate(glm::dmat4(1), -frame.position) * world;
-        return glm::transpose(glm::mat4(glm::dmat4(frame.rotation) * from_lamp));
+    // Of a mesh with these axes at a place of the world.
+    static glm::mat3x4 rows_to_map(const MapFrame& frame, const glm::dmat3& axes, glm::dvec3 place) {
+        const glm::dmat3 turned = frame.rotation * axes;
+        return glm::mat3x4(
+            glm::transpose(glm::dmat4x3(turned[0], turned[1], turned[2], frame.rotation * (place - frame.position))));
     }
 
     std::vector<Quadrant> add_quadrants(const Hemisphere& hemisphere, Drawn& drawn) const {
@@ -224,7 +239,7 @@ private:
         const float overlap = snap_ > 1.0f / 256 ? 4 * snap_ / (layout.zoom * float(side)) : 1e-5f;
         std::vector<Quadrant> quadrants;
         for (const glm::dvec2 signs : quadrants_of(layout)) {
-            quadrants.push_back({signs, uint32_t(drawn.quadrants.size())});
+            quadrants.push_back({signs, uint32_t(drawn.quadrants.size()), true});
             drawn.quadrants.push_back({.zoom = signs.x < 0 ? -layout.zoom : layout.zoom,
                                        .y_sign = float(signs.y),
                                        .mirror = hemisphere.second ? -1.0f : 1.0f,
@@ -251,12 +266,11 @@ private:
 
     const GpuScene& scene_;
     const gpu_scene::SceneFrame& poses_;
-    bool triangles_;                            // opaque parts are drawn by them
-    float snap_;                                // texels, see map_snap
-    std::vector<Bounds> bounds_;                // of placements
-    std::vector<const GpuScene::Cell*> cells_;  // that stand
-    std::vector<PlacedPart> in_cells_;          // their parts, ascending
-    std::vector<uint32_t> loose_;               // of placements: how many parts are in none
+    bool triangles_;                           // opaque parts are drawn by them
+    float snap_;                               // texels, see map_snap
+    const CasterGroups* groups_;               // or null
+    std::vector<const CasterBounds*> bounds_;  // of placements, where they are looked at
+    std::deque<CasterBounds> moved_;           // of those that are in no group
 };
 
 // Masked parts, in an order in which few states change.
@@ -304,36 +318,26 @@ std::string of_target(const graph::FrameGraph& graph, graph::Resource distances)
 
 }  // namespace
 
-std::vector<bool> standing_cells(const GpuScene& scene, std::span<const uint32_t> still,
-                                 const gpu_scene::SceneFrame& poses) {
-    std::vector<bool> stands(scene.placements().size());
-    for (const uint32_t p : still) stands[p] = poses.world[scene.placements()[p].node] == scene.placements()[p].at_rest;
-    std::vector<bool> cells;
-    for (const GpuScene::Cell& cell : scene.cells())
-        cells.push_back(std::ranges::all_of(cell.parts, [&](const auto& part) { return stands[part.placement]; }));
-    return cells;
-}
-
 void add_shadow_maps(const FrameContext& frame, const GpuScene& scene, const gpu_scene::SceneFrame& poses,
-                     const std::vector<bool>& standing, std::span<const ShadowMapToDraw> maps,
-                     graph::Resource distances, const ShadowMapScratch& scratch) {
+                     const CasterGroups* groups, std::span<const ShadowMapToDraw> maps, graph::Resource distances,
+                     const ShadowMapScratch& scratch) {
     graph::FrameGraph& graph = frame.graph;
-    Collector collector(scene, poses, frame.kernels.device(), standing);
+    const Collector collector(scene, poses, frame.kernels.device(), maps, groups);
     uint32_t round = 0;
     const std::vector<Hemisphere> all = hemispheres_of(maps);
     for (auto next = all.begin(); next != all.end();) {
-        Drawn drawn;
+        std::vector<Hemisphere> drawn;
         std::vector<shared::DrawnTexels> list;
         uint32_t texels = 0;
         for (; next != all.end() && texels + next->texels() <= scratch.texels; ++next) {
-            collector.collect({next->map, next->second, texels}, drawn);
+            drawn.push_back({next->map, next->second, texels});
             for (uint32_t k = 0; k < next->texels(); k += shared::kTileTexels)
                 list.push_back({texels + k, (next->first + k) / 2});
             texels += next->texels();
         }
         const std::string name = of_target(graph, distances) + "." + std::to_string(round++);
         graph.fill("clear drawn shadow maps", scratch.drawn, 0, {{0, 0, texels * sizeof(float)}});
-        draw(frame, scene, drawn, name, {{}, scratch.drawn, scratch.changed}, scratch);
+        draw(frame, scene, collector.collect(drawn), name, {{}, scratch.drawn, scratch.changed}, scratch);
         graph.dispatch("store shadow maps", frame.kernels.get(kStore, {frame.lockstep() ? 8u : 64u}),
                        {load(scratch.drawn), load(graph.upload("drawn texels" + name, list)), update(distances)},
                        graph::Groups{uint32_t(list.size()), 1, 1});
@@ -343,11 +347,9 @@ void add_shadow_maps(const FrameContext& frame, const GpuScene& scene, const gpu
 void add_over_shadow_maps(const FrameContext& frame, const GpuScene& scene, const gpu_scene::SceneFrame& poses,
                           std::span<const ShadowMapToDraw> maps, graph::Resource distances,
                           const ShadowMapScratch& scratch) {
-    Collector collector(scene, poses, frame.kernels.device(), {});
-    Drawn drawn;
-    for (const Hemisphere& hemisphere : hemispheres_of(maps)) collector.collect(hemisphere, drawn);
-    draw(frame, scene, drawn, of_target(frame.graph, distances) + ", bodies", {{}, distances, scratch.changed, true},
-         scratch);
+    const Collector collector(scene, poses, frame.kernels.device(), maps, nullptr);
+    draw(frame, scene, collector.collect(hemispheres_of(maps)), of_target(frame.graph, distances) + ", bodies",
+         {{}, distances, scratch.changed, true}, scratch);
 }
 
 void restore_shadow_maps(const FrameContext& frame, graph::Resource still, graph::Resource distances,

@@ -30,7 +30,7 @@ std::vector<float> drawn_norms(gpu::Device& device, const gpu_scene::GpuScene& r
     const graph::Resource distances = graph.persistent("map distances", buffer, bytes);
     const FrameContext frame{graph, kernels, pipelines, {}};
     const ShadowMapScratch scratch = add_shadow_map_scratch(frame, resident);
-    add_shadow_maps(frame, resident, poses, {}, {&map, 1}, distances, scratch);
+    add_shadow_maps(frame, resident, poses, nullptr, {&map, 1}, distances, scratch);
     const graph::Resource wanted = graph.readback("read distances", bytes);
     graph.copy("fetch distances", distances, wanted);
     graph::Executor executor(device);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/shadows/caster_groups.h"
+
 namespace vesper::render {
 
 std::vector<uint32_t> MovingPlacements::update(const gpu_scene::SceneFrame& poses) {
@@ -34,20 +36,12 @@ std::vector<uint32_t> MovingPlacements::update(const gpu_scene::SceneFrame& pose
     return begun;
 }
 
-// A sphere around the box around the spheres of the parts.
 MovingPlacements::Moving MovingPlacements::at_pose(uint32_t placement, const glm::dmat4& world) const {
     const gpu_scene::GpuScene::Placement& of = scene_.placements()[placement];
     std::vector<gpu_scene::WorldSphere> spheres;
-    glm::dvec3 low(1e300), high(-1e300);
-    for (uint32_t i = of.first_part; i < of.first_part + of.part_count; ++i) {
-        const gpu_scene::WorldSphere sphere = gpu_scene::world_sphere_of(scene_.parts()[i], world);
-        low = glm::min(low, sphere.centre - sphere.radius), high = glm::max(high, sphere.centre + sphere.radius);
-        spheres.push_back(sphere);
-    }
-    double radius = 0;
-    const glm::dvec3 centre = 0.5 * (low + high);
-    for (const gpu_scene::WorldSphere& sphere : spheres)
-        radius = std::max(radius, glm::distance(centre, sphere.centre) + sphere.radius);
+    for (uint32_t i = of.first_part; i < of.first_part + of.part_count; ++i)
+        spheres.push_back(gpu_scene::world_sphere_of(scene_.parts()[i], world));
+    const auto [centre, radius] = sphere_around(spheres);
     return {placement, version_, centre, radius};
 }
 

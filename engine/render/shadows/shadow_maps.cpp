@@ -142,7 +142,7 @@ void ShadowMaps::update_view(const gpu_scene::View& view, const gpu_scene::Scene
 void ShadowMaps::forget_still(const std::vector<uint32_t>& placements) {
     if (placements.empty()) return;
     for (Map& map : maps_) map.drawn = false;
-    surroundings_.reset();
+    surroundings_.reset(), groups_.reset();
 }
 
 // Maps that hold nothing yet.
@@ -227,7 +227,7 @@ uint32_t ShadowMaps::number_of(uint32_t lamp, const gpu_scene::LampList& list) {
 // Those of a lamp that moves.
 IsCaster ShadowMaps::casters_of(uint32_t lamp, const Declared& to) const {
     const glm::dvec3 position(to.poses.world[lamps_[lamp].node][3]);
-    return select_casters({number_of(lamp, to.list), position, atlas_[lamp], kFaintestMoving}, to.list, view_, culls());
+    return {{number_of(lamp, to.list), position, atlas_[lamp], kFaintestMoving}, to.list, view_, culls()};
 }
 
 // Takes maps that the cache has out of those to be drawn.
@@ -289,7 +289,7 @@ void ShadowMaps::declare_still_maps(const Declared& to) {
         maps_[lamp] = {.drawn = true, .version = moving_.version()};
         copied_.push_back(lamp);
     }
-    if (!maps.empty()) add_shadow_maps(to.frame, resident_, to.poses, {}, maps, to.still, to.scratch);
+    if (!maps.empty()) add_shadow_maps(to.frame, resident_, to.poses, nullptr, maps, to.still, to.scratch);
     cached_.read_back(to.frame.graph, to.still);
     std::vector<graph::Region> made;
     for (const uint32_t lamp : std::exchange(copied_, {})) {
@@ -302,16 +302,20 @@ void ShadowMaps::declare_still_maps(const Declared& to) {
 // Maps of lamps that move, and what moves before the others.
 void ShadowMaps::declare_what_moves(const Declared& to) {
     std::vector<ShadowMapToDraw> maps;
+    std::vector<uint32_t> moving;
+    for (const MovingPlacements::Moving& body : moving_.moving()) moving.push_back(body.placement);
     for (const uint32_t lamp : std::exchange(maps_to_draw_, {})) {
         if (!moves(lamp)) continue;
         ShadowMapToDraw& map = maps.emplace_back(map_of(lamp, to.poses));
         map.is_caster = casters_of(lamp, to), map.number = number_of(lamp, to.list);
+        if (caster_error_ > 0) map.placements = moving;
         maps_[lamp] = {
             .drawn = true, .moves = true, .culled = culls(), .optional = may_leave_out(), .version = moving_.version()};
     }
-    if (!maps.empty())
-        add_shadow_maps(to.frame, resident_, to.poses, standing_cells(resident_, moving_.still(), to.poses), maps,
-                        to.distances, to.scratch);
+    if (!maps.empty()) {
+        if (!groups_) groups_.emplace(resident_, moving_.still(), to.poses);
+        add_shadow_maps(to.frame, resident_, to.poses, &*groups_, maps, to.distances, to.scratch);
+    }
     if (!std::exchange(draws_bodies_, false)) return;
     drawn_bodies_ = bodies_;
     maps.clear();

@@ -147,6 +147,7 @@ private:
     std::vector<graph::Region> moves_;      // of texels, to be made before, bytes
     std::map<uint32_t, uint32_t> deferred_maps_;
     ShadowReport report_;
+    std::optional<CasterGroups> groups_;  // of what stands still
     Cache* cache_ = nullptr;
     ShadowCache cached_;
     std::optional<Digest::Value> surroundings_;  // of maps that hold what stands still, see shadow_surroundings()

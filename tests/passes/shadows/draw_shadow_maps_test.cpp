@@ -21,19 +21,20 @@
 namespace vesper::test::draw_shadow_maps_test {
 namespace {
 
-// `maps` with all placements, at rest but for nodes that `world` puts elsewhere.
+// `maps` with all placements or groups, at rest but for nodes that `world` puts elsewhere.
 std::vector<float> draw(PassRig& rig, const scene::Scene& scene, std::span<const render::ShadowMapToDraw> given,
                         uint32_t texels, const std::vector<glm::dmat4>& world) {
     const gpu_scene::GpuScene resident(rig.device(), scene);
     std::vector<render::ShadowMapToDraw> maps(given.begin(), given.end());
     std::vector<uint32_t> all(resident.placements().size());
     std::iota(all.begin(), all.end(), 0u);
-    for (render::ShadowMapToDraw& map : maps) map.placements = all;
+    for (render::ShadowMapToDraw& map : maps)
+        if (map.caster_error == 0) map.placements = all;
     return drawn_texels(rig, texels, [&](const render::FrameContext& frame, graph::Resource words) {
         const render::ShadowMapScratch scratch = render::add_shadow_map_scratch(frame, resident);
         const gpu_scene::SceneFrame poses{world, {}, {}, {}, {}};
-        render::add_shadow_maps(frame, resident, poses, render::standing_cells(resident, all, poses), maps, words,
-                                scratch);
+        const render::CasterGroups groups(resident, all, poses);
+        render::add_shadow_maps(frame, resident, poses, &groups, maps, words, scratch);
     });
 }
 std::vector<float> draw(PassRig& rig, const scene::Scene& scene, std::span<const render::ShadowMapToDraw> given,
@@ -138,6 +139,7 @@ TEST(ShadowMap, HoldsTheFirstSurfaceAlongEachRay) {
 }
 
 // Boxes of 2 m, 30 to 60 m away, some of them in one cell; the lamp's own, and one that has moved, are drawn by parts.
+// Of maps in which all groups of cells are, and of narrow ones.
 TEST(ShadowMap, CellsHideWhatTheirPartsHide) {
     PassRig rig;
     OccluderScene s;
@@ -147,19 +149,27 @@ TEST(ShadowMap, CellsHideWhatTheirPartsHide) {
     }
     s.lamp({}, {});
     std::vector<glm::dmat4> world = scene::world_transforms(s.scene(), 0);
-    const render::ShadowMapLayout layout{
-        .side = 256, .hemispheres = 1, .zoom = 1, .range = 200, .radius = 0, .first = 0};
+    const render::ShadowMapLayout layouts[]{
+        {.side = 256, .hemispheres = 2, .zoom = 1, .range = 200, .radius = 0, .first = 0},
+        {.side = 128, .hemispheres = 1, .zoom = 3, .range = 200, .radius = 0, .first = 131072},
+        {.side = 128, .hemispheres = 1, .zoom = 1.2f, .flat = true, .range = 200, .radius = 0, .first = 147456}};
     const uint32_t own[] = {7};
     for (const bool moved : {false, true}) {
         SCOPED_TRACE(moved);
         if (moved) world[12] = glm::translate(world[12], glm::dvec3(0, 5, 0));
         const RayCaster rays(s.scene(), world);
         for (const double error : {0.0, 0.5}) {
-            const render::ShadowMapToDraw map{
-                .layout = layout, .frame = render::map_frame(glm::dmat4(1)), .fixture = own, .caster_error = error};
-            const std::vector<float> drawn = draw(rig, s.scene(), {&map, 1}, layout.texels(), world);
-            expect_rays(rays, map, false, drawn.data(), std::max(2.5 * snapped(rig.device()), 0.01),
-                        snaps_coarsely(rig.device()));
+            std::vector<render::ShadowMapToDraw> maps;
+            for (const render::ShadowMapLayout& layout : layouts)
+                maps.push_back({.layout = layout,
+                                .frame = render::map_frame(glm::dmat4(1)),
+                                .fixture = own,
+                                .caster_error = error});
+            const std::vector<float> drawn = draw(rig, s.scene(), maps, 163840, world);
+            for (const render::ShadowMapToDraw& map : maps)
+                for (uint32_t h = 0; h < map.layout.hemispheres; ++h)
+                    expect_rays(rays, map, h == 1, &drawn[map.layout.first + h * map.layout.side * map.layout.side],
+                                std::max(2.5 * snapped(rig.device()), 0.01), snaps_coarsely(rig.device()));
         }
     }
     EXPECT_EQ(rig.complaints(), "");
@@ -278,7 +288,7 @@ TEST(ShadowMap, WhatIsDrawnOverAMapIsTheNearerAndGoesAway) {
                 render::add_shadow_map_scratch(frame, resident, no_changed_tiles(frame.graph, kTexels));
             const graph::Resource still = frame.graph.transient("still", graph::buffer_shape(kTexels * 2));
             frame.graph.clear("clear still", still);
-            render::add_shadow_maps(frame, resident, poses, {}, with(first), still, scratch);
+            render::add_shadow_maps(frame, resident, poses, nullptr, with(first), still, scratch);
             frame.graph.copy("copy still", still, words, {{0, 0, kTexels * 2}});
             render::add_over_shadow_maps(frame, resident, poses, with(over), words, scratch);
             if (goes_away) render::restore_shadow_maps(frame, still, words, scratch);

@@ -89,5 +89,31 @@ TEST(Casters, TellTheLargestIntensityTowardsASphere) {
     EXPECT_EQ(towards(0, 3, 11), 100) << "the lamp is in it";
 }
 
+// Spheres in larger ones, around lamps of both kinds.
+TEST(Casters, AreFoundByTheirGroup) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    const auto somewhere = [&](double size) { return size * glm::dvec3(unit(random), unit(random), unit(random)); };
+    size_t empty = 0, cast = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const gpu_scene::View view = gpu_scene::View::symmetric({64, 48}, float(1.2 + unit(random)),
+                                                                glm::lookAt(somewhere(30), somewhere(30), {0, 1, 0}));
+        gpu_scene::LampList list;
+        list.lamps = {{.intensity = 100, .axis = glm::normalize(glm::vec3(somewhere(1)))}};
+        list.lamps[0].lobe_a = i % 2 ? 4 : 2, list.lamps[0].lobe_b = i % 2 ? -3 : 0;
+        list.counts = {uint32_t(i % 2), uint32_t(1 - i % 2), 0, 0};
+        const render::ShadowMapLayout layout{.side = 16u << i % 3u, .zoom = 1, .range = 100, .radius = 0.01f};
+        const render::IsCaster is_caster({0, somewhere(30), layout, 0.1}, list, view, i % 5 != 0);
+        const gpu_scene::WorldSphere group{somewhere(40), 8 + 7 * unit(random)};
+        const double radius = group.radius * (0.5 + 0.4 * unit(random));
+        const glm::dvec3 aside = (group.radius - radius) * glm::normalize(somewhere(1));
+        const bool casts = is_caster({group.centre + aside, radius});
+        ASSERT_TRUE(is_caster(group) || !casts) << i;
+        empty += is_caster(group) ? 0 : 1, cast += casts ? 1 : 0;
+    }
+    EXPECT_GT(empty, 4000u) << "they leave something out";
+    EXPECT_GT(cast, 1000u);
+}
+
 }  // namespace
 }  // namespace vesper::test::casters_test

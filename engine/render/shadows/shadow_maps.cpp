@@ -239,6 +239,9 @@ void ShadowMaps::find_cached(const gpu_scene::SceneFrame& poses) {
         return !moves(lamp) && cached_.find(*cache_, shadow_map_key(*surroundings_, map_of(lamp, poses)), atlas_[lamp]);
     };
     std::vector<uint32_t> missing;
+    uint64_t texels = 0;
+    for (const uint32_t lamp : maps_to_draw_) texels += moves(lamp) ? 0 : atlas_[lamp].texels();
+    cached_.found.reserve(texels * sizeof(uint16_t));
     for (const uint32_t lamp : maps_to_draw_) {
         if (!is_cached(lamp)) {
             missing.push_back(lamp);

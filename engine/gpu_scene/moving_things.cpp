@@ -99,20 +99,21 @@ MovingThings moving_things(const transport::MovingBodies& bodies, std::span<cons
 
 std::vector<glm::uvec4> volume_texels(const transport::MovingBodies& bodies) {
     const auto word = [&](const transport::OcclusionVolume& volume, glm::uvec3 place) {
-        uint32_t word = 0;
-        if (place.x >= volume.count.x || place.y >= volume.count.y) return word;
+        if (place.x >= volume.count.x || place.y >= volume.count.y) return 0u;
         const size_t at = volume.first + (size_t{place.z} * volume.count.y + place.y) * volume.count.x + place.x;
+        uint32_t sides = 0;
         for (uint32_t side = 0; side < transport::kSides; ++side)
-            word |= uint32_t{bodies.hidden[at][side]} << side * shared::kHiddenBits;
-        return word;
+            sides |= uint32_t{bodies.hidden[at][side]} << side * shared::kHiddenBits;
+        return sides;
     };
     std::vector<glm::uvec4> texels(bodies.hidden.size());
     for (const transport::OcclusionVolume& volume : bodies.volumes) {
         glm::uvec4* texel = texels.data() + volume.first;
         for (uint32_t z = 0; z < volume.count.z; ++z)
             for (uint32_t y = 0; y < volume.count.y; ++y)
-                for (uint32_t x = 0; x < volume.count.x; ++x)
-                    for (uint32_t k = 0; k < 4; ++k) (*texel)[k] = word(volume, {x + (k & 1), y + (k >> 1), z}), texel += k == 3;
+                for (uint32_t x = 0; x < volume.count.x; ++x, ++texel)
+                    for (uint32_t k = 0; k < 4; ++k)
+                        (*texel)[glm::length_t(k)] = word(volume, {x + (k & 1), y + (k >> 1), z});
     }
     return texels;
 }

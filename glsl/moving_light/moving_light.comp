@@ -78,7 +78,7 @@ void main() {
                 const vec3 p = positions[r], n = normals[r];
                 const vec3 normal = normalize(vec3(dot(x.xyz, n), dot(y.xyz, n), dot(z.xyz, n)));
                 const vec3 place = vec3(dot(x.xyz, p) + x.w, dot(y.xyz, p) + y.w, dot(z.xyz, p) + z.w) + normal;
-                const bool within = all(greaterThanEqual(place, vec3(0.0))) && all(lessThan(place, vec3(volume.xyz - 1u)));
+                const bool within = n != vec3(0.0) && all(greaterThanEqual(place, vec3(0.0))) && all(lessThan(place, vec3(volume.xyz - 1u)));
                 const float hidden = hidden_at(volume.xyz, volume.w, within ? place : vec3(0.0), normal);
                 light[r].a *= within ? 1.0 - hidden * (1.0 / float(kMostHidden)) : 1.0;
             }

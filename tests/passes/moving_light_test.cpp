@@ -111,7 +111,8 @@ void expect_reference(const std::vector<glm::vec4>& got, const Surfaces& s, cons
         }
         EXPECT_NEAR(double(got[i].a), open, rounding + 1e-5 + kUlp16 * open) << "pixel " << i;
         for (int c = 0; c < 3 && surface.z > 0; ++c) {
-            EXPECT_NEAR(double(got[i][c]), rgb[c], most[c] - least[c] + (1e-5 + kUlp16) * rgb[c] + kLeastHalf) << "pixel " << i;
+            EXPECT_NEAR(double(got[i][c]), rgb[c], most[c] - least[c] + (1e-5 + kUlp16) * rgb[c] + kLeastHalf)
+                << "pixel " << i;
         }
         hidden += open<0.99, lit += rgb.g> 1, edges += rounding > 1e-3;
     }

@@ -32,8 +32,8 @@ graph::Resource add_moving_light(const FrameContext& frame, const GBuffer& surfa
                                        .bodies = uint32_t(things.bodies.size())};
     frame.graph.dispatch("moving light", frame.kernels.get(kMovingLight, {groups.width, groups.height, groups.rows}),
                          {load(surfaces.surface), store(light),
-                          sample(frame.graph.upload("patches", patches, VK_FORMAT_R32G32B32A32_SFLOAT)),
-                          sample(hiding), sample(moving.volumes ? moving.volumes : hiding)},
+                          sample(frame.graph.upload("patches", patches, VK_FORMAT_R32G32B32A32_SFLOAT)), sample(hiding),
+                          sample(moving.volumes ? moving.volumes : hiding)},
                          push, cover(view.extent, groups));
     return light;
 }

@@ -87,10 +87,8 @@ apps::RecordedSettings read_light(const JsonValue& value) {
     for (const render::LightSetting& row : render::light_rows()) {
         double number = row.value(render::quality_named(light.quality));
         if (const std::optional<JsonValue> given = value.find(std::string(row.name).c_str())) {
-            const bool unlimited = std::isinf(row.high) && given->json().is_string();
-            number = unlimited                                 ? row.high
-                     : row.kind == render::SettingKind::Switch ? double(given->boolean())
-                                                               : given->number(row.low, std::min(row.high, kMost));
+            number =
+                row.kind == render::SettingKind::Switch ? double(given->boolean()) : given->number(row.low, row.high);
         }
         light.values.push_back(row.rounded(number));
     }

@@ -103,8 +103,6 @@ void check_arguments(RenderArguments& arguments) {
             throw Error("-o " + output + ": the ldr operator has no luminances to write; use .png");
     }
     if (apps::Ranks::several()) {
-        if (settings.shadow_budget != render::kUnlimited)
-            throw Error("--shadow-budget: a frame then depends on the one before; not with several ranks");
         if (settings.display_average) throw Error("--display-average is not made by several ranks");
         if (!arguments.obstacles.empty()) throw Error("--obstacle: obstacles are not measured by several ranks");
     }

@@ -69,9 +69,9 @@ void print_statistics(const RenderArguments& arguments, const gpu::Device& devic
     if (arguments.settings.shadows)
         print(
             "shadow maps: %u, %.0f MiB; for this frame %u were drawn anew, %u taken from the cache, and bodies "
-            "that move drawn %u times over others; %u are out of date\n",
+            "that move drawn %u times over others\n",
             frame.maps.lamps, double(frame.maps.bytes) / (1 << 20), frame.maps.maps, frame.maps.cached,
-            frame.maps.bodies, frame.maps.deferred);
+            frame.maps.bodies);
     if (frame.directional_levels > 0)
         print("maps of directional lights: %u levels were drawn for this frame\n", frame.directional_levels);
     print("adaptation luminance %.4g cd/m^2, foveal level %u, %u of %u pixels not finite\n",

@@ -81,7 +81,7 @@ double StudyPicture::luminance(size_t i) const {
 // No frame follows another, luminance is not shown, and --scale is the unit of a picture.
 void add_light_options(apps::Command command, apps::SettingArguments& light, std::string& cache) {
     apps::add_quality_option(command, light);
-    apps::add_setting_options(command, light, {"shadow_budget", "display_average", "scale"});
+    apps::add_setting_options(command, light, {"display_average", "scale"});
     apps::add_cache_option(command, cache);
 }
 

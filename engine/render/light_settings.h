@@ -16,7 +16,6 @@ namespace vesper::render {
 // clang-format off
 #define VESPER_LIGHT_SETTINGS(X) \
     X(bool, shadows, "", 0, 1, true, true, true, true, "Lamps light only surfaces that they see; off: they shine through everything") \
-    X(uint64_t, shadow_budget, "tiles", 0, kUnlimited, kUnlimited, kUnlimited, kUnlimited, kUnlimited, "Shadow maps, in tiles of 64 x 64 texels, that are drawn for a frame where lamps move; others are out of date in it") \
     X(double, shadow_resolution, "", 0.25, 4, 0.5, 1, 1, 1, "Side of shadow maps of lamps, as a factor; where maps would be larger than --shadow-memory they stay smaller") \
     X(uint32_t, shadow_memory, "MiB", 64, 1024, 192, 192, 192, 192, "Device memory of shadow maps of lamps and of what draws them, at most: sides are chosen to fit") \
     X(double, caster_error, "texels", 0, 1, 1, 1, 0.25, 0, "Error of what stands still in shadow maps of lamps that move, beyond 4 m; 0: nothing is simplified") \

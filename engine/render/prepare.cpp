@@ -16,9 +16,8 @@ void prepare_shadows(Prepared& frame, ResidentScene& scene, const gpu::Device& d
         scene.maps = std::make_unique<ShadowMaps>(device, data.resident, data.lamps, data.maps, map_sizes(settings));
         scene.maps->use(map_cache);
     }
-    const uint64_t budget = settings.samples > 1 ? kUnlimited : settings.shadow_budget;
     const float unshadowed = settings.samples > 1 ? 0 : settings.unshadowed_share;
-    scene.maps->plan(frame.lamps, poses, view, budget, settings.caster_error, unshadowed);
+    scene.maps->plan(frame.lamps, poses, view, settings.caster_error, unshadowed);
     frame.shadows = true, frame.maps = scene.maps->report();
     if (frame.lamps.counts.directional == 0) return;
     if (!scene.directional)

@@ -53,8 +53,7 @@ double Setting::rounded(double value) const { return kind == SettingKind::Float 
 
 bool Setting::accepts(double value) const {
     const bool whole = kind != SettingKind::Float && kind != SettingKind::Double;
-    return rounded(value) >= rounded(low) && rounded(value) <= rounded(high) &&
-           (!whole || std::isinf(value) || value == std::floor(value));
+    return rounded(value) >= rounded(low) && rounded(value) <= rounded(high) && (!whole || value == std::floor(value));
 }
 
 std::string Setting::range() const {
@@ -66,7 +65,7 @@ std::string Setting::range() const {
     }
     const std::string of = unit.empty() ? "" : " " + std::string(unit);
     const std::string numbers = kind == SettingKind::Count ? "a whole number" : "a number";
-    return numbers + " from " + shortest(low) + (std::isinf(high) ? of + " on, or all" : " to " + shortest(high) + of);
+    return numbers + " from " + shortest(low) + " to " + shortest(high) + of;
 }
 
 std::string Setting::text(double value) const {
@@ -74,7 +73,7 @@ std::string Setting::text(double value) const {
         case SettingKind::Switch:
             return value != 0 ? "on" : "off";
         case SettingKind::Count:
-            return std::isinf(value) ? "all" : shortest(uint64_t(value));
+            return shortest(uint64_t(value));
         case SettingKind::Choice:
             return std::string(choices[size_t(value)]);
         case SettingKind::Float:
@@ -91,8 +90,6 @@ double Setting::parse(std::string_view given) const {
     } else if (kind == SettingKind::Choice) {
         const auto found = std::ranges::find(choices, given);
         if (found != choices.end()) return double(found - choices.begin());
-    } else if (std::isinf(high) && given == "all") {
-        return high;
     } else {
         const std::optional<double> value =
             kind == SettingKind::Count ? std::optional<double>(number<uint64_t>(given)) : number<double>(given);
@@ -103,7 +100,7 @@ double Setting::parse(std::string_view given) const {
 
 double Setting::checked(double value) const {
     if (!accepts(value)) refuse(*this, shortest(value));
-    return kind == SettingKind::Count && value >= 0x1p63 ? high : rounded(value) + 0.0;  // no -0
+    return rounded(value) + 0.0;  // no -0
 }
 
 std::string member_name(std::string_view name) {

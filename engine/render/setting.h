@@ -3,7 +3,6 @@
 
 #include <array>
 #include <functional>
-#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,8 +22,8 @@ enum class SettingKind : uint8_t { Switch, Count, Float, Double, Choice };
 struct Setting {
     std::string_view name;  ///< "shadow_error"
     std::string_view unit, help;
-    std::string_view group;                       ///< of options, as --help-all heads them; empty: the first page
-    double low = 0, high = 1;                     ///< infinity: unlimited
+    std::string_view group;  ///< of options, as --help-all heads them; empty: the first page
+    double low = 0, high = 1;
     std::span<const std::string_view> choices{};  ///< of a Choice, whose value is the index of one
     SettingKind kind = SettingKind::Switch;
     std::array<double, kQualityNames.size()> values{};  ///< by Quality; switches are 0 and 1
@@ -34,7 +33,7 @@ struct Setting {
     bool differs() const;            ///< among the sets
     bool accepts(double) const;      ///< in range, and whole unless it is a real number
     std::string range() const;       ///< "on or off", "a number from 0.001 to 1000 lx"
-    std::string text(double) const;  ///< "on", "all", "0.005": the shortest text that reads back to the same value
+    std::string text(double) const;  ///< "on", "4", "0.005": the shortest text that reads back to the same value
     double rounded(double) const;    ///< to a float, if the setting is one
     /// The value of a text. Throws Error that names setting, value, range and unit.
     double parse(std::string_view) const;
@@ -49,17 +48,6 @@ struct SettingOf : Setting {
     std::function<void(Of&, double)> set;  ///< without a check
 };
 
-/// Value of a setting of type uint64_t that has no limit; "all" in text.
-constexpr uint64_t kUnlimited = ~uint64_t{0};
-
-/// The value of a member as rows have it.
-template <class T>
-constexpr double number_of(T value) {
-    if constexpr (std::is_same_v<T, uint64_t>)
-        if (value == kUnlimited) return std::numeric_limits<double>::infinity();
-    return double(value);
-}
-
 /// A row of the member that `member` refers to, in `Of` and in `const Of`; its kind is of the member's type, its values
 /// are those of a default `Of`.
 template <class Of, class Member>
@@ -69,13 +57,11 @@ SettingOf<Of> setting_of(Setting row, Member member) {
                : std::is_same_v<T, float>  ? SettingKind::Float
                : std::is_same_v<T, double> ? SettingKind::Double
                                            : SettingKind::Count;
-    const auto get = [member](const Of& from) { return number_of(member(from)); };
+    const auto get = [member](const Of& from) { return double(member(from)); };
     row.values.fill(get(Of{}));
     return {row, get, [member](Of& to, double number) {
                 if constexpr (std::is_same_v<T, bool>)
                     member(to) = number != 0;
-                else if constexpr (std::is_same_v<T, uint64_t>)
-                    member(to) = number < 0x1p63 ? T(number) : kUnlimited;
                 else
                     member(to) = T(number);
             }};

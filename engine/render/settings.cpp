@@ -25,10 +25,10 @@ LightSetting row_of_light(const Setting& row, const decltype(Setting::values)& v
 std::span<const LightSetting> light_rows() {
     static const auto kRows = [] {
         std::vector<LightSetting> rows;
-#define VESPER_ROW(type, name, unit, low, high, fast, interactive, standard, exact, help)                         \
-    rows.push_back(row_of_light(                                                                                  \
-        {#name, unit, help, "Light", number_of(low), number_of(high)},                                            \
-        {number_of(type(fast)), number_of(type(interactive)), number_of(type(standard)), number_of(type(exact))}, \
+#define VESPER_ROW(type, name, unit, low, high, fast, interactive, standard, exact, help)             \
+    rows.push_back(row_of_light(                                                                      \
+        {#name, unit, help, "Light", double(low), double(high)},                                      \
+        {double(type(fast)), double(type(interactive)), double(type(standard)), double(type(exact))}, \
         [](auto& settings) -> auto& { return settings.name; }));
         VESPER_LIGHT_SETTINGS(VESPER_ROW)
 #undef VESPER_ROW

@@ -89,7 +89,7 @@ TEST(Drive, AReplayHasTheSameBytes) {
     gpu::Device device({.select = ""});
     std::vector<Frame> driven;
     {
-        Session session(device, {.scene = kWorld, .seed = 3, .settings = {{"age", "60"}, {"shadow-budget", "32"}}});
+        Session session(device, {.scene = kWorld, .seed = 3, .settings = {{"age", "60"}}});
         const std::vector<DriveEvent> events = adventure();
         // Recording begins in the middle, and the file has the drive from its start.
         driven = play(session, std::vector(events.begin(), events.begin() + 40));
@@ -256,7 +256,6 @@ std::string plates() {
     return file.text();
 }
 
-// The switch is recorded; what a window leaves out of date is not, unless it is asked for.
 TEST(Drive, ShadowsAreSwitchedAndRecorded) {
     const TempFolder scratch;
     const auto scene = scratch.write("plates.gltf", plates());
@@ -271,18 +270,10 @@ TEST(Drive, ShadowsAreSwitchedAndRecorded) {
     const Frame with = frame(session);
     EXPECT_EQ(with.maps.maps, 1u);
     EXPECT_NE(with.scene, without.scene);
-    const auto drive_on = [&] {
-        for (int i = 0; i < 6; ++i) session.step({.throttle = 1});
-        return frame(session);
-    };
-    session.set_shadow_budget(0);
-    const Frame late = drive_on();
-    EXPECT_EQ(late.maps.maps, 0u);
-    EXPECT_GT(late.maps.bodies, 0u) << "a budget is of maps of lamps that move";
-    session.set("shadow-budget", "100000");
-    const Frame whole = drive_on();
-    EXPECT_EQ(whole.maps.deferred, 0u) << "the setting wins";
-    EXPECT_GT(whole.maps.bodies, 0u);
+    for (int i = 0; i < 6; ++i) session.step({.throttle = 1});
+    const Frame moved = frame(session);
+    EXPECT_EQ(moved.maps.maps, 0u);
+    EXPECT_GT(moved.maps.bodies, 0u);
     session.set("shadows", "off");
     EXPECT_EQ(frame(session).maps.lamps, 0u);
     session.stop_recording();
@@ -290,13 +281,11 @@ TEST(Drive, ShadowsAreSwitchedAndRecorded) {
     const drive::Drive drive = drive::read_drive(scratch / "drive.json");
     Session again(device, {.scene = drive.start.scene, .settings = drive.start.settings});
     const std::vector<Frame> replayed = play(again, drive.events);
-    ASSERT_EQ(replayed.size(), 5u);
+    ASSERT_EQ(replayed.size(), 4u);
     EXPECT_EQ(replayed[0].scene, without.scene);
     EXPECT_EQ(replayed[1].scene, with.scene);
-    EXPECT_EQ(replayed[2].maps.deferred, 0u) << "a replay draws all";
-    EXPECT_EQ(replayed[3].scene, whole.scene);
+    EXPECT_EQ(replayed[2].scene, moved.scene);
     EXPECT_TRUE(contains(complaint_of([&] { session.set("shadows", "soft"); }), "--shadows"));
-    EXPECT_TRUE(contains(complaint_of([&] { session.set("shadow-budget", "-1"); }), "--shadow-budget"));
 }
 
 TEST(Drive, LampsThatAreNotThereAreRefused) {

@@ -43,7 +43,7 @@ no_paths ../moved
 echo "== the programs find their data"
 $bin/vesper convert $data/photometry/yard.gltf --photometry $data/photometry/yard.photometry.json -o yard.gltf >/dev/null
 $bin/vesper render yard.gltf --size 64x40 -o yard.png -o yard.exr
-$bin/vesper-drive --headless --indirect off --autopilot --size 96x60 --shadow-budget 32 --seconds 0.1 --fps 30 --record drive.json --log drive.csv --video a%d.exr
+$bin/vesper-drive --headless --indirect off --autopilot --size 96x60 --seconds 0.1 --fps 30 --record drive.json --log drive.csv --video a%d.exr
 head=$(head -c 200 drive.json)
 [[ $head == *'"scene":"vesper:rivoli/rivoli.world.json"'* ]] || { echo "the recording names its scene otherwise: $head"; exit 1; }
 $bin/vesper-bench --scene rivoli --size 64x40 --frames 2 --laps 1 --warm-up 0 --no-start --json bench.json >/dev/null

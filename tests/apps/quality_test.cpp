@@ -27,7 +27,6 @@ TEST(Quality, ExactLeavesNothingOut) {
     EXPECT_EQ(exact.merge_error, 0);
     EXPECT_EQ(exact.shadow_error, 0);
     EXPECT_EQ(exact.reflection_error, 0);
-    EXPECT_EQ(exact.shadow_budget, render::kUnlimited);
 }
 
 TEST(Quality, SetsAreInTheOrderOfTheirBounds) {
@@ -207,7 +206,6 @@ TEST_F(QualityProgram, BoundsAreRecordedBesideTheName) {
     EXPECT_EQ(members["shadow_error"], 0.5);
     EXPECT_EQ(members["reflection_error"], render::light_row("reflection-error").value(Quality::Standard));
     EXPECT_EQ(members["shadows"], true);
-    EXPECT_EQ(members["shadow_budget"], "all");
     EXPECT_EQ(value(picture("--quality exact"), "vesper:mergeError"), "0");
     EXPECT_EQ(value(picture(""), "vesper:threshold"), standard_of("threshold"));
 }

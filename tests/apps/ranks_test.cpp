@@ -199,7 +199,6 @@ TEST_F(RanksProgram, RefusesWhatDoesNotGoTogether) {
     const std::string headless = drive() + "yard.gltf --headless --seconds 0.1 --indirect off --video x%d.png ";
     expect(5, headless + "--channels rig.json", "no rank may be without a channel");
     expect(2, headless + "--channels none.json", "none.json");
-    expect(2, headless + "--shadow-budget 9", "--shadow-budget");
     expect(2, std::string(VESPER_PROGRAM) + " inspect yard.gltf", "inspect does not run on several ranks");
     expect(2, std::string(VESPER_PROGRAM) + " render none.gltf -o x.png", "none.gltf");
     const auto rig = [&](int left, int front, int right) {

@@ -61,7 +61,6 @@ public:
     Picture operator()(const gpu_scene::View& view, const gpu_scene::SceneFrame& moment) {
         render::RenderSettings settings;
         settings.tone_operator = Operator::Linear;
-        settings.shadow_budget = 64;  // as in a window: frames take less time
         render::Frame frame = renderer_.render(settings, view, moment, 0, {.scene = true});
         Picture picture{view.extent, std::move(frame.scene), std::move(frame.outside),
                         std::atan(view.tangent_high.y) - std::atan(view.tangent_low.y)};

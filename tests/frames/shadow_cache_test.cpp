@@ -97,7 +97,7 @@ TEST(MapCache, ComesBackToTheLastBit) {
         EXPECT_EQ(lit.maps.report().cached, found);
         EXPECT_EQ(lit.maps.report().maps, kStanding + 1 - found);
         EXPECT_EQ(p.note, "");
-        lit.maps.plan(p.list, lit.poses, view(), lit.budget, 0);
+        lit.maps.plan(p.list, lit.poses, view(), 0);
         EXPECT_EQ(lit.maps.report().maps + lit.maps.report().cached, 0u) << "all are drawn";
         return p;
     };

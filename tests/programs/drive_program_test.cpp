@@ -96,7 +96,6 @@ TEST_F(DriveProgram, RefusesIdleOptions) {
     expect_refused("--headless --record r.json --fps 30", {"--fps", "--video"});
     expect_refused("--headless --record r.json --probe 0.5,0.5", {"--probe", "--log"});
     expect_refused(drive + "--free 1,2,3,0,0", {"--free", "--camera free"});
-    expect_refused(drive + "--shadows off --indirect off --shadow-budget 9", {"--shadow-budget: ", "--shadows is off"});
     for (const char* probe : {",", "0.5", "0.5,", ",0.5", "0.5,0.5,0.5", "0.5,0.5x", "nan,0", "1.1,0", "0.5;0.5"})
         expect_refused(drive + "--probe '" + probe + "'", {"--probe", "X,Y"});
     EXPECT_FALSE(exists("l.csv") || exists("r.json") || exists("l.csv.part"));

@@ -122,11 +122,8 @@ TEST_F(MapCacheOfRender, SaysOnceThatNothingIsKept) {
     EXPECT_TRUE(fs::is_empty(folder / "maps"));
 }
 
-TEST_F(MapCacheOfRender, RefusesWhatIsNoFolderAndNoBudget) {
+TEST_F(MapCacheOfRender, RefusesWhatIsNoFolder) {
     expect_refused("render " + kScene + "-o a.png --cache ''", {"--cache", "a folder or off"});
-    expect_refused("render " + kScene + "-o a.png --shadow-budget -1",
-                   {"--shadow-budget", "-1: a whole number from 0 tiles on, or all is expected"});
-    expect_refused("render " + kScene + "-o a.png --shadow-budget many", {"--shadow-budget"});
 }
 
 TEST_F(MapCacheOfDrive, ChangesNoByteAndIsNotRecorded) {
@@ -146,8 +143,6 @@ TEST_F(MapCacheOfDrive, ChangesNoByteAndIsNotRecorded) {
     ASSERT_EQ(run(drive + "--video a%d.png --cache file"), 0) << said;
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
     EXPECT_NE(said.find("note: shadow maps and light are not kept"), said.npos) << said;
-    expect_refused(drive + "--video a%d.png --shadow-budget -1",
-                   {"--shadow-budget", "-1: a whole number from 0 tiles on, or all is expected"});
 }
 
 TEST_F(MapCacheOfBench, IsOffUnlessNamed) {
@@ -158,8 +153,9 @@ TEST_F(MapCacheOfBench, IsOffUnlessNamed) {
     EXPECT_FALSE(exists("vesper"));
     ASSERT_EQ(run(bench + "--cache maps", xdg), 0) << said;
     EXPECT_EQ(files_in(folder / "maps"), 8u + 2u) << "eight maps; cells of casters, and their lists";
-    expect_refused(bench + "--shadow-budget -1",
-                   {"--shadow-budget", "-1: a whole number from 0 tiles on, or all is expected"});
+    for (const char* memory : {"63", "1025", "64.5", "all"})
+        expect_refused(bench + "--shadow-memory " + memory,
+                       {"--shadow-memory", std::string(memory) + ": a whole number from 64 to 1024 MiB is expected"});
 }
 
 }  // namespace

@@ -150,7 +150,7 @@ TEST_F(StudyHeadlamps, RefusesInOneLine) {
     expect_refused(start + "--beam low.csv --age 30", {"--age"});
     expect_refused(start + "--beam low.csv --place-obstacle 1,2", {"--place-obstacle"});
     expect_refused(start + "--beam low.csv --operator ldr", {"ldr"});
-    expect_refused(start + "--beam low.csv --shadow-budget 4", {"--shadow-budget"});
+    expect_refused(start + "--beam low.csv --scale 0.5", {"--scale"});
     expect_refused("study headlamps road.gltf --obstacle car --beam low.csv -o out", {"--obstacle car"});
     EXPECT_FALSE(exists("out"));
 }

@@ -124,7 +124,6 @@ private:
         const Eye& eye = kEyes[round % kSlowRounds == 0 ? which : which % kQuickEyes];
         render::RenderSettings settings;
         settings.tone_operator = render::operators()[i % kOperators].tone_operator;
-        settings.shadow_budget = 64;
         settings.glare = eye.glare, settings.scatter.model = eye.model,
         settings.scatter.eye.age = double(20 + round % 60);
         settings.histogram.bins = uint32_t(20 + i % 200);

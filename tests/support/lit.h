@@ -26,7 +26,6 @@ struct Lit {
     gpu_scene::IntensityTables tables;
     render::ShadowMaps maps;
     render::Clipmaps directional;
-    uint64_t budget = render::kUnlimited;
 
     Lit(PassRig& r, const scene::Scene& s)
         : rig(r),
@@ -55,7 +54,7 @@ struct Lit {
     /// The light of lamps alone.
     Picture render(const gpu_scene::View& view, bool all_lamps = false) {
         Picture p{.list = gpu_scene::lamp_list(lamps, tables, poses, view)};
-        maps.plan(p.list, poses, view, budget, 0);
+        maps.plan(p.list, poses, view, 0);
         p.levels = directional.plan(p.list, poses, view);
         graph::FrameGraph graph;
         const render::FrameContext frame = rig.frame(graph, view);

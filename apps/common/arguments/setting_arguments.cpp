@@ -69,10 +69,9 @@ std::string field_of(const Setting& row) {
 }
 
 std::string json_member(const Setting& row, double value) {
-    const bool is_word = row.kind == SettingKind::Choice || std::isinf(value);
-    const std::string text = row.kind == SettingKind::Switch ? (value != 0 ? "true" : "false")
-                             : is_word                       ? "\"" + row.text(value) + "\""
-                                                             : row.text(value);
+    const std::string text = row.kind == SettingKind::Switch   ? (value != 0 ? "true" : "false")
+                             : row.kind == SettingKind::Choice ? "\"" + row.text(value) + "\""
+                                                               : row.text(value);
     return "\"" + std::string(row.name) + "\": " + text;
 }
 

@@ -11,8 +11,7 @@ namespace vesper::apps {
 
 /// Each rank renders every size-th frame, from that of its number on, and hands the state of the eye to the rank of the
 /// next one: the frames are those of one process, to the bit. What is made of them comes to the first rank, in order.
-/// Not for frames that depend on others but by the eye (RenderSettings::shadow_budget), nor for means of what the
-/// display shows. A single rank renders as the renderer does.
+/// Not for means of what the display shows. A single rank renders as the renderer does.
 class FrameRelay {
 public:
     FrameRelay(gpu::Device& device, Ranks& ranks, unsigned frames) : ranks_(ranks), eye_(device), frames_(frames) {}

@@ -21,8 +21,7 @@ using apps::format;
 
 constexpr double kPercents[]{1, 5, 25, 50, 75, 95, 99, 99.9};  // as luminance_statistics has them
 
-constexpr const char* kAfterProbes =
-    ",lamps,openings,lost_lights,outdated_shadows,scrubbed_pixels,width,height,device_ms,frame_ms";
+constexpr const char* kAfterProbes = ",lamps,openings,lost_lights,scrubbed_pixels,width,height,device_ms,frame_ms";
 
 double luminance_at(const render::Frame& frame, glm::dvec2 place) {
     const auto part = [](double p, uint32_t size) { return size_t(std::clamp(p * size, 0.0, double(size - 1))); };
@@ -107,9 +106,8 @@ std::string DriveRows::next(const Session& session, const gpu_scene::View& view,
     double device = 0;
     for (const graph::Timing& timing : frame.timings) device += timing.milliseconds;
     // Every lamp counts: froxels whose lists overflow look at all of them.
-    return line + format(",%u,%u,0,%u,%u,%u,%u,%.3f,%.3f", frame.lamps, frame.luminaires, frame.maps.deferred,
-                         frame.histogram.non_finite, frame.extent.width, frame.extent.height, device,
-                         frame.milliseconds);
+    return line + format(",%u,%u,0,%u,%u,%u,%.3f,%.3f", frame.lamps, frame.luminaires, frame.histogram.non_finite,
+                         frame.extent.width, frame.extent.height, device, frame.milliseconds);
 }
 
 std::string row_of(DriveRows& rows, const Session& session, const Channels& channels, ChannelMosaic& wall) {

@@ -39,7 +39,7 @@ glm::dvec4 origin_of(const std::string& text) {
 // Options that say nothing where the others are as they are, and why.
 void refuse_idle(const apps::Command& program, const DriveArguments& a) {
     const bool logs = !a.log.empty(), films = !a.video.empty(), replays = !a.replay.empty();
-    const auto camera = a.settings.find("camera"), shadows = a.settings.find("shadows");
+    const auto camera = a.settings.find("camera");
     struct Rule {
         bool here;
         std::vector<const char*> options;
@@ -71,9 +71,6 @@ void refuse_idle(const apps::Command& program, const DriveArguments& a) {
         {a.headless && !replays && (camera == a.settings.end() || camera->second != "free"),
          {"--free"},
          "only that camera stands there: give --camera free"},
-        {a.headless && !replays && shadows != a.settings.end() && shadows->second != "on",
-         {"--shadow-budget"},
-         "of which shadows? --shadows is off"},
     };
     for (const Rule& rule : rules)
         for (const char* option : rule.options)

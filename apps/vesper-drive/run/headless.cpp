@@ -273,11 +273,8 @@ void run_headless(const DriveArguments& a) {
     std::optional<ChannelRanks> ranks;
     if (channels && apps::Ranks::several()) ranks.emplace(apps::Ranks::all(), *channels);
     const bool first = apps::Ranks::own_number() == 0;
-    if (apps::Ranks::several() && !channels) {
-        if (a.messages.live) throw Error("--osi-udp: what is sent is shown by several ranks with --channels only");
-        if (a.settings.contains("shadow-budget"))
-            throw Error("--shadow-budget: a frame then depends on the one before; not with several ranks");
-    }
+    if (apps::Ranks::several() && !channels && a.messages.live)
+        throw Error("--osi-udp: what is sent is shown by several ranks with --channels only");
     Drive drive;
     const bool replays = !a.replay.empty();
     if (replays) drive = read_drive(a.replay);

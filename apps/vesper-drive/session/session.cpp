@@ -128,8 +128,6 @@ render::Frame Session::render(VkExtent2D extent, render::Outputs outputs) { retu
 
 render::RenderSettings Session::frame_settings() const {
     render::RenderSettings settings = settings_.render();
-    const bool exact = settings_.quality() == "exact";
-    if (!exact && !settings_.values().contains("shadow-budget")) settings.shadow_budget = shadow_budget_;
     settings.obstacles = obstacles_, settings.obstacle_pixels = obstacle_pixels_;
     return settings;
 }

@@ -73,7 +73,7 @@ public:
 
     // Settings.
     const DriveSettings& settings() const { return settings_; }
-    /// Those of frames: in a window fewer tiles of shadow maps are drawn, and obstacles are measured.
+    /// Those of frames, with the obstacles that are measured.
     render::RenderSettings frame_settings() const;
     /// Throws Error, also for lamps that the scene has not got; then nothing has changed.
     void set(const std::string& name, const std::string& value);
@@ -88,9 +88,6 @@ public:
     void gather_light(Cache* cache);
     /// Called after a frame for each view of it.
     std::function<void(const render::ShadowReport&)> on_maps;
-    /// Tiles of shadow maps drawn for a frame where neither the setting "shadow-budget" nor the quality "exact" is
-    /// set; at first all. It is not recorded: a replay draws all unless it is told otherwise.
-    void set_shadow_budget(uint64_t tiles) { shadow_budget_ = tiles; }
     /// Obstacles of the scene that are measured in frames of one view (Frame::obstacles); at first none. They are not
     /// recorded.
     void watch(std::vector<scene::Obstacle> obstacles) { obstacles_ = std::move(obstacles); }
@@ -176,7 +173,6 @@ private:
     std::optional<uint64_t> rendered_;  // steps at the last frame
     shared::EyeState eye_{};
     double eye_step_ = 0;
-    uint64_t shadow_budget_ = render::kUnlimited;
     std::vector<scene::Obstacle> obstacles_;
     bool obstacle_pixels_ = false;
     std::shared_ptr<Cache> map_cache_;

@@ -47,8 +47,6 @@ void add(apps::Command command, SettingsArguments& a) {
         .check(apps::between(-90.0, 90.0));
     apps::add_quality_option(command, a.light);
     apps::add_setting_options(command, a.light, {"display_average", "scale"});  // scale: fixed when a drive begins
-    command.option("--shadow-budget")
-        .shows_default(std::to_string(kWindowShadowBudget) + " in a window, all without one and in replays");
 }
 
 // Names of all settings but lamps, without dashes.

@@ -14,9 +14,6 @@ namespace vesper::drive {
 
 enum class CameraKind : uint8_t { Driver, Chase, Bird, Free };
 
-/// Tiles of shadow maps drawn for a frame in a window, where "shadow-budget" is not set.
-constexpr uint64_t kWindowShadowBudget = 1024;
-
 /// A free camera: where it stands (scene, m) and looks (rad; yaw as of vehicles, pitch up).
 struct FreeCamera {
     glm::dvec3 position{0, 2, 0};

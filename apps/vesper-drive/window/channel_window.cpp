@@ -60,7 +60,6 @@ void show_channels(const DriveArguments& a) {
     const std::shared_ptr<Cache> cache = apps::cache_of(a.cache);
     session.keep_maps(cache);
     apps::Ranks::all().in_turns([&] { session.gather_light(cache.get()); });
-    if (a.replay.empty()) session.set_shadow_budget(kWindowShadowBudget);
     DriveRows rows(probes_of(a.probes));
     const ScreenSettings shown{.vsync = vsync_of(a.vsync), .scaling = window::Scaling::Fit};
     const auto show = [&](const ChannelMosaic& wall) {

@@ -209,8 +209,8 @@ void Instruments::draw_performance(const FrameState& now) {
                     now.frame.clusters.overflowed);
         const render::ShadowReport& maps = now.frame.maps;
         if (now.session.settings().render().shadows)
-            ImGui::TextWrapped("shadows: %u shadow maps drawn, bodies %u times, %u deferred; %.0f MiB", maps.maps,
-                               maps.bodies, maps.deferred, double(maps.bytes) / (1 << 20));
+            ImGui::TextWrapped("shadows: %u shadow maps drawn, bodies %u times; %.0f MiB", maps.maps, maps.bodies,
+                               double(maps.bytes) / (1 << 20));
         ImGui::Separator();
         for (const graph::Timing& timing : now.frame.timings) {
             ImGui::ProgressBar(total > 0 ? float(timing.milliseconds / total) : 0, {60, 0}, "");

@@ -128,7 +128,6 @@ void WindowedDrive::open_session(const Drive& drive) {
         drive, arguments_.settings, [&](const DriveSettings& settings) { check_display(scenery.check(settings)); },
         [](const DriveSettings&) {});
     session_ = std::make_unique<Session>(*device_, start, std::move(scenery));
-    if (arguments_.replay.empty()) session_->set_shadow_budget(kWindowShadowBudget);
     obstacles_ = apps::obstacles_of(session_->scenery().scene(), arguments_.obstacles, session_->settings().render());
     session_->watch(obstacles_), session_->find_obstacle_pixels(arguments_.hatches);
     if (channels_) session_->share_channels(ranks_.get(), arguments_.latency);
@@ -161,7 +160,6 @@ void WindowedDrive::reload(const std::string& scene) {
         if (!recording_.empty()) session_->stop_recording();
         light_.reset(), session_ = std::move(made), feed_.reset();
         if (same && arguments_.messages.live) open_feed();
-        session_->set_shadow_budget(kWindowShadowBudget);
         if (channels_) session_->share_channels(nullptr, arguments_.latency);
         watch_contacts();
         keep_maps();

@@ -397,7 +397,7 @@ typedef struct VesperSetting {
     const char* unit;   /**< "lx", or empty */
     const char* help;   /**< one line */
     double low;         /**< least value */
-    double high;        /**< greatest value; infinity: no limit */
+    double high;        /**< greatest value */
     double fast;        /**< value in the set "fast" */
     double standard;    /**< value in the set "standard", and of a new renderer */
     double exact;       /**< value in the set "exact" */

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <functional>
-#include <numeric>
 #include <optional>
 
 namespace vesper::render {
@@ -33,8 +31,7 @@ ShadowAtlas::ShadowAtlas(std::vector<ShadowMapLayout> layouts, double scale, uin
       texels_(std::clamp<uint64_t>(largest_texels(layouts_), kPiece, most_texels / kPiece * kPiece)),
       places_(uint32_t(texels_ / kPiece)) {}
 
-std::optional<ShadowAtlas::Change> ShadowAtlas::fit(const gpu_scene::LampList& list, uint64_t most_texels,
-                                                    const std::vector<bool>& moving) {
+std::optional<ShadowAtlas::Change> ShadowAtlas::fit(const gpu_scene::LampList& list, const std::vector<bool>& moving) {
     std::vector<ShadowMapLayout> wanted;
     std::vector<double> distances;
     for (uint32_t i = 0; i < list.placed(); ++i) {
@@ -44,22 +41,11 @@ std::optional<ShadowAtlas::Change> ShadowAtlas::fit(const gpu_scene::LampList& l
     }
     if (least_texels(wanted) > texels_) return std::nullopt;
     choose_sides(wanted, distances, scale_, texels_);
-    const auto ratio = [&](uint32_t i) {  // a power of two
-        const uint32_t a = wanted[i].side, b = layouts_[list.indices[i]].side;
-        return b == 0 ? ~0u : std::max(a, b) / std::max(std::min(a, b), 1u);
-    };
-    std::vector<uint32_t> order(list.placed());
-    std::iota(order.begin(), order.end(), 0u);
-    const bool all = most_texels >= texels_;
-    if (!all) std::ranges::stable_sort(order, std::greater(), ratio);
     std::vector<uint32_t> changed;
-    for (const uint32_t i : order) {
+    for (uint32_t i = 0; i < list.placed(); ++i) {
         ShadowMapLayout& layout = layouts_[list.indices[i]];
         if (layout.side == wanted[i].side) continue;
-        const bool has = layout.side != 0;
-        if (has && !all && (ratio(i) <= 2 || wanted[i].texels() > most_texels)) continue;
-        if (has) places_.give(layout.first / kPiece, size_of(layout));
-        if (has && !all) most_texels -= wanted[i].texels();
+        if (layout.side != 0) places_.give(layout.first / kPiece, size_of(layout));
         layout.side = wanted[i].side;
         changed.push_back(list.indices[i]);
     }

@@ -23,10 +23,9 @@ public:
         std::vector<uint32_t> lamps;       ///< whose maps have another side, and hold nothing
         std::vector<graph::Region> moves;  ///< of the texels of other maps, bytes, to be made all at once
     };
-    /// Fits the sides of the maps of a list to its view. `moving`: of each lamp, whether it does. `most_texels`: of
-    /// maps that may change their side, beside those that have none yet; then maps within a factor of two keep theirs.
-    /// Returns nothing, and changes nothing, where maps of the least side do not fit.
-    std::optional<Change> fit(const gpu_scene::LampList& list, uint64_t most_texels, const std::vector<bool>& moving);
+    /// Fits the sides of the maps of a list to its view. `moving`: of each lamp, whether it does. Returns nothing, and
+    /// changes nothing, where maps of the least side do not fit.
+    std::optional<Change> fit(const gpu_scene::LampList& list, const std::vector<bool>& moving);
 
 private:
     bool place(std::vector<uint32_t> lamps);

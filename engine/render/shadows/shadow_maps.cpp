@@ -12,12 +12,6 @@
 namespace vesper::render {
 namespace {
 
-// Of drawing a whole map, in tiles: all that stands around its lamp takes more time than its texels.
-uint64_t cost_of(const ShadowMapLayout& layout) {
-    constexpr uint64_t kLeast = 128;
-    return std::max<uint64_t>(layout.texels() / shared::kTileTexels, kLeast);
-}
-
 constexpr double kFaintestMoving = 0.1;    // lx: light below, of a lamp that moves, casts no shadow
 constexpr double kLeastShare = 1.0 / 100;  // of the light at a moving placement: below, it casts no shadow
 
@@ -84,20 +78,19 @@ ShadowMaps::ShadowMaps(const gpu::Device& device, const gpu_scene::GpuScene& res
 }
 
 void ShadowMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses, const gpu_scene::View& view,
-                      uint64_t budget, double caster_error, float unshadowed_share) {
+                      double caster_error, float unshadowed_share) {
     report_ = {};
     maps_to_draw_.clear();
     if (std::exchange(caster_error_, caster_error) != caster_error)
         for (uint32_t lamp = 0; lamp < maps_.size(); ++lamp) maps_[lamp].drawn &= !moves(lamp);
     update_light(list, view, unshadowed_share);
     update_view(view, poses);
-    const uint64_t most_texels = budget == kUnlimited ? budget : budget / 2 * shared::kTileTexels;
     std::vector<bool> moving;
     for (uint32_t lamp = 0; lamp < lamps_.size(); ++lamp) {
         moving.push_back(moves(lamp));
         if (moves(lamp) && !std::exchange(maps_[lamp].moves, true)) maps_[lamp].drawn = false;
     }
-    std::optional<ShadowAtlas::Change> change = atlas_.fit(list, most_texels, moving);
+    std::optional<ShadowAtlas::Change> change = atlas_.fit(list, moving);
     if (!change)
         throw Error("shadow maps of " + std::to_string(list.placed()) + " lamps do not fit --shadow-memory " +
                     std::to_string(sizes_.memory) + " (MiB) on this device, at the least side of " +
@@ -105,13 +98,11 @@ void ShadowMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneFra
                     " texels; with more, or with --shadows off, the scene can be rendered");
     moves_ = std::move(change->moves);
     for (const uint32_t lamp : change->lamps) maps_[lamp].drawn = false;
-    current_ = most_texels == kUnlimited;
-    plan_new_maps(list, budget);
+    plan_maps(list);
     const auto stands = [&](uint32_t lamp) { return !moves(lamp); };
     bodies_ = bodies_in_light(list, view);
     draws_bodies_ =
         bodies_ != drawn_bodies_ || !moves_.empty() || (!bodies_.empty() && std::ranges::any_of(maps_to_draw_, stands));
-    plan_moved_maps(list, budget);
     find_cached(poses);
     report_.maps = uint32_t(maps_to_draw_.size());
     for (const auto& [lamp, placements] : bodies_) report_.bodies += draws_bodies_ ? uint32_t(placements.size()) : 0;
@@ -145,45 +136,12 @@ void ShadowMaps::forget_still(const std::vector<uint32_t>& placements) {
     surroundings_.reset(), groups_.reset();
 }
 
-// Maps that hold nothing yet.
-void ShadowMaps::plan_new_maps(const gpu_scene::LampList& list, uint64_t& budget) {
-    for (uint32_t i = 0; i < list.placed(); ++i) {
-        const uint32_t lamp = list.indices[i];
+void ShadowMaps::plan_maps(const gpu_scene::LampList& list) {
+    for (const uint32_t lamp : std::span(list.indices).first(list.placed())) {
         if (atlas_[lamp].side == 0) continue;
         ++report_.lamps;
-        if (maps_[lamp].drawn) continue;
-        maps_to_draw_.push_back(lamp);
-        budget -= std::min(budget, cost_of(atlas_[lamp]));
-    }
-}
-
-// Of maps of lamps that move, those first whose light is nearest to the eye.
-void ShadowMaps::plan_moved_maps(const gpu_scene::LampList& list, uint64_t budget) {
-    std::vector<std::pair<double, uint32_t>> moved;
-    for (uint32_t i = 0; i < list.placed(); ++i) {
-        const uint32_t lamp = list.indices[i];
-        if (atlas_[lamp].side > 0 && maps_[lamp].drawn && moves(lamp) && is_out_of_date(maps_[lamp]) &&
-            std::ranges::find(maps_to_draw_, lamp) == maps_to_draw_.end()) {
-            const double away = double(glm::length(list.lamps[i].position));
-            const double priority = double(list.lamps[i].intensity) / std::max(away * away, 1.0);
-            const auto deferred = deferred_maps_.find(lamp);
-            moved.emplace_back(-priority * (deferred == deferred_maps_.end() ? 1 : 1 + deferred->second), lamp);
-        }
-    }
-    std::ranges::sort(moved);
-    bool any = false;  // one is drawn in any case, so that none waits for ever
-    for (const auto& [priority, lamp] : moved) {
-        const uint64_t cost = cost_of(atlas_[lamp]);
-        const bool of_other_view = maps_[lamp].culled && !current_;  // it may lack casters of this view
-        if (cost > budget && (any || budget == 0) && !of_other_view) {
-            ++report_.deferred;
-            ++deferred_maps_[lamp];
-            continue;
-        }
-        any = true;
-        budget -= std::min(budget, cost);
-        deferred_maps_.erase(lamp);
-        maps_to_draw_.push_back(lamp);
+        const Map& map = maps_[lamp];
+        if (!map.drawn || (moves(lamp) && is_out_of_date(map))) maps_to_draw_.push_back(lamp);
     }
 }
 

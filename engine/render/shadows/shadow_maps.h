@@ -48,14 +48,12 @@ public:
     /// draws all. The cache must outlive its use here.
     void use(Cache* cache) { cache_ = cache; }
 
-    /// Finds what is out of date for a frame. `budget`: of maps that are drawn, those that hold nothing yet apart, in
-    /// tiles of shared::kRegion texels square; a map counts as its tiles, but at least as 128. What gives the picture
-    /// most comes first, the rest is counted as deferred. Host work only. Throws Error where the maps of all lamps do
-    /// not fit. `caster_error`: texels, see ShadowMapToDraw; where it is another one than before, all maps are drawn
-    /// anew. `unshadowed_share`: without a budget, lamps that move cast no shadow where they are the faintest, together
-    /// that share of the light of this view (add_casting_lamps); with one, and with 0, all cast shadows.
+    /// Finds what is out of date for a frame. Host work only. Throws Error where the maps of all lamps do not fit.
+    /// `caster_error`: texels, see ShadowMapToDraw; where it is another one than before, all maps are drawn anew.
+    /// `unshadowed_share`: lamps that move cast no shadow where they are the faintest, together that share of the light
+    /// of this view (add_casting_lamps); 0: all cast shadows.
     void plan(const gpu_scene::LampList& list, const gpu_scene::SceneFrame& poses, const gpu_scene::View& view,
-              uint64_t budget, double caster_error, float unshadowed_share = 0);
+              double caster_error, float unshadowed_share = 0);
     /// Declares the work that plan() found, with its arguments; declared again, nothing is left to draw. `lists`: of
     /// the frame, where plan() had an unshadowed share. Returns the maps of the lamps of the list.
     FrameShadowMaps declare(const FrameContext& frame, const gpu_scene::LampList& list,
@@ -115,10 +113,9 @@ private:
         if (map.version != moving_.version()) return true;
         return map.optional ? !is_same_light_ : map.culled && culling_ != ViewCulling::On;
     }
-    bool may_leave_out() const { return current_ && unshadowed_share_ > 0; }
-    bool culls() const { return may_leave_out() || (current_ && culling_ == ViewCulling::On); }
-    void plan_new_maps(const gpu_scene::LampList& list, uint64_t& budget);
-    void plan_moved_maps(const gpu_scene::LampList& list, uint64_t budget);
+    bool may_leave_out() const { return unshadowed_share_ > 0; }
+    bool culls() const { return may_leave_out() || culling_ == ViewCulling::On; }
+    void plan_maps(const gpu_scene::LampList& list);
     Bodies bodies_in_light(const gpu_scene::LampList& list, const gpu_scene::View& view) const;
 
     const gpu_scene::GpuScene& resident_;
@@ -139,13 +136,11 @@ private:
     float unshadowed_share_ = 0;
     std::vector<shared::Lamp> lamps_seen_;  // of the last plan()
     bool is_same_light_ = false;            // as in the plan() before: view, lamps and share
-    bool current_ = true;                   // no map is ever out of date
     Bodies bodies_, drawn_bodies_;          // wanted, and in the maps
     bool draws_bodies_ = false;             // in this frame
     std::vector<uint32_t> maps_to_draw_;    // lamps
     std::vector<uint32_t> copied_;          // likewise: still maps that are new
     std::vector<graph::Region> moves_;      // of texels, to be made before, bytes
-    std::map<uint32_t, uint32_t> deferred_maps_;
     ShadowReport report_;
     std::optional<CasterGroups> groups_;  // of what stands still
     Cache* cache_ = nullptr;

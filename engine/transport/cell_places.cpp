@@ -16,6 +16,7 @@ namespace {
 constexpr double kPlaceStep = 0.35;      // of a cube, between places that are looked for
 constexpr double kFew = CellGrid::kAir;  // places along each way, of which one is looked for in larger cells
 constexpr double kCovered = 0.06;        // a surface so near before another is taken to lie on it, m
+constexpr double kThinBody = 1.8;        // cubes: their diagonal, and a little more
 constexpr double kLevel = 0.7;           // cosine: ground and floors, with air over them
 constexpr double kAirHeight = 4;         // m, of that
 constexpr double kPlacesOfPart = 4'096;  // which one thread finds, roughly
@@ -122,13 +123,16 @@ struct PlaceFinder {
     }
 
     // How far a surface sees along its normal, m; none if it is under another or within a body: what is there shows its
-    // back.
+    // back. Bodies of double-sided sheets count where they are as thin as cells, whose places would be on both sides of
+    // the sheet: elsewhere a back is a sheet that stands alone, as of a roof.
     std::optional<double> open_before(glm::dvec3 point, glm::dvec3 outwards) const {
         const std::optional<rays::Hit> hit =
             rays.nearest(point + skin_at(rays, point) * outwards, point + kReach * outwards);
         if (!hit) return kReach;
-        if (hit->share * kReach < kCovered || !surfaces.shows_front(*hit, point)) return std::nullopt;
-        return hit->share * kReach;
+        const double open = hit->share * kReach;
+        const bool within =
+            surfaces.shows_back(*hit, point) && (!surfaces.is_double_sided(*hit) || open < kThinBody * cells.grid.size);
+        return open < kCovered || within ? std::nullopt : std::optional(open);
     }
 
     // Over ground and floors, where things move.

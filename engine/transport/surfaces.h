@@ -35,8 +35,10 @@ public:
     glm::dvec3 reflectance(const rays::Hit& hit) const;
     /// Whether the surface has no hole there (rays/opacity.h).
     bool stops_light(const rays::Hit& hit) const;
-    /// Whether what a ray from `from` hits is a front, or has none.
-    bool shows_front(const rays::Hit& hit, glm::dvec3 from) const;
+    /// Whether a ray from `from` hits the back of a triangle, by the order of its corners; of one that is double-sided,
+    /// too.
+    bool shows_back(const rays::Hit& hit, glm::dvec3 from) const;
+    bool is_double_sided(const rays::Hit& hit) const;
     /// Whether a triangle of a node, in the world, is housing of a lamp.
     bool is_housing(uint32_t node, const std::array<glm::dvec3, 3>& corners) const;
 

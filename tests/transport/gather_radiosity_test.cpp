@@ -223,6 +223,28 @@ TEST(GatherRadiosity, CoveredPlacesDoNotDarkenWhatIsSeen) {
         }
 }
 
+// Walls as modelling programs export them, closed and double-sided: the dark sides of their sheets count for nothing.
+TEST(GatherRadiosity, WallsOfDoubleSidedSheetsAreAsBrightAsOthers) {
+    const auto light_of = [](bool double_sided, dvec3 point, dvec3 normal) {
+        scene::Scene scene;
+        const uint32_t grey = add_material(scene, 0.5f);
+        scene.materials[grey].double_sided = double_sided;
+        add_floor(scene, grey, 8);
+        add_box(scene, grey, {4, 1.5f, 0.1f}, {0, 1.5f, 0});      // 20 cm thick
+        add_box(scene, grey, {0.3f, 1.5f, 3}, {-5.2f, 1.5f, 0});  // 60 cm
+        add_box(scene, grey, {1.5f, 0.15f, 1.5f}, {4, 2, 4});     // a slab, 30 cm
+        const Radiosity radiosity = gathered(scene);
+        return radiosity.at(radiosity.solve({.sky = dvec3(1 / kPi)}).other, point, normal).g;
+    };
+    for (const auto& [point, normal] :
+         {std::pair(dvec3(1, 1.6, 0.1), dvec3(0, 0, 1)), std::pair(dvec3(-1, 1.4, -0.1), dvec3(0, 0, -1)),
+          std::pair(dvec3(-4.9, 1.5, 1.2), dvec3(1, 0, 0)), std::pair(dvec3(-5.5, 1.5, -1.2), dvec3(-1, 0, 0)),
+          std::pair(dvec3(4, 2.15, 4), kUp), std::pair(dvec3(4, 1.85, 4), -kUp), std::pair(dvec3(3, 0, -5), kUp)}) {
+        const double one = light_of(false, point, normal);
+        EXPECT_NEAR(light_of(true, point, normal), one, 0.06 * one) << point.x << ", " << point.y << ", " << point.z;
+    }
+}
+
 // Two closed rooms side by side, 10 cm of wall between, one of them lit. Rays find no way through; but the cells of
 // floor and ceiling that the wall crosses lie on both sides, so up to 0.58 of the light in the middle of the lit room
 // is in their part of the dark one, and what they send on: 0.028 beside them, 0.005 at 5 m, in the mean over rays of 25

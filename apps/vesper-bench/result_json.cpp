@@ -1,6 +1,5 @@
 // Results of benchmarks as files. SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cmath>
 
 #include <nlohmann/json.hpp>
 

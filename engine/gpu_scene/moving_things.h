@@ -21,7 +21,7 @@ struct MovingThings {
 MovingThings moving_things(const transport::MovingBodies& bodies, std::span<const transport::LitPatch> patches,
                            const SceneFrame& poses, const View& view);
 
-/// MovingBodies::hidden, likewise.
+/// Texels of MovingBodies::hidden, as shared/moving_light.h has them.
 std::vector<glm::uvec4> volume_texels(const transport::MovingBodies& bodies);
 
 }  // namespace vesper::gpu_scene

@@ -3,7 +3,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 
-// What things that move change of the light between surfaces: RGB, the illuminance that patches lit by moving lamps give, lx; A, the
+// Changes of the light between surfaces by things that move: RGB, the illuminance that patches lit by moving lamps give, lx; A, the
 // part of the rest that bodies do not hide.
 
 #include "normal.glsl"

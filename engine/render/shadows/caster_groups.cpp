@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <map>
 
@@ -10,6 +9,9 @@ namespace vesper::render {
 
 using gpu_scene::GpuScene, gpu_scene::PlacedPart, gpu_scene::WorldSphere;
 
+namespace {
+
+// Around the box around spheres, at least one.
 WorldSphere sphere_around(std::span<const WorldSphere> spheres) {
     glm::dvec3 low(1e300), high(-1e300);
     for (const auto& [centre, radius] : spheres)
@@ -20,17 +22,15 @@ WorldSphere sphere_around(std::span<const WorldSphere> spheres) {
     return around;
 }
 
+}  // namespace
+
 CasterBounds caster_bounds(const GpuScene& scene, uint32_t placement, const glm::dmat4& world) {
     const GpuScene::Placement& of = scene.placements()[placement];
     CasterBounds bounds;
     bounds.parts.reserve(of.part_count);
     for (uint32_t i = 0; i < of.part_count; ++i)
         bounds.parts.push_back(gpu_scene::world_sphere_of(scene.parts()[of.first_part + i], world));
-    if (bounds.parts.empty()) return bounds;
-    bounds.whole = bounds.parts[0];
-    for (const WorldSphere& part : bounds.parts)
-        bounds.whole.radius =
-            std::max(bounds.whole.radius, glm::distance(part.centre, bounds.whole.centre) + part.radius);
+    if (!bounds.parts.empty()) bounds.whole = sphere_around(bounds.parts);
     return bounds;
 }
 

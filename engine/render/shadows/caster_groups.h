@@ -8,9 +8,6 @@
 
 namespace vesper::render {
 
-/// A sphere around the box around spheres, at least one.
-gpu_scene::WorldSphere sphere_around(std::span<const gpu_scene::WorldSphere> spheres);
-
 /// Spheres around a placement, and around each of its parts.
 struct CasterBounds {
     gpu_scene::WorldSphere whole{glm::dvec3(0), 0};

@@ -37,11 +37,7 @@ std::vector<uint32_t> MovingPlacements::update(const gpu_scene::SceneFrame& pose
 }
 
 MovingPlacements::Moving MovingPlacements::at_pose(uint32_t placement, const glm::dmat4& world) const {
-    const gpu_scene::GpuScene::Placement& of = scene_.placements()[placement];
-    std::vector<gpu_scene::WorldSphere> spheres;
-    for (uint32_t i = of.first_part; i < of.first_part + of.part_count; ++i)
-        spheres.push_back(gpu_scene::world_sphere_of(scene_.parts()[i], world));
-    const auto [centre, radius] = sphere_around(spheres);
+    const auto [centre, radius] = caster_bounds(scene_, placement, world).whole;
     return {placement, version_, centre, radius};
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
 #include "base/error.h"
@@ -110,10 +109,10 @@ void ShadowMaps::plan(const gpu_scene::LampList& list, const gpu_scene::SceneFra
 }
 
 void ShadowMaps::update_light(const gpu_scene::LampList& list, const gpu_scene::View& view, float unshadowed_share) {
-    const auto same = [](const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof a) == 0; };
+    const auto bytes = [](const auto& lamps) { return std::as_bytes(std::span(lamps)); };
     is_same_light_ = unshadowed_share_ == unshadowed_share && sees_the_same(view_, view) &&
                      view_.extent.width == view.extent.width && view_.extent.height == view.extent.height &&
-                     std::ranges::equal(lamps_seen_, list.lamps, same);
+                     std::ranges::equal(bytes(lamps_seen_), bytes(list.lamps));
     unshadowed_share_ = unshadowed_share;
     lamps_seen_ = list.lamps;
 }

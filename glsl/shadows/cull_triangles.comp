@@ -33,11 +33,16 @@ layout(binding = 9, scalar) buffer Changed { uint changed[]; };
 // that no gap is left beside what is rasterized.
 layout(constant_id = 1) const float kSnap = 1.0 / 256.0;
 
-// Corners in the hemisphere, texels, and the texels whose middles they may cover.
+// Corners in the hemisphere, texels, and the texels of the quadrant whose middles they may cover.
 struct InImage {
     vec2 corners[3];
     vec2 first, last;
 };
+
+// Of x and y in a quadrant; 0 where there are none.
+vec2 signs_of(MapQuadrant quadrant) {
+    return quadrant.y_sign == 0.0 ? vec2(0.0) : vec2(quadrant.zoom < 0.0 ? -1.0 : 1.0, quadrant.y_sign);
+}
 
 InImage in_image(InQuadrant at[3], MapQuadrant quadrant) {
     InImage image;
@@ -46,6 +51,11 @@ InImage in_image(InQuadrant at[3], MapQuadrant quadrant) {
     const vec2 high = max(image.corners[0], max(image.corners[1], image.corners[2]));
     image.first = max(ceil(low - kSnap - 0.5), vec2(0.0));
     image.last = min(floor(high + kSnap - 0.5), vec2(float(quadrant.side) - 1.0));
+    // A quadrant is the quarter between two diagonals that has the edge of this sign along x or y.
+    const vec2 signs = signs_of(quadrant), edge = signs.x == signs.y ? vec2(signs.x, 0.0) : vec2(0.0, signs.x);
+    const float middle = 0.5 * float(quadrant.side);
+    image.first = mix(image.first, max(image.first, vec2(middle - 1.0)), greaterThan(edge, vec2(0.0)));
+    image.last = mix(image.last, min(image.last, vec2(middle)), lessThan(edge, vec2(0.0)));
     return image;
 }
 
@@ -78,11 +88,14 @@ void draw_small(InImage image, InQuadrant at[3], MapQuadrant quadrant) {
     const vec2 rise = inverse.yz - inverse.x;
     const vec2 slope = per_area * vec2(rise.x * b.y - rise.y * a.y, rise.y * a.x - rise.x * b.x);
     const vec3 per_x = 1.0 / vec3(edges[0].x, edges[1].x, edges[2].x);
+    const vec2 signs = signs_of(quadrant);
+    const float centre = 0.5 * float(quadrant.side), overlap = quadrant.overlap * float(quadrant.side) * abs(quadrant.zoom);
     float y = image.first.y;
     vec2 span = span_of(edges, per_x, y, image);
     do {
         const vec2 texel = vec2(min(span.x, image.last.x), y), middle = texel + 0.5;
-        bool covered = span.x <= span.y;
+        const vec2 from_axis = middle - centre;
+        bool covered = span.x <= span.y && min(signs.x * (from_axis.x + from_axis.y), signs.y * (from_axis.x - from_axis.y)) >= -overlap;
         [[unroll]] for (int k = 0; k < 3; ++k) covered = covered && dot(edges[k].xy, middle) + edges[k].z >= 0.0;
         const float value = clamp(inverse.x + dot(slope, middle - image.corners[0]), least, most);
         keep_nearer(covered, quadrant.first + uint(texel.y) * quadrant.side + uint(texel.x), value);
@@ -98,14 +111,16 @@ void draw_small(InImage image, InQuadrant at[3], MapQuadrant quadrant) {
 
 // `number`: of the quadrant.
 void draw(uint number, MapQuadrant quadrant, vec3 q[3], InQuadrant at[3]) {
-    // Before the lamp as a whole, and within the quadrant.
-    bool whole = min(at[0].position.w, min(at[1].position.w, at[2].position.w)) >= kMapNear;
-    [[unroll]] for (int i = 0; i < 3; ++i) whole = whole && min(at[0].outside[i], min(at[1].outside[i], at[2].outside[i])) >= 0.0;
+    const float kFarthest = 8192.0;  // texels: of corners, for the precision of edges
     const InImage image = in_image(at, quadrant);
+    const bool whole = min(at[0].position.w, min(at[1].position.w, at[2].position.w)) >= kMapNear;
     if (whole && any(greaterThan(image.first, image.last))) return;
-    const bool is_small = whole && all(lessThan(image.last - image.first, vec2(float(kSmall))));
-    for (uint once = 0u; once < (is_small ? 1u : 0u); ++once) draw_small(image, at, quadrant);  // a CPU device skips loops, not branches
-    if (is_small) return;
+    bool is_small = whole && all(lessThan(image.last - image.first, vec2(float(kSmall))));
+    [[unroll]] for (int k = 0; k < 3; ++k) is_small = is_small && all(lessThan(abs(image.corners[k]), vec2(kFarthest)));
+    if (is_small) {
+        draw_small(image, at, quadrant);
+        return;
+    }
     const uint corner = atomicAdd(draws[0], 3u);
     [[unroll]] for (uint k = 0u; k < 3u; ++k) large[corner + k] = LargeCorner(q[k], number);
 }

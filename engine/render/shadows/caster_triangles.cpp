@@ -85,23 +85,24 @@ void CasterTriangles::draw(const FrameContext& frame, const std::string& name, c
                         update(draws), store(large), update(to.words),
                         sample(scratch.lamps ? scratch.lamps : scratch.vertices), update(to.changed)},
                        graph::Groups{uint32_t(runs.size()), 1, 1});
-        graph.raster(
-            "large shadow casters", map_uses(to, {{large, graph::Access::Vertices}, {draws, graph::Access::Arguments}}),
-            [&pipelines = frame.pipelines, to, large, draws](const graph::Recording& recording) {
-                const VkCommandBuffer commands = recording.commands();
-                const gpu::GraphicsPipeline& pipeline =
-                    pipelines.get(kTriangles, {.targets = {}, .constants = {0, to.over ? 1u : 0u}});
-                MapBindings bindings(recording, to);
-                recording.bind(pipeline, bindings.writes());
-                const VkBuffer buffer = recording.buffer(large);
-                const VkDeviceSize offset = recording.offset(large);
-                vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
-                vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.pipeline());
-                vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
-                vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
-                vkCmdDrawIndirect(commands, recording.buffer(draws), recording.offset(draws), 1, 0);
-            },
-            kMapRaster);
+        graph.raster("large shadow casters",
+                     map_uses(to, {{large, graph::Access::Vertices}, {draws, graph::Access::Arguments}}),
+                     [&pipelines = frame.pipelines, to, large, draws](const graph::Recording& recording) {
+                         const VkCommandBuffer commands = recording.commands();
+                         const gpu::GraphicsPipeline& pipeline =
+                             pipelines.get(kTriangles, {.targets = {}, .constants = {0, to.over ? 1u : 0u}});
+                         set_map_viewport(commands);
+                         MapBindings bindings(recording, to);
+                         recording.bind(pipeline, bindings.writes());
+                         const VkBuffer buffer = recording.buffer(large);
+                         const VkDeviceSize offset = recording.offset(large);
+                         vkCmdBindVertexBuffers(commands, 0, 1, &buffer, &offset);
+                         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.pipeline());
+                         vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
+                         vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+                         vkCmdDrawIndirect(commands, recording.buffer(draws), recording.offset(draws), 1, 0);
+                     },
+                     {to.side, to.side});
     }
 }
 

@@ -293,20 +293,22 @@ void rasterize_parts(const FrameContext& frame, const GpuScene& scene, const Dra
     if (drawn.parts.empty()) return;
     MaskedParts parts = masked_parts(drawn, scene);
     const graph::Resource placed = frame.graph.upload("shadow casters" + name, parts.instances);
-    frame.graph.raster(
-        "masked shadow casters", map_uses(to, {{placed, graph::Access::Vertices}}),
-        [&pipelines = frame.pipelines, &scene, placed, to,
-         batches = std::move(parts.batches)](const graph::Recording& recording) {
-            MapBindings bindings(recording, to);
-            record_casters(recording, pipelines, kMapShaders, {.targets = {}, .constants = {0, to.over ? 1u : 0u}},
-                           scene, placed, batches, bindings.writes());
-        },
-        kMapRaster);
+    frame.graph.raster("masked shadow casters", map_uses(to, {{placed, graph::Access::Vertices}}),
+                       [&pipelines = frame.pipelines, &scene, placed, to,
+                        batches = std::move(parts.batches)](const graph::Recording& recording) {
+                           set_map_viewport(recording.commands());
+                           MapBindings bindings(recording, to);
+                           record_casters(recording, pipelines, kMapShaders,
+                                          {.targets = {}, .constants = {0, to.over ? 1u : 0u}}, scene, placed, batches,
+                                          bindings.writes());
+                       },
+                       {to.side, to.side});
 }
 
 void draw(const FrameContext& frame, const GpuScene& scene, const Drawn& drawn, const std::string& name, MapTargets to,
           const ShadowMapScratch& scratch) {
     if (drawn.quadrants.empty()) return;
+    to.side = std::ranges::max(drawn.quadrants, {}, &shared::MapQuadrant::side).side;
     to.quadrants = frame.graph.upload("shadow quadrants" + name, drawn.quadrants);
     rasterize_parts(frame, scene, drawn, name, to);
     drawn.opaque.draw(frame, name, to, scratch);

@@ -16,6 +16,7 @@ struct MapTargets {
     graph::Resource words;      ///< texels: ShadowMapScratch::drawn, or those of all maps
     graph::Resource changed;    ///< as ShadowMapScratch::changed
     bool over = false;          ///< over what maps hold; tiles that change are listed
+    uint32_t side = 0;          ///< texels, of the largest hemisphere
 };
 
 /// Bindings 0 to 2 of caster_triangles and masked_casters (.vert and .frag).
@@ -51,8 +52,11 @@ inline std::vector<graph::Use> map_uses(const MapTargets& to, std::initializer_l
     return uses;
 }
 
-/// Of a raster pass: every hemisphere lies in its corner.
-inline constexpr VkExtent2D kMapRaster{kMostMapSide, kMostMapSide};
-static_assert(shared::kRasterSide == kMostMapSide);
+/// Puts every hemisphere in the corner of a raster pass, with the same bits whatever its extent.
+inline void set_map_viewport(VkCommandBuffer commands) {
+    static_assert(shared::kRasterSide == kMostMapSide);
+    const VkViewport viewport{0, 0, float(shared::kRasterSide), float(shared::kRasterSide), 0, 1};
+    vkCmdSetViewport(commands, 0, 1, &viewport);
+}
 
 }  // namespace vesper::render

@@ -2,7 +2,6 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
-#extension GL_KHR_shader_subgroup_vote : require
 
 // Light from everywhere, E on any surface in the open: adds E rho lambert. Inside a tunnel it comes through the two ends only, rectangles
 // of luminance E / pi: their form factor is Lambert's sum over the edges of what lies above the horizon of the surface.
@@ -69,11 +68,9 @@ void main() {
             const vec3 across = cross(along.xyz, up.xyz), from = start.xyz - position;
             const float ahead = -dot(from, along.xyz), aside = dot(from, across), above = -dot(from, up.xyz);
             const bool sheltered = drawn && ahead > 0.0 && ahead < start.w && abs(aside) < along.w + kTunnelWall && above > -kTunnelWall && above < up.w + kTunnelWall;
-            const bool any_sheltered = subgroupAny(sheltered);
-            for (uint i = 0u; i < (any_sheltered ? 1u : 0u); ++i) {
+            if (sheltered) {
                 const vec3 corner = from - along.w * across, side = 2.0 * along.w * across, height = up.w * up.xyz;
-                const float seen = form_factor(n, corner, side, height) + form_factor(n, corner + start.w * along.xyz, side, height);
-                part = sheltered ? seen : part;
+                part = form_factor(n, corner, side, height) + form_factor(n, corner + start.w * along.xyz, side, height);
             }
         }
         const vec4 was = imageLoad(scene_image, ivec2(pixel));

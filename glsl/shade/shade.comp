@@ -2,7 +2,6 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
-#extension GL_KHR_shader_subgroup_vote : require
 
 // Photometric shading: L = sum_k E_k (rho lambert + specular) + ambient + emission in cd/m^2, without any windowing of
 // the inverse square. Every invocation shades kRows pixels of one column, so that a lamp is fetched once for all of them.
@@ -101,18 +100,17 @@ bool returns_light(uint r, vec3 toward_lamp, float normal_lamp) {
 
 float seen[kRows];  // share of a lamp that each pixel sees
 
-// Finds how much the pixels see of a lamp that something may hide from some of them. Loops of one turn, so that a CPU
-// device does nothing for other lamps.
+// Finds how much the pixels see of a lamp that something may hide from some of them.
 void look_up(uint index, vec3 position_of_lamp, uint entry, uint block, bool every_lamp) {
     const float share = every_lamp ? 1.0 : share_of(entry);
     [[unroll]] for (uint r = 0u; r < kRows; ++r) seen[r] = share;
-    for (uint k = 0u; k < (!every_lamp && (entry & kMixedBit) != 0u ? 1u : 0u); ++k) {
+    if (!every_lamp && (entry & kMixedBit) != 0u) {
         const uint column = gl_LocalInvocationID.x % kBlockSize, row = gl_LocalInvocationID.y * kRows % kBlockSize;
         const uint word = texel_at(shares, int((block * kSharePlaces + place_of(entry)) * kBlockSize + column)).r;
         [[unroll]] for (uint r = 0u; r < kRows; ++r) seen[r] = float(word >> 4u * (row + r) & 15u) / 15.0;
     }
     if (kLookups == 0u) return;
-    for (uint k = 0u; k < (every_lamp ? 1u : 0u); ++k) {
+    if (every_lamp) {
         const FetchedMap map = fetch_map(index);
         [[unroll]] for (uint r = 0u; r < kRows; ++r) seen[r] = visibility(map, position[r] - position_of_lamp, normal[r]);
     }
@@ -141,9 +139,7 @@ void add_lamp(FetchedLamp lamp, uint slices, bool cone) {
         }
     }
     if (kRetro == 0u) return;
-    // Few lamps are near the line of sight. A loop of one turn, so that a CPU device does nothing for the others.
-    any_returned = subgroupAny(any_returned);
-    for (uint k = 0u; k < (any_returned ? 1u : 0u); ++k)
+    if (any_returned)  // few lamps are near the line of sight
         [[unroll]] for (uint r = 0u; r < kRows; ++r) {
             const vec3 toward = normalize(lamp.position - position[r]);
             sum[r] += lamp.colour * returned[r] * sheet_coefficient(r, toward, max(dot(normal[r], toward), 0.0));

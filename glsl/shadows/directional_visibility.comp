@@ -105,7 +105,7 @@ uint share_of_disc(DirectionalLamp lamp, LevelPoint p) {
     hidden += here ? 1u : 0u;
     uint share = 255u;
     const bool partly = lanes_any(p.inside && hidden > 0u);
-    for (uint once = 0u; once < (partly ? 1u : 0u); ++once) {  // a CPU device skips loops, not branches
+    if (partly) {
         const float width = clamp(lamp.radius / p.width * below / max(float(hidden), 1.0), kLeastWidth, reach);
         uint seen = 0u;
         for (uint k = 0u; k < kDisc; ++k) seen += depth_below(p, width * disc_point(k)) > 0.0 ? 0u : 1u;
@@ -130,7 +130,7 @@ void look_up(uint number, inout uint words[kBlockSize]) {
     any_seen = lanes_any(any_seen);
     any_hidden = lanes_any(any_hidden);
     [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) words[r] |= (any_hidden ? 0u : 255u) << shift;
-    for (uint once = 0u; once < (any_seen && any_hidden ? 1u : 0u); ++once)  // a CPU device skips loops, not branches
+    if (any_seen && any_hidden)
         [[unroll]] for (uint r = 0u; r < kBlockSize; ++r)
             words[r] |= share_of_disc(lamp, level_point(lamp, number, position[r], normal[r])) << shift;
 }

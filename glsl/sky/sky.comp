@@ -1,12 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
-#extension GL_KHR_shader_subgroup_vote : require
 
 // A sky that is a picture: itself where nothing is drawn; elsewhere its diffuse reflection, by the illuminance on the surface,
 // and its specular one, by the sky blurred to the lobe and the fraction that the lobe reflects (Karis 2013). Runs after the
-// lamps and adds to them. Loops of one turn are there for CPU devices, which leave them when no lane takes them and would run
-// both sides of an if.
+// lamps and adds to them.
 
 #include "normal.glsl"
 #include "sheen.glsl"
@@ -81,18 +79,15 @@ void main() {
         vec3 luminance = imageLoad(scene_image, ivec2(pixel)).rgb +
                          max(illuminance, vec3(0.0)) * reflectance.rgb * ((road ? road_in_diffuse(-surface.w, normal_eye) : 1.0 - metallic) * push.lambert);
 
-        const bool any_shiny = subgroupAny(shiny);
-        for (uint i = 0u; i < (any_shiny ? 1u : 0u); ++i) {
+        if (shiny) {
             const float a = surface.w * surface.w;
             const vec3 f0 = mix(vec3(0.04 * (1.0 - a * a)), reflectance.rgb, metallic);
             const float f90 = clamp(25.0 * max(f0.r, max(f0.g, f0.b)), 0.0, 1.0);
             const vec2 fraction = reflected(normal_eye, surface.w);
             const vec3 mirrored = ray - 2.0 * dot(n, ray) * n;
-            luminance += shiny ? blurred(mirrored, surface.w) * (f0 * fraction.x + f90 * fraction.y) : vec3(0.0);
+            luminance += blurred(mirrored, surface.w) * (f0 * fraction.x + f90 * fraction.y);
         }
-        const bool any_sky = subgroupAny(!drawn);
-        for (uint i = 0u; i < (any_sky ? 1u : 0u); ++i)
-            luminance = drawn ? luminance : look_up(encode_normal(ray), kSkySharpStart, push.sharp_side);
+        if (!drawn) luminance = look_up(encode_normal(ray), kSkySharpStart, push.sharp_side);
         if (inside) imageStore(scene_image, ivec2(pixel), vec4(luminance, 1.0));
     }
 }

@@ -13,6 +13,7 @@
 #include "transport/cell_places.h"
 #include "transport/emitters.h"
 #include "transport/lamp_light.h"
+#include "transport/lit_cells.h"
 #include "transport/patch.h"
 #include "transport/radiosity.h"
 #include "transport/reach.h"
@@ -24,12 +25,14 @@ namespace vesper::transport {
 namespace {
 
 constexpr double kPlacesShare = 0.08;  // of the time
+constexpr double kLampsShare = 0.3;    // of that of a round
 constexpr double kAtEmitter = 1e-3;    // m
 constexpr uint32_t kMostRounds = 4;
 constexpr double kRegion = 16;          // cubes: cells in one see about the same emitters
 constexpr uint32_t kFewer = 4;          // times fewer rays and looks of cells that only rays find
 constexpr double kMostOverfull = 1.5;   // times settings.most_cells
 constexpr double kKeptSources = 0.999;  // of the light of a cell
+constexpr double kGuided = 0.5;         // of the rays of a cell, where lamps light others
 
 using Light = std::vector<std::pair<uint32_t, glm::dvec3>>;  // by source, lx
 
@@ -69,6 +72,7 @@ struct Gathering {
     SurfaceCells surface_cells;
     CellGrid grid;                // of those
     std::vector<uint32_t> known;  // numbers of cells of all rounds so far, ascending
+    LitCells lit;                 // of the first round
 
     Gathering(const scene::Scene& of, std::span<const glm::dmat4> at, const std::vector<bool>& moving,
               const RadiositySettings& with)
@@ -85,9 +89,11 @@ struct Gathering {
         std::vector<uint32_t> numbers;
         std::vector<CellPlaces> cells;
         std::vector<float> sky;
-        std::vector<uint32_t> met;  // numbers
+        std::vector<uint32_t> met;    // numbers
+        std::vector<uint16_t> parts;  // as Radiosity::parts
         struct Region {
             std::vector<uint32_t> cells;
+            std::vector<Light> of_lamps;   // to each
             std::vector<uint32_t> counts;  // of sources of each
             std::vector<Radiosity::Source> sources;
             std::vector<FoundPlace> places;  // where rays met what is no cell yet
@@ -109,12 +115,17 @@ struct Gathering {
     struct Start {
         glm::dvec3 point, normal;
         const EmitterChoice& choice;
-        uint32_t looks, rays;
+        const RayGuide& guide;
+        uint32_t looks, rays, guided;  // guided: rays besides those by cosines
     };
 
-    // Of the direction to a place on an emitter: the density of looks and rays together, 1/sr.
+    // Of rays in a direction, 1/sr.
+    static double density(const Start& start, glm::dvec3 direction, double cosine) {
+        return start.rays * cosine / std::numbers::pi + start.guided * start.guide.density(direction);
+    }
+    // Of the direction to a place on an emitter, of looks and rays together.
     double density(const Start& start, size_t number, glm::dvec3 to, double cosine) const {
-        return start.looks * start.choice.density(number, to) + start.rays * cosine / std::numbers::pi;
+        return start.looks * start.choice.density(number, to) + density(start, glm::normalize(to), cosine);
     }
 
     // At an emitter by chance: which, and its light, lx.
@@ -138,75 +149,116 @@ struct Gathering {
         return {number, cosine / density(start, number, to, cosine) * emission};
     }
 
-    // A ray distributed as cosines. Returns the number of the cell that it meets.
-    uint32_t send(const Start& start, glm::dvec2 chance, double share, Light& meshes, float& sky,
-                  std::vector<FoundPlace>& places) const {
-        const glm::dvec3 direction = cosine_direction(start.normal, chance);
+    // Returns the number of the cell that a ray meets, and the part of its light that it brings.
+    std::pair<uint32_t, double> send(const Start& start, glm::dvec3 direction, double share, Light& meshes, float& sky,
+                                     std::vector<FoundPlace>& places) const {
+        const double cosine = glm::dot(start.normal, direction);
+        if (!(cosine > 0)) return {Radiosity::kNowhere, 0};
+        const double part = share * cosine / (std::numbers::pi * density(start, direction, cosine));
         const std::optional<rays::Hit> hit = rays.nearest(start.point, start.point + kReach * direction);
         if (!hit) {
-            sky += float(share / start.rays);
-            return Radiosity::kNowhere;
+            sky += float(part);
+            return {Radiosity::kNowhere, 0};
         }
         const SurfacePoint surface = surfaces.emitted(*hit, start.point);
         if (surface.emission != glm::dvec3(0))
             if (const std::optional<size_t> number = emitters.find(*hit)) {
-                const double cosine = glm::dot(start.normal, direction);
                 const glm::dvec3 to = surface.position - start.point;
                 add_to(meshes, hit->node, share * cosine / density(start, *number, to, cosine) * surface.emission);
             }
         const std::optional<uint32_t> cell = surface_cells.number(surface.position, surface.normal);
-        if (!cell) return Radiosity::kNowhere;
+        if (!cell) return {Radiosity::kNowhere, 0};
         if (!std::ranges::binary_search(known, *cell))
             places.push_back({surface.position, surface.normal, surfaces.reflectance(*hit), hit->node, 1, 0});
-        return *cell;
+        return {*cell, part};
+    }
+
+    // Of a cell: before its surfaces.
+    std::vector<SurfacePlace> places_of(const Round& round, size_t i) const {
+        const CellPlaces& cell = round.cells[i];
+        std::vector<SurfacePlace> places;
+        for (uint32_t k = 0; k < cell.count(); ++k) {
+            const glm::dvec3 point = grid.middle(round.numbers[i]) + glm::dvec3(cell.places[k].point),
+                             normal = glm::normalize(glm::dvec3(cell.places[k].normal));
+            places.push_back({point + skin_at(rays, point) * normal, normal, cell.places[k].node});
+        }
+        return places;
+    }
+
+    void gather_lamps(const Round& round, Round::Region& region, uint32_t shadow_rays) const {
+        std::vector<LampLight::Share> shares;
+        for (const uint32_t i : region.cells) {
+            Random random(~uint64_t{round.numbers[i]});
+            shares.clear();
+            lamps.sample(places_of(round, i), shadow_rays, random, shares);
+            Light& light = region.of_lamps.emplace_back();
+            for (const LampLight::Share& s : shares) add_to(light, s.node | Radiosity::kLamp, s.lux);
+        }
+    }
+
+    // From the light of lamps on the cells of a round.
+    LitCells lit_cells(const Round& round) const {
+        std::vector<LitCells::Cell> cells;
+        for (const Round::Region& region : round.regions)
+            for (size_t k = 0; k < region.cells.size(); ++k) {
+                const uint32_t number = round.numbers[region.cells[k]];
+                const CellPlaces& cell = round.cells[region.cells[k]];
+                glm::dvec3 lux(0);
+                for (const auto& [source, of_lamp] : region.of_lamps[k]) lux += of_lamp;
+                const double flux = cell.area * luminance(lux * cell.reflectance / cell.weight);
+                if (flux > 0 && !grid.is_air(number))
+                    cells.push_back({number,
+                                     grid.middle(number) + cell.height / cell.weight * direction_of(grid.side(number)),
+                                     flux});
+            }
+        std::ranges::sort(cells, {}, &LitCells::Cell::number);
+        return LitCells(grid, cells);
     }
 
     void gather(Round& round, Round::Region& region, uint32_t fewer) const {
         Sight sight(emitters.groups().size());
-        for (const uint32_t i : region.cells) {
-            gather(round, i, fewer, sight, region);
+        for (size_t k = 0; k < region.cells.size(); ++k) {
+            gather(round, region.cells[k], fewer, sight, region, region.of_lamps[k]);
             sight.end_cell();
         }
     }
 
-    void gather(Round& round, size_t i, uint32_t fewer, Sight& sight, Round::Region& region) const {
-        const CellPlaces& cell = round.cells[i];
-        const uint32_t number = round.numbers[i], count = cell.count();
-        std::vector<SurfacePlace> places;
-        for (uint32_t k = 0; k < count; ++k)
-            places.push_back({grid.middle(number) + glm::dvec3(cell.places[k].point),
-                              glm::normalize(glm::dvec3(cell.places[k].normal)), cell.places[k].node});
-        const EmitterChoice choice(emitters, Patch::around(places), sight.shares());
+    void gather(Round& round, size_t i, uint32_t fewer, Sight& sight, Round::Region& region, Light& of_lamps) const {
+        const uint32_t number = round.numbers[i];
+        const std::vector<SurfacePlace> places = places_of(round, i);
+        const auto count = uint32_t(places.size());
+        const Patch patch = Patch::around(places);
+        const EmitterChoice choice(emitters, patch, sight.shares());
+        const RayGuide guide = lit.guide(patch);
         // Of each place; parts of a lattice that follow each other fill the square evenly, each and together.
         const uint32_t looks = choice.any() ? std::max(settings.looks / fewer / count, 1u) : 0,
                        rays_sent = std::max(settings.rays / fewer, std::min(settings.rays, count)),
-                       lamp_rays = std::max(settings.lamp_rays / fewer, 1u);
+                       guided = guide.any() ? uint32_t(kGuided * (rays_sent / count)) : 0;
         Random random(number);
-        const Lattice of_looks(random), directions(random);
-        Light meshes, of_lamps;
+        const Lattice of_looks(random), directions(random), of_guided(random);
+        Light meshes;
         const double share = 1.0 / count;
         for (uint32_t k = 0; k < count; ++k) {
-            SurfacePlace& place = places[k];
             const uint32_t first_ray = rays_sent * k / count, end_ray = rays_sent * (k + 1) / count;
-            const Start start{place.point + skin_at(rays, place.point) * place.normal, place.normal, choice, looks,
-                              end_ray - first_ray};
+            const Start start{places[k].point, places[k].normal, choice, guide, looks, end_ray - first_ray - guided,
+                              guided};
             for (uint32_t l = looks * k; l < looks * (k + 1); ++l) {
                 const auto [emitter, light] = look(start, of_looks.at(l));
                 const bool lit = light != glm::dvec3(0);
                 sight.add(emitters.group_of(emitter), lit);
                 if (lit) add_to(meshes, emitters.list()[emitter].node, share * light);
             }
-            for (uint32_t r = first_ray; r < end_ray; ++r)
-                round.met[i * settings.rays + r] =
-                    send(start, directions.at(r), share, meshes, round.sky[i], region.places);
-            place.point = start.point;
+            for (uint32_t r = first_ray; r < end_ray; ++r) {
+                const uint32_t of_place = r - first_ray;
+                const glm::dvec3 direction = of_place < guided
+                                                 ? guide.direction(of_guided.at(guided * k + of_place))
+                                                 : cosine_direction(start.normal, directions.at(r - guided * (k + 1)));
+                const auto [cell, part] = send(start, direction, share, meshes, round.sky[i], region.places);
+                round.met[i * settings.rays + r] = cell;
+                round.parts[i * settings.rays + r] = glm::packHalf1x16(float(part));
+            }
         }
-        // Where rays are few each stands for some.
-        for (uint32_t r = rays_sent; r < settings.rays; ++r)
-            round.met[i * settings.rays + r] = round.met[i * settings.rays + r % rays_sent];
-        std::vector<LampLight::Share> shares;
-        lamps.sample(places, lamp_rays, random, shares);
-        for (const LampLight::Share& s : shares) add_to(of_lamps, s.node | Radiosity::kLamp, s.lux);
+        for (uint32_t r = rays_sent; r < settings.rays; ++r) round.met[i * settings.rays + r] = Radiosity::kNowhere;
         const size_t before = region.sources.size();
         keep_strongest(of_lamps, region.sources), keep_strongest(meshes, region.sources);
         region.counts.push_back(uint32_t(region.sources.size() - before));
@@ -238,17 +290,25 @@ struct Gathering {
             known.insert(known.end(), round.numbers.begin(), round.numbers.end());
             std::ranges::inplace_merge(known, known.begin() + before);
             const size_t cells = round.cells.size();
-            round.sky.resize(cells), round.met.resize(cells * settings.rays);
+            round.sky.resize(cells), round.met.resize(cells * settings.rays), round.parts.resize(cells * settings.rays);
             make_regions(round);
             // What rays of a round find takes about a fifth of the time of that.
             const double begins = 1 - std::pow(0.2, double(rounds.size() - 1)), width = 0.8 * (1 - begins);
-            const bool done = in_parallel(
-                round.regions.size(), 1,
-                [&](size_t number, size_t) { gather(round, round.regions[number], rounds.size() > 1 ? kFewer : 1); },
-                [&](size_t so_far) {
-                    const double of_rays = begins + width * double(so_far) / double(round.regions.size());
-                    return !progress || progress(kPlacesShare + (1 - kPlacesShare) * of_rays);
-                });
+            const uint32_t fewer = rounds.size() > 1 ? kFewer : 1;
+            const auto each_region = [&](double from, double to, const auto& work) {
+                return in_parallel(
+                    round.regions.size(), 1, [&](size_t number, size_t) { work(round.regions[number]); },
+                    [&](size_t so_far) {
+                        const double share = glm::mix(from, to, double(so_far) / double(round.regions.size()));
+                        return !progress || progress(glm::mix(kPlacesShare, 1.0, begins + width * share));
+                    });
+            };
+            const bool lamps_done = each_region(0, kLampsShare, [&](Round::Region& region) {
+                gather_lamps(round, region, std::max(settings.lamp_rays / fewer, 1u));
+            });
+            if (!lamps_done) return std::nullopt;
+            if (rounds.size() == 1) lit = lit_cells(round);
+            const bool done = each_region(kLampsShare, 1, [&](Round::Region& region) { gather(round, region, fewer); });
             if (!done) return std::nullopt;
             for (Round::Region& region : round.regions)
                 for (const FoundPlace& place : std::exchange(region.places, {})) {
@@ -319,6 +379,9 @@ struct Gathering {
             result.normals.push_back(length > 0 ? glm::vec3(cell.normal / length) : cell.places[0].normal);
             result.reflectances.push_back(glm::vec3(cell.reflectance / cell.weight));
             result.sky.push_back(round.sky[i]);
+            const auto first_ray = std::ptrdiff_t(i * settings.rays);
+            result.parts.insert(result.parts.end(), round.parts.begin() + first_ray,
+                                round.parts.begin() + first_ray + settings.rays);
             for (size_t ray = i * settings.rays; ray < (i + 1) * settings.rays; ++ray)
                 result.met.push_back(round.met[ray] == Radiosity::kNowhere
                                          ? Radiosity::kNowhere

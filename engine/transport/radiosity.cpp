@@ -59,8 +59,8 @@ std::optional<uint32_t> Radiosity::find(uint32_t number) const {
 
 uint64_t Radiosity::bytes() const {
     return bytes_of(numbers) + bytes_of(heights) + bytes_of(areas) + bytes_of(normals) + bytes_of(reflectances) +
-           bytes_of(sky) + bytes_of(first_source) + bytes_of(sources) + bytes_of(met) + bytes_of(beside) +
-           bytes_of(walls);
+           bytes_of(sky) + bytes_of(first_source) + bytes_of(sources) + bytes_of(met) + bytes_of(parts) +
+           bytes_of(beside) + bytes_of(walls);
 }
 
 void Radiosity::connect(const std::function<bool(uint32_t, uint32_t)>& sees) {
@@ -130,8 +130,8 @@ Radiosity::Solution Radiosity::solve(const RadiosityLight& light) const {
         each_cell([&](size_t i) {
             glm::vec3 sum(0);
             for (size_t ray = i * rays; ray < (i + 1) * rays; ++ray)
-                if (met[ray] != kNowhere) sum += sent[met[ray]];
-            other[i] = unreflected[i] + sum / float(rays);
+                if (met[ray] != kNowhere) sum += glm::unpackHalf1x16(parts[ray]) * sent[met[ray]];
+            other[i] = unreflected[i] + sum;
         });
         if (!(light.reflection_error > 0)) continue;
         const double all = sum_of(other);

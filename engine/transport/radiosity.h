@@ -61,6 +61,7 @@ struct Radiosity {
     std::vector<uint32_t> first_source;  ///< of each, and the end
     std::vector<Source> sources;
     std::vector<uint32_t> met;     ///< index of the cell that each ray of each cell met, or kNowhere
+    std::vector<uint16_t> parts;   ///< of the light of a cell that a ray brings: of its exitance, halves
     uint32_t rays = 0;             ///< of each
     std::vector<uint32_t> beside;  ///< of each the kBeside cells of the same surface around it, or itself
     std::vector<uint8_t> walls;    ///< of each bits of those around it that it does not see; empty: it sees all

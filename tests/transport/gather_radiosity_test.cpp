@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/gtc/packing.hpp>
+
 #include "support/gathered.h"
 #include "support/rooms.h"
 
@@ -43,6 +45,7 @@ void expect_same(const Radiosity& a, const Radiosity& b) {
     EXPECT_EQ(a.sky, b.sky);
     EXPECT_EQ(a.first_source, b.first_source);
     EXPECT_EQ(a.met, b.met);
+    EXPECT_EQ(a.parts, b.parts);
     EXPECT_EQ(a.beside, b.beside);
     const auto same = [](const Radiosity::Source& x, const Radiosity::Source& y) {
         return x.node == y.node && x.lux == y.lux;
@@ -153,6 +156,32 @@ TEST(GatherRadiosity, AMovingLampGivesNothing) {
         EXPECT_NE(source.node & ~Radiosity::kLamp, last);
 }
 
+// A spot lights some of a floor, and that a wall and a sloping board: their light differs by little from that of a
+// hundred times the rays, and by less from cell to cell.
+TEST(GatherRadiosity, WhatASpotLightsIsReflectedEvenly) {
+    scene::Scene scene;
+    const uint32_t grey = add_material(scene, 0.5f);
+    add_floor(scene, grey, 20);
+    add_rectangle(scene, grey, {-20, 0, -12}, {40, 0, 0}, {0, 10, 0});
+    add_rectangle(scene, grey, {-6, 0.5f, -6}, {12, 0, 0}, {0, 2, -3.46f});
+    add_lamp(scene, 2000, {0, 6, 2});
+    scene.nodes.back().rotation = glm::angleAxis(-kPi / 2, dvec3(1, 0, 0));
+    scene.lamps.back().kind = scene::Lamp::Kind::Spot, scene.lamps.back().outer_cone = float(kPi / 6);
+    const Radiosity few = gathered(scene), many = gathered(scene, {.rays = 3200});
+    const std::vector<vec3> light = few.solve({.reflections = 1}).other, wanted = many.solve({.reflections = 1}).other;
+    std::vector<double> ratios;
+    for (size_t i = 0; i < light.size(); ++i)
+        if (const std::optional<uint32_t> other = many.find(few.numbers[i]);
+            other && !few.grid.is_air(few.numbers[i]) && few.grid.side(few.numbers[i]) != 2 && wanted[*other].g > 0.01f)
+            ratios.push_back(double(light[i].g) / double(wanted[*other].g));
+    ASSERT_GT(ratios.size(), 300u);
+    double mean = 0, variance = 0;
+    for (const double ratio : ratios) mean += ratio / double(ratios.size());
+    for (const double ratio : ratios) variance += (ratio - 1) * (ratio - 1) / double(ratios.size());
+    EXPECT_NEAR(mean, 1, 0.03);
+    EXPECT_LT(std::sqrt(variance), 0.13);
+}
+
 // In the open over a wide black floor: from above the whole sky, from below nothing, from the side half, and slopes
 // something between.
 TEST(GatherRadiosity, TheAirOverAFloorLightsWhatMovesThere) {
@@ -193,11 +222,13 @@ TEST(GatherRadiosity, BacksAreFoundByRays) {
     add_lamp(scene, 100, {0.4, 0.3, 0});
     const Radiosity radiosity = gathered(scene);
     const Radiosity::Solution light = radiosity.solve({.reflections = 1});
-    for (size_t ray = 0; ray < radiosity.met.size(); ++ray) {
-        const uint32_t from = radiosity.numbers[ray / radiosity.rays];
-        if (!radiosity.grid.is_air(from) && radiosity.grid.middle(from).y < 2) {
-            EXPECT_NE(radiosity.met[ray], Radiosity::kNowhere);
-        }
+    for (size_t i = 0; i < radiosity.cells(); ++i) {
+        if (radiosity.grid.is_air(radiosity.numbers[i]) || radiosity.grid.middle(radiosity.numbers[i]).y >= 2) continue;
+        EXPECT_EQ(radiosity.sky[i], 0);
+        double parts = 0;
+        for (size_t ray = i * radiosity.rays; ray < (i + 1) * radiosity.rays; ++ray)
+            parts += double(glm::unpackHalf1x16(radiosity.parts[ray]));
+        EXPECT_NEAR(parts, 1, 0.4) << i;
     }
     // 1.7 m over the lamp, where it faces down; less, as a cell is a mean over 1 m.
     EXPECT_NEAR(radiosity.at(light.lamps, {0.4, 2, 0}, -kUp).g, 100 / (1.7 * 1.7), 0.3 * 100 / (1.7 * 1.7));

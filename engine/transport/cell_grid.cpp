@@ -5,7 +5,7 @@
 namespace vesper::transport {
 
 uint32_t side_of(glm::dvec3 direction) {
-    const glm::dvec3 a = glm::abs(direction);
+    const glm::dvec3 a = kSideFactors * glm::abs(direction);
     const int axis = a.x >= a.y && a.x >= a.z ? 0 : a.y >= a.z ? 1 : 2;
     return uint32_t(2 * axis + (direction[axis] < 0 ? 1 : 0));
 }

@@ -10,7 +10,10 @@ namespace vesper::transport {
 
 /// Sides: +x, -x, +y, -y, +z, -z.
 constexpr uint32_t kSides = 6;
-/// The one that a direction goes to most; of equal ones the first axis.
+/// Before components along each axis are compared they are multiplied by this, so that rounding does not decide about a
+/// plane that goes to two sides as much.
+constexpr glm::dvec3 kSideFactors{1.0002, 1.0001, 1};
+/// The one that a direction goes to most.
 uint32_t side_of(glm::dvec3 direction);
 glm::dvec3 direction_of(uint32_t side);  ///< unit length
 /// Of a vector, the component to a side.

@@ -157,7 +157,7 @@ void add_place(CellPlaces& cell, const CellGrid& grid, uint32_t number, const Fo
     if (slot < CellPlaces::kMost)
         cell.places[slot] = {glm::vec3(place.point - grid.middle(number)), glm::vec3(place.normal), place.node};
     cell.weight += place.weight, cell.area += place.area;
-    cell.height += place.weight * grid.height(number, place.point);
+    cell.point += place.weight * (place.point - grid.middle(number));
     cell.normal += place.weight * place.normal, cell.reflectance += place.weight * place.reflectance;
 }
 

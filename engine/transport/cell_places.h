@@ -25,9 +25,9 @@ struct CellPlaces {
     std::array<Place, kMost> places;  ///< count() of all that were seen, each as likely
     uint32_t seen = 0;
     bool covered = false;
-    double weight = 0;  ///< of all
-    double area = 0;    ///< m^2
-    double height = 0;  ///< over the middle of the cube, m; this and what follows: times weight
+    double weight = 0;    ///< of all
+    double area = 0;      ///< m^2
+    glm::dvec3 point{0};  ///< from the middle of the cube, m; this and what follows: times weight
     glm::dvec3 normal{0}, reflectance{0};
 
     uint32_t count() const { return std::min(seen, kMost); }

@@ -207,9 +207,7 @@ struct Gathering {
                 for (const auto& [source, of_lamp] : region.of_lamps[k]) lux += of_lamp;
                 const double flux = cell.area * luminance(lux * cell.reflectance / cell.weight);
                 if (flux > 0 && !grid.is_air(number))
-                    cells.push_back({number,
-                                     grid.middle(number) + cell.height / cell.weight * direction_of(grid.side(number)),
-                                     flux});
+                    cells.push_back({number, grid.middle(number) + cell.point / cell.weight, flux});
             }
         std::ranges::sort(cells, {}, &LitCells::Cell::number);
         return LitCells(grid, cells);
@@ -349,7 +347,7 @@ struct Gathering {
         });
         const auto point = [&](uint32_t i) {
             const uint32_t number = result.numbers[i];
-            return before(number, grid.middle(number) + double(result.heights[i]) * direction_of(grid.side(number)));
+            return before(number, grid.middle(number) + double(result.heights[i]) * glm::dvec3(result.normals[i]));
         };
         result.connect(
             [&](uint32_t a, uint32_t b) { return !split[a] && !split[b] && !rays.blocked(point(a), point(b)); });
@@ -373,10 +371,10 @@ struct Gathering {
         for (const auto& [r, i] : at) {
             const Round& round = rounds[r];
             const CellPlaces& cell = *cells.emplace_back(&round.cells[i]);
-            result.heights.push_back(float(cell.height / cell.weight));
             result.areas.push_back(float(cell.area));
             const double length = glm::length(cell.normal);
             result.normals.push_back(length > 0 ? glm::vec3(cell.normal / length) : cell.places[0].normal);
+            result.heights.push_back(float(glm::dot(cell.point / cell.weight, glm::dvec3(result.normals.back()))));
             result.reflectances.push_back(glm::vec3(cell.reflectance / cell.weight));
             result.sky.push_back(round.sky[i]);
             const auto first_ray = std::ptrdiff_t(i * settings.rays);

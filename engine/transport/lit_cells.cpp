@@ -79,8 +79,8 @@ LitCells::LitCells(const CellGrid& grid, std::span<const Cell> cells) {
             }
             joined.node.centre /= flux;
             for (; i < end; ++i)
-                joined.node.radius = std::max(joined.node.radius,
-                                              glm::distance(joined.node.centre, level[i].node.centre) + level[i].node.radius);
+                joined.node.radius = std::max(
+                    joined.node.radius, glm::distance(joined.node.centre, level[i].node.centre) + level[i].node.radius);
             above.push_back(joined);
         }
         level = std::move(above);

@@ -45,10 +45,10 @@ public:
 
 private:
     struct Node {
-        glm::dvec3 centre;                 // of a sphere around its cells, m
-        double radius;                     // m
+        glm::dvec3 centre;                  // of a sphere around its cells, m
+        double radius;                      // m
         std::array<double, kSides> fluxes;  // of those that face each side, lm
-        uint32_t first, count;             // below it; count 0: one cube
+        uint32_t first, count;              // below it; count 0: one cube
     };
     static double light_of(const Node& node, const Patch& patch);
 

@@ -27,6 +27,8 @@ constexpr std::array<Offset, Radiosity::kBeside> kOffsets{
     {{-1, -1, 1}, {0, -1, 2}, {1, -1, 1}, {-1, 0, 2}, {1, 0, 2}, {-1, 1, 1}, {0, 1, 2}, {1, 1, 1}}};
 constexpr float kOwnWeight = 4, kAllWeights = 16;
 constexpr float kOneSurface = 0.9f;  // cosine between the normals of cells that are
+constexpr double kOnePlane = 0.25;   // cubes: how far off they may be
+constexpr double kLeastLean = 0.5;   // of a normal along its side: cells of more than one plane may have less
 constexpr size_t kAtATime = 4096;    // cells
 
 struct Axes {
@@ -69,18 +71,21 @@ void Radiosity::connect(const std::function<bool(uint32_t, uint32_t)>& sees) {
         for (size_t i = begin; i < end; ++i) {
             const uint32_t side = grid.side(numbers[i]);
             const Axes axes = axes_of(side);
-            const glm::dvec3 middle =
-                grid.place(grid.middle(numbers[i])) + double(heights[i]) / grid.size * direction_of(side);
+            const glm::dvec3 normal(normals[i]);
+            const glm::dvec3 middle = grid.place(grid.middle(numbers[i])) + double(heights[i]) / grid.size * normal;
+            const double along_side = normal[axes.along];
+            const glm::dvec3 rise = std::abs(along_side) < kLeastLean ? glm::dvec3(0) : -normal / along_side;
             for (size_t k = 0; k < kBeside; ++k) {
                 uint32_t& other = beside[i * kBeside + k] = uint32_t(i);
                 if (grid.is_air(numbers[i])) continue;
                 glm::dvec3 place = middle;
                 place[axes.across] += kOffsets[k].across, place[axes.over] += kOffsets[k].over;
+                place[axes.along] += rise[axes.across] * kOffsets[k].across + rise[axes.over] * kOffsets[k].over;
                 const std::optional<Nearest> cell = nearest(glm::floor(place), place, side);
                 if (!cell) continue;
                 if (!sees(uint32_t(i), cell->index))
                     walls[i] |= uint8_t(1u << k);
-                else if (cell->off <= kNearBorder && glm::dot(normals[cell->index], normals[i]) >= kOneSurface)
+                else if (cell->off <= kOnePlane && glm::dot(normals[cell->index], normals[i]) >= kOneSurface)
                     other = cell->index;
             }
         }
@@ -149,57 +154,54 @@ Radiosity::Solution Radiosity::solve(const RadiosityLight& light) const {
     return result;
 }
 
-// In the cube of a point or, if there is no cell, in the one along the side whose surface is near to that.
+// In the cube of a point or one beside it along the side, that whose plane is nearest.
 std::optional<Radiosity::Nearest> Radiosity::nearest(glm::dvec3 cube, glm::dvec3 place, uint32_t side) const {
-    const int axis = axes_of(side).along;
+    std::optional<Nearest> found;
     for (const double layer : {0.0, -1.0, 1.0}) {
         glm::dvec3 there = cube;
-        there[axis] += layer;
+        there[axes_of(side).along] += layer;
         const std::optional<uint32_t> number = grid.cell(there, side), index = number ? find(*number) : std::nullopt;
         if (!index) continue;
-        const double height = double(heights[*index]) / grid.size;
-        if (layer != 0 && (side % 2 ? layer : -layer) * height < 0.5 - kNearBorder) continue;
-        return Nearest{*index, std::abs(along(place - there - 0.5, side) - height)};
+        const double off =
+            std::abs(glm::dot(glm::dvec3(normals[*index]), place - there - 0.5) - double(heights[*index]) / grid.size);
+        if (!found || off < found->off) found = Nearest{*index, off};
     }
-    return std::nullopt;
+    return found;
 }
 
-// The cells at a point and beside it, across the side.
-std::array<std::optional<Radiosity::Nearest>, 4> Radiosity::columns_at(glm::dvec3 place, glm::dvec3 corner,
-                                                                       uint32_t side) const {
-    const auto [axis, across, over] = axes_of(side);
-    std::array<std::optional<Nearest>, 4> columns;
-    for (uint32_t k = 0; k < 4; ++k) {
-        glm::dvec3 cube = glm::floor(place);
-        cube[across] = corner[across] + (k & 1), cube[over] = corner[over] + (k >> 1);
-        columns[k] = nearest(cube, place, side);
-    }
-    return columns;
-}
-
-// Of one of four columns as another sees it, in the order of `beside`.
-uint32_t Radiosity::number_beside(uint32_t own, uint32_t other) {
-    const int across = int(other & 1) - int(own & 1), over = int(other >> 1) - int(own >> 1);
+// Of two cells beside each other across a side, the one as the other sees it, in the order of `beside`; none if it is
+// the same or over it.
+std::optional<uint32_t> Radiosity::number_beside(int across, int over) {
     const int number = 3 * (over + 1) + across + 1;
+    if (number == 4) return std::nullopt;
     return uint32_t(number > 4 ? number - 1 : number);
 }
 
 glm::dvec3 Radiosity::at(std::span<const glm::vec3> values, glm::dvec3 point, glm::dvec3 normal) const {
     const uint32_t side = side_of(normal);
-    const glm::dvec3 place = grid.place(point);
-    const auto [axis, across, over] = axes_of(side);
-    const glm::dvec3 corner = glm::floor(place - 0.5), share = place - 0.5 - corner;
-    const std::array<std::optional<Nearest>, 4> columns = columns_at(place, corner, side);
-    // The column of the point itself says which of the others it sees.
-    const uint32_t own = (share[across] >= 0.5 ? 1 : 0) + (share[over] >= 0.5 ? 2 : 0);
-    const uint32_t hidden = columns[own] && !walls.empty() ? walls[columns[own]->index] : 0;
+    const glm::dvec3 place = grid.place(point), corner = glm::floor(place - 0.5), share = place - 0.5 - corner;
+    const Axes axes = axes_of(side);
+    const auto index_of = [&](glm::dvec3 cube) -> std::optional<uint32_t> {
+        const std::optional<uint32_t> number = grid.cell(cube, side);
+        return number ? find(*number) : std::nullopt;
+    };
+    // The cell of the point's cube says which of the others it sees.
+    const glm::dvec3 own = glm::floor(place);
+    const std::optional<uint32_t> own_index = index_of(own);
+    const uint32_t hidden = own_index && !walls.empty() ? walls[*own_index] : 0;
     glm::dvec3 sum(0);
     double weights = 0;
-    for (uint32_t k = 0; k < 4; ++k) {
-        if (!columns[k] || (k != own && hidden >> number_beside(own, k) & 1)) continue;
-        const double linear = (k & 1 ? share[across] : 1 - share[across]) * (k >> 1 ? share[over] : 1 - share[over]);
-        const double weight = linear * std::max(1 - columns[k]->off / kSameSurface, kElsewhere) + kLeastWeight;
-        sum += weight * glm::dvec3(values[columns[k]->index]), weights += weight;
+    for (uint32_t k = 0; k < 8; ++k) {
+        const glm::dvec3 offset(k & 1, k >> 1 & 1, k >> 2), cube = corner + offset, step = cube - own,
+                                                            linear = glm::mix(1.0 - share, share, offset);
+        const std::optional<uint32_t> index = index_of(cube),
+                                      beside_own = number_beside(int(step[axes.across]), int(step[axes.over]));
+        if (!index || (beside_own && hidden >> *beside_own & 1)) continue;
+        const double off =
+            std::abs(glm::dot(glm::dvec3(normals[*index]), place - cube - 0.5) - double(heights[*index]) / grid.size);
+        const double weight =
+            linear.x * linear.y * linear.z * std::max(1 - off / kSameSurface, kElsewhere) + kLeastWeight;
+        sum += weight * glm::dvec3(values[*index]), weights += weight;
     }
     double weights_of_air = 0;
     if (weights < 2 * kElsewhere) {

@@ -47,13 +47,12 @@ struct Radiosity {
     static constexpr uint32_t kBeside = 8;
     static constexpr uint32_t kLamp = 1u << 31u;
     static constexpr double kPackedUnit = 16;  ///< lx
-    /// In cubes: how near to a border a surface may go on beyond it; how far from the height of a cell it is another
-    /// one; the weight of such, and the least weight.
-    static constexpr double kNearBorder = 0.25, kSameSurface = 0.75, kElsewhere = 1e-3, kLeastWeight = 1e-7;
+    /// How far from the plane of a cell is another surface, cubes; the weight of such, and the least weight.
+    static constexpr double kSameSurface = 0.75, kElsewhere = 1e-3, kLeastWeight = 1e-7;
 
     CellGrid grid;
     std::vector<uint32_t> numbers;  ///< of the cells, ascending
-    std::vector<float> heights;     ///< of their surfaces, mean, over the middle of the cube along the side, m
+    std::vector<float> heights;     ///< of their mean plane over the middle of the cube, along its normal, m
     std::vector<float> areas;       ///< of them, m^2; 0 of those that only rays found
     std::vector<glm::vec3> normals;
     std::vector<glm::vec3> reflectances;
@@ -82,8 +81,8 @@ struct Radiosity {
     };
     Solution solve(const RadiosityLight& light) const;
 
-    /// Of cells' values, the one at a point of a surface: linear between four cells beside each other that face the
-    /// same side, those at its height; where there is none, between those of the air. 0 where there are none either.
+    /// Of cells' values, the one at a point of a surface: linear between the eight cells around it that face the same
+    /// side, those in its plane; where there is none, between those of the air. 0 where there are none either.
     glm::dvec3 at(std::span<const glm::vec3> values, glm::dvec3 point, glm::dvec3 normal) const;
 
 private:
@@ -91,8 +90,7 @@ private:
         uint32_t index;
         double off;  // in cubes
     };
-    static uint32_t number_beside(uint32_t own, uint32_t other);
-    std::array<std::optional<Nearest>, 4> columns_at(glm::dvec3 place, glm::dvec3 corner, uint32_t side) const;
+    static std::optional<uint32_t> number_beside(int across, int over);
     std::optional<Nearest> nearest(glm::dvec3 cube, glm::dvec3 place, uint32_t side) const;
     glm::dvec3 in_air(std::span<const glm::vec3> values, glm::dvec3 place, glm::dvec3 normal, double& weights) const;
 };

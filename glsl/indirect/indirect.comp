@@ -43,50 +43,58 @@ uint number_of(vec3 cube, vec3 cubes, uint side) {
 
 vec3 light_of(uvec4 cell) { return kCellUnit * vec3(unpackHalf2x16(cell.y), unpackHalf2x16(cell.z).x); }
 
-// The cells of the cube that a point is in, or nearest to, and of those beside it, across the side that its surface faces. They are the
-// same for all points of a part of a cube.
-struct Columns {
-    ivec4 of;         // the part, and the side
-    vec3 light[4];    // lx
-    float height[4];  // in cubes
-    uint walls[4];    // bits of hidden ones around; kNoCell: there is no cell
+// The cells of the eight cubes whose middles are around a point, on the side that its surface faces. They are the same for all points
+// between these middles. Cells 2 k and 2 k + 1 are the lower and the upper of a column; columns 0 and 1, 2 and 3 follow each other across
+// the side.
+struct Corners {
+    ivec4 of;        // the cube lowest along each axis, and the side
+    vec4 light[8];   // lx, and 1; nothing where there is no cell
+    vec4 plane[8];   // of their surfaces: the normal, and its product with points on it, from the corner of the lowest cube, in cubes
+    uint walls[8];   // bits of hidden ones around
 };
 
-Columns columns_of(ivec4 of) {
-    Columns columns;
-    columns.of = of;
+// Of a vector: along a side, and across it the two axes after that.
+vec3 turned_to(uint axis, vec3 v) { return axis == 0u ? v.xyz : axis == 1u ? v.yzx : v.zxy; }
+vec3 turned_back(uint axis, vec3 v) { return axis == 0u ? v.xyz : axis == 1u ? v.zxy : v.yzx; }
+
+Corners corners_of(ivec4 of) {
+    Corners corners;
+    corners.of = of;
     const uint axis = uint(of.w) >> 1u;
-    [[unroll]] for (uint k = 0u; k < 4u; ++k) {
-        const float u = float(k & 1u), v = float(k >> 1u);
-        const vec3 cube = vec3(of.xyz) + (axis == 0u ? vec3(0.0, u, v) : axis == 1u ? vec3(v, 0.0, u) : vec3(u, v, 0.0));
-        const uvec4 cell = find(number_of(cube, push.cubes, uint(of.w)));
-        const float height = uintBitsToFloat(cell.w), layer = axis == 0u ? cube.x : axis == 1u ? cube.y : cube.z;
-        columns.light[k] = light_of(cell);
-        columns.height[k] = layer + 0.5 + ((of.w & 1) != 0 ? -height : height);
-        columns.walls[k] = cell.x != kNoCell ? cell.z >> 16u : kNoCell;
+    [[unroll]] for (uint k = 0u; k < 8u; ++k) {
+        const vec3 offset = turned_back(axis, vec3(k & 1u, k >> 1u & 1u, k >> 2u));
+        const uint number = number_of(vec3(of.xyz) + offset, push.cubes, uint(of.w));
+        const uvec4 cell = find(number);
+        const bool there = cell.x == number && number != kNoCell;
+        const vec3 normal = decode_normal(unpackSnorm4x8(cell.w).zw);
+        corners.light[k] = there ? vec4(light_of(cell), 1.0) : vec4(0.0);
+        corners.plane[k] = vec4(normal, dot(normal, offset + 0.5) + unpackHalf2x16(cell.w).x);
+        corners.walls[k] = there ? cell.z >> 16u : 0u;
     }
-    return columns;
+    return corners;
 }
 
-// Of light and its weight, the sum over the columns.
-vec4 on_surfaces(Columns columns, vec3 at) {
-    const uint axis = uint(columns.of.w) >> 1u;
-    const vec3 share = fract(at - 0.5);
-    const vec2 across = axis == 0u ? share.yz : axis == 1u ? share.zx : share.xy;
-    const float height = axis == 0u ? at.x : axis == 1u ? at.y : at.z;
-    // The column of the point itself says which of the others it sees.
-    const ivec2 own = ivec2(greaterThanEqual(across, vec2(0.5)));
-    uint hidden = columns.walls[0];
-    [[unroll]] for (uint k = 1u; k < 4u; ++k) hidden = own == ivec2(k & 1u, k >> 1u) ? columns.walls[k] : hidden;
-    hidden = hidden == kNoCell ? 0u : hidden;
+// Of light and its weight, the sum over the corners.
+vec4 on_surfaces(Corners corners, vec3 at) {
+    const vec3 local = at - vec3(corners.of.xyz), share = turned_to(uint(corners.of.w) >> 1u, clamp(local - 0.5, 0.0, 1.0));
+    // The cell of the point's cube says which of the others it sees.
+    const ivec3 own = ivec3(greaterThanEqual(share, vec3(0.5)));
+    uint hidden = corners.walls[0];
+    [[unroll]] for (uint k = 1u; k < 8u; ++k) hidden = own == ivec3(k & 1u, k >> 1u & 1u, k >> 2u) ? corners.walls[k] : hidden;
     vec4 sum = vec4(0.0);
-    [[unroll]] for (uint k = 0u; k < 4u; ++k) {
-        const ivec2 other = ivec2(k & 1u, k >> 1u) - own;
+    [[unroll]] for (uint column = 0u; column < 4u; ++column) {
+        const uint u = column & 1u, v = column >> 1u;
+        const ivec2 other = ivec2(u, v) - own.yz;
         const int number = 3 * (other.y + 1) + other.x + 1;
         const bool seen = other == ivec2(0) || (hidden >> uint(number > 4 ? number - 1 : number) & 1u) == 0u;
-        const float linear = ((k & 1u) != 0u ? across.x : 1.0 - across.x) * (k >> 1u != 0u ? across.y : 1.0 - across.y);
-        const float layer = max(1.0 - abs(height - columns.height[k]) / kSameSurface, kElsewhere);
-        sum += seen && columns.walls[k] != kNoCell ? (linear * layer + kLeastWeight) * vec4(columns.light[k], 1.0) : vec4(0.0);
+        const float linear = (u != 0u ? share.y : 1.0 - share.y) * (v != 0u ? share.z : 1.0 - share.z);
+        vec4 both = vec4(0.0);
+        [[unroll]] for (uint layer = 0u; layer < 2u; ++layer) {
+            const uint k = 2u * column + layer;
+            const float same = max(1.0 - abs(dot(corners.plane[k].xyz, local) - corners.plane[k].w) / kSameSurface, kElsewhere);
+            both += (linear * (layer != 0u ? share.x : 1.0 - share.x) * same + kLeastWeight) * corners.light[k];
+        }
+        sum += seen ? both : vec4(0.0);
     }
     return sum;
 }
@@ -128,11 +136,10 @@ Point point_of(uvec2 pixel) {
     point.at = push.eye + push.x_axis * point.position.x + push.y_axis * point.position.y + push.z_axis * point.position.z;
     point.normal = push.x_axis * point.n.x + push.y_axis * point.n.y + push.z_axis * point.n.z;
     point.plain = -surface.w;
-    const vec3 a = abs(point.normal);
+    const vec3 a = vec3(kSideFactorX, kSideFactorY, kSideFactorZ) * abs(point.normal);
     const uint axis = a.x >= a.y && a.x >= a.z ? 0u : a.y >= a.z ? 1u : 2u;
-    const bvec3 along = bvec3(axis == 0u, axis == 1u, axis == 2u);
     const bool backwards = (axis == 0u ? point.normal.x : axis == 1u ? point.normal.y : point.normal.z) < 0.0;
-    point.part = ivec4(mix(floor(point.at - 0.5), floor(point.at), along), 2u * axis + (backwards ? 1u : 0u));
+    point.part = ivec4(floor(point.at - 0.5), 2u * axis + (backwards ? 1u : 0u));
     return point;
 }
 
@@ -154,17 +161,17 @@ void add(uvec2 pixel, Point point, vec4 found) {
 void main() {
     const uvec2 first = gl_GlobalInvocationID.xy * uvec2(1u, kRows);
     uint r = 0u, alone = 0u;  // rows beside no cell of a surface, a bit each
-    // A run of rows in one part of a cube shares its columns. A CPU device goes through what a branch leaves out, but leaves loops that
+    // A run of rows in one part of a cube shares its corners. A CPU device goes through what a branch leaves out, but leaves loops that
     // ask at their end.
     do {
         const ivec4 part = point_of(first + uvec2(0u, r)).part;
-        const Columns columns = columns_of(part);
+        const Corners corners = corners_of(part);
         bool more;
         do {
             const uvec2 pixel = first + uvec2(0u, r);
             const Point point = point_of(pixel);
             if (point.drawn) {
-                const vec4 found = on_surfaces(columns, point.at);
+                const vec4 found = on_surfaces(corners, point.at);
                 if (found.w >= 2.0 * kElsewhere) {
                     add(pixel, point, found);
                 } else {
@@ -181,7 +188,7 @@ void main() {
             const uvec2 pixel = first + uvec2(0u, uint(findLSB(alone)));
             const Point point = point_of(pixel);
             const vec4 air = in_air(point.at, point.normal);
-            add(pixel, point, air.w > 0.0 ? air : on_surfaces(columns_of(point.part), point.at));
+            add(pixel, point, air.w > 0.0 ? air : on_surfaces(corners_of(point.part), point.at));
         }
         alone &= alone - 1u;
     } while (alone != 0u);

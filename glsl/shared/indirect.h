@@ -7,18 +7,17 @@ SHARED_BEGIN
 // Cells lie in a table of rgba32ui texels, by a hash of their number and, where that is taken, the next free one after it
 // (Knuth 1973, linear probing); the last is followed by the first. x: the number, y and z: red and green, and blue, as
 // halves of kCellUnit lx, and in the upper half of z a bit for each cell around that a wall hides, by rows from (-1, -1) to
-// (1, 1) across the side; w: the height of their surfaces over the middle of the cube, along the side, in cubes, a float.
-// A cell whose surface is within kNearBorder of a neighbouring cube stands for that too, if there is no cell: for points
-// beyond the border by rounding or a slope.
+// (1, 1) across the side; w: the height of the plane of their surfaces over the middle of the cube, along its normal, in
+// cubes, a half, and above it the normal, octahedral, two signed bytes.
 const uint kNoCell = 0xffffffffu;  // x of an empty place
 const uint kCellHash = 2654435769u;  // times the number; its upper bits are the place
 const float kCellUnit = 16.0f;       // lx
 const uint kCellSides = 6u;          // of a cube: +x, -x, +y, -y, +z, -z
 const uint kAirCubes = 4u;           // along each axis of one of air
 
-// In cubes, how far a surface is from the height of a cell.
-const float kNearBorder = 0.25f;   // of a cube
-const float kSameSurface = 0.75f;  // from there on it is another surface
+// Times the components of a normal along each axis before they are compared, see transport::kSideFactors.
+const float kSideFactorX = 1.0002f, kSideFactorY = 1.0001f, kSideFactorZ = 1.0f;
+const float kSameSurface = 0.75f;  // cubes: so far off the plane of a cell is another surface
 const float kElsewhere = 1e-3f;    // weight of such
 const float kLeastWeight = 1e-7f;  // of any cell
 

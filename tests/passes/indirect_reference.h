@@ -1,13 +1,11 @@
 // Light of cells on surfaces, one pixel after another, in double. SPDX-License-Identifier: MIT
-// Each cell of the list is asked in turn what it gives a point: none but the cells of the four cubes beside each other
-// across the side that are nearest, and the one of each that counts there; but none that a wall hides from the cell of
-// the point's own column. Weights are tents across the side, times one along it that falls to that of another surface.
+// Each cell of the list is asked in turn what it gives a point: none but those whose middles are less than a cube away
+// along each axis, and none that a wall hides from the cell of the point's own cube. Weights are tents around the
+// middle, times one that falls with the distance from the plane of the cell to that of another surface.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <utility>
 #include <vector>
 
 #include "gpu_scene/view.h"
@@ -19,7 +17,8 @@ namespace vesper::reference {
 struct LitCell {
     uint32_t number;
     dvec3 light;          // lx
-    double height;        // over the middle of its cube, along its side, m
+    double height;        // of its plane over the middle of its cube, m
+    dvec3 normal;         // of that
     uint32_t hidden = 0;  // bits of the eight cells around it that walls hide, see step_of()
 };
 
@@ -29,9 +28,7 @@ inline glm::ivec2 step_of(uint32_t bit) {
     return {kSteps[bit][0], kSteps[bit][1]};
 }
 
-// In cubes: how near to a border a surface stands for the next cube too; how far off a cell's height is another
-// surface.
-constexpr double kNearBorder = 0.25, kSameSurface = 0.75;
+constexpr double kSameSurface = 0.75;                     // cubes: so far off a cell's plane is another surface
 constexpr double kElsewhere = 1e-3, kLeastWeight = 1e-7;  // the weight of such, and of any cell
 constexpr double kAirCubes = 4;                           // side of a cube of air
 
@@ -54,7 +51,7 @@ public:
             const dvec3 in_grid = (grid.middle(cell.number) - grid.origin) / grid.size,
                         middle = air ? in_grid : glm::floor(in_grid) + 0.5;
             (air ? air_ : surfaces_)[cell.number % 6].push_back(
-                {middle, cell.light, cell.height / grid.size, cell.hidden});
+                {middle, cell.light, cell.normal, cell.height / grid.size, cell.hidden});
         }
     }
 
@@ -64,37 +61,24 @@ public:
     /// `place` in cubes; `side` 0 to 5: +x, -x, +y, -y, +z, -z.
     CellLight on_surfaces(dvec3 place, uint32_t side) const {
         const int along = int(side / 2), across = (along + 1) % 3, over = (along + 2) % 3;
-        const double way = side % 2 ? -1 : 1;
-        if (!(place[along] >= 0 && place[along] < grid_.count[along])) return {};  // beyond the grid
-        // Of each column of cubes the cell that counts: its own cube's, else one that is near the border to it, first
-        // the lower one.
-        std::map<std::pair<double, double>, std::pair<int, const Lit*>> columns;
-        for (const Lit& cell : surfaces_[side]) {
-            const double u = place[across] - cell.middle[across], v = place[over] - cell.middle[over];
-            if (u < -1 || u >= 1 || v < -1 || v >= 1) continue;
-            const double layer = std::floor(cell.middle[along]) - std::floor(place[along]);
-            if (std::abs(layer) > 1) continue;
-            const double to_border = 0.5 + layer * way * cell.height;  // of the cube that the point is in
-            if (layer != 0 && to_border > kNearBorder) continue;
-            const std::pair candidate(layer == 0 ? 0 : layer < 0 ? 1 : 2, &cell);
-            const auto [known, added] = columns.try_emplace({cell.middle[across], cell.middle[over]}, candidate);
-            if (candidate.first < known->second.first) known->second = candidate;
-        }
-        const std::pair own(std::floor(place[across]) + 0.5, std::floor(place[over]) + 0.5);
-        const uint32_t hidden = columns.contains(own) ? columns.at(own).second->hidden : 0;
+        const dvec3 own = glm::floor(place) + 0.5;
+        uint32_t hidden = 0;
+        for (const Lit& cell : surfaces_[side])
+            if (cell.middle == own) hidden = cell.hidden;
         CellLight sum;
-        for (const auto& [column, chosen] : columns) {
-            const Lit& cell = *chosen.second;
+        for (const Lit& cell : surfaces_[side]) {
+            const dvec3 off = place - cell.middle;
+            if (glm::any(glm::lessThan(off, dvec3(-1))) || glm::any(glm::greaterThanEqual(off, dvec3(1)))) continue;
             bool behind_a_wall = false;
             for (uint32_t bit = 0; bit < 8; ++bit)
-                behind_a_wall = behind_a_wall || (hidden >> bit & 1 && column.first == own.first + step_of(bit).x &&
-                                                  column.second == own.second + step_of(bit).y);
+                behind_a_wall =
+                    behind_a_wall || (hidden >> bit & 1 && cell.middle[across] == own[across] + step_of(bit).x &&
+                                      cell.middle[over] == own[over] + step_of(bit).y);
             if (behind_a_wall) continue;
-            const double tent =
-                (1 - std::abs(place[across] - column.first)) * (1 - std::abs(place[over] - column.second));
-            const double off = std::abs(place[along] - (cell.middle[along] + way * cell.height));
-            const double same = std::max(1 - off / kSameSurface, kElsewhere);
-            sum.add(tent * same + kLeastWeight, cell.light);
+            const dvec3 tent = 1.0 - glm::abs(off);
+            const double same =
+                std::max(1 - std::abs(glm::dot(cell.normal, off) - cell.height) / kSameSurface, kElsewhere);
+            sum.add(tent.x * tent.y * tent.z * same + kLeastWeight, cell.light);
         }
         return sum;
     }
@@ -117,7 +101,7 @@ public:
 
 private:
     struct Lit {
-        dvec3 middle, light;
+        dvec3 middle, light, normal;
         double height;  // cubes
         uint32_t hidden;
     };
@@ -134,13 +118,15 @@ inline dvec3 illuminance_on_side(const CellList& cells, dvec3 place, dvec3 norma
     return found.weight > 0 ? found.light / found.weight : cells.open(normal);
 }
 
-/// The sides that a normal goes to most, but for `rounding` of its components; the first is the one.
+/// The sides that a normal goes to most, but for `rounding` of its components; the first is the one. A component along
+/// x counts 0.02 % more than it is, along y 0.01 %.
 inline std::vector<uint32_t> sides_of(dvec3 normal, double rounding = 0) {
-    const double most = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
+    const dvec3 counted = glm::abs(normal) * dvec3(1.0002, 1.0001, 1);
+    const double most = std::max({counted.x, counted.y, counted.z});
     std::vector<uint32_t> sides;
     for (int axis = 0; axis < 3; ++axis)
-        if (std::abs(normal[axis]) >= most - rounding) sides.push_back(uint32_t(2 * axis + (normal[axis] < 0 ? 1 : 0)));
-    std::ranges::stable_sort(sides, std::greater{}, [&](uint32_t s) { return std::abs(normal[int(s / 2)]); });
+        if (counted[axis] >= most - rounding) sides.push_back(uint32_t(2 * axis + (normal[axis] < 0 ? 1 : 0)));
+    std::ranges::stable_sort(sides, std::greater{}, [&](uint32_t s) { return counted[int(s / 2)]; });
     return sides;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/packing.hpp>
 
 #include "gpu_scene/irradiance_cells.h"
 #include "render/passes/indirect.h"
@@ -55,10 +56,12 @@ MadeCells cells_around(dvec3 middle, uint32_t seed, double part) {
             for (int x = 0; x < 25; ++x)
                 for (uint32_t side = 0; side < 6; ++side) {
                     const bool there = double(random.unit()) < part;
-                    const double height = 0.8 * (double(random.unit()) - 0.5);
+                    const double height = 0.8 * glm::unpackHalf1x16(glm::packHalf1x16(random.unit() - 0.5f));
+                    const auto byte = [&] { return std::round(double(random.unit()) * 254 - 127) / 127; };
+                    const vec3 normal(reference::octahedral_decode({byte(), byte()}));
                     uint8_t walls = 0;
                     for (uint32_t bit = 0; bit < 8; ++bit) walls |= uint8_t((random.unit() < 0.25f ? 1u : 0u) << bit);
-                    if (there) made.add({x, y, z}, side, height, light(), walls);
+                    if (there) made.add({x, y, z}, side, normal, height, light(), walls);
                 }
     for (int z = 0; z < 7; ++z)
         for (int y = 0; y < 4; ++y)
@@ -93,7 +96,7 @@ void expect_reference(const std::vector<glm::vec4>& got, const Lit& s, const Mad
                       const gpu_scene::View& view) {
     std::vector<reference::LitCell> list;
     for (const auto& [number, cell] : made.cells)
-        list.push_back({number, dvec3(cell.light), double(cell.height), cell.walls});
+        list.push_back({number, dvec3(cell.light), double(cell.height), dvec3(cell.normal), cell.walls});
     const reference::CellList cells(made.grid, list, dvec3(kAbove), dvec3(kBelow));
     const dvec3 eye = made.grid.place(gpu_scene::eye_of(view));
     size_t jumps = 0;

@@ -16,14 +16,23 @@ struct MadeCells {
         float height;  // m
         glm::vec3 light;
         uint8_t walls;  // bits, as in Radiosity
+        glm::vec3 normal;
     };
     std::map<uint32_t, Cell> cells;  // by number
 
+    static glm::vec3 normal_of(uint32_t side) {
+        glm::vec3 normal(0);
+        normal[int(side / 2)] = side % 2 ? -1.0f : 1.0f;
+        return normal;
+    }
     void add(glm::dvec3 cube, uint32_t side, double height, glm::vec3 light, uint8_t walls = 0) {
-        cells[grid.cell(cube, side).value()] = {float(height), light, walls};
+        add(cube, side, normal_of(side), height, light, walls);
+    }
+    void add(glm::dvec3 cube, uint32_t side, glm::vec3 normal, double height, glm::vec3 light, uint8_t walls = 0) {
+        cells[grid.cell(cube, side).value()] = {float(height), light, walls, normal};
     }
     void add_air(glm::dvec3 cube, uint32_t side, glm::vec3 light) {
-        cells[grid.air_cell(cube, side).value()] = {0, light, 0};
+        cells[grid.air_cell(cube, side).value()] = {0, light, 0, normal_of(side)};
     }
 
     transport::Radiosity radiosity() const {
@@ -32,9 +41,7 @@ struct MadeCells {
         for (const auto& [number, cell] : cells) {
             radiosity.numbers.push_back(number), radiosity.heights.push_back(cell.height);
             radiosity.walls.push_back(cell.walls);
-            glm::vec3 normal(0);
-            normal[int(grid.side(number) / 2)] = grid.side(number) % 2 ? -1.0f : 1.0f;
-            radiosity.normals.push_back(normal);
+            radiosity.normals.push_back(cell.normal);
         }
         return radiosity;
     }

@@ -62,7 +62,7 @@ TEST(RadiosityAt, GoesOnBesideTheLastCell) {
     EXPECT_EQ(at(made, {4.5, 4.5, 2.9}, 2), dvec3(0));
 }
 
-// Halfway between two columns: of a cell whose surface is h cubes off 1 - h / 0.75 counts, at least 0.001.
+// Halfway between two cells: of one whose plane is h cubes off 1 - h / 0.75 counts, at least 0.001.
 TEST(RadiosityAt, SurfacesAtOtherHeightsCountLess) {
     for (uint32_t side = 0; side < kSides; ++side)
         for (const double off : {-0.5, -0.3, 0.0, 0.15, 0.3, 0.45}) {
@@ -79,28 +79,34 @@ TEST(RadiosityAt, SurfacesAtOtherHeightsCountLess) {
     EXPECT_NEAR(at(made, {5, 4.05, 4.5}, 2).x, (10 + 20 * 0.001) / 1.001, 1e-5);
 }
 
-// A cell whose surface is within a quarter of a cube of the border, and no other, stands for the cube beyond it.
-TEST(RadiosityAt, ASurfaceGoesOnBeyondANearBorder) {
-    for (uint32_t side = 0; side < kSides; ++side) {
-        const double way = side % 2 ? -1 : 1;
-        for (const double height : {-0.45, -0.3, -0.2, 0.0, 0.2, 0.3, 0.45}) {
-            MadeCells made{kGrid, {}};
-            made.add(placed(side, 4, 4, 4), side, height * kGrid.size, vec3(10));
-            const double surface = 4.5 + way * height;
-            for (const double step : {-1.0, 1.0}) {
-                const double border = step > 0 ? 5 : 4, beyond = border + step * 0.1;
-                const bool near = std::abs(surface - border) < 0.25;
-                EXPECT_NEAR(at(made, placed(side, beyond, 4.5, 4.5), side).x, near ? 10 : 0, 1e-9)
-                    << side << " from " << height << " by " << step;
-            }
+// A plane that slopes through cubes: its cells lie in more than one layer, and the values of a plane are met, as at no
+// place the cells of the plane are left out. Where a plane leaves a cube near its corner there may be no cell.
+TEST(RadiosityAt, IsContinuousOnSlopes) {
+    for (const dvec3 slope : {dvec3(0, 1, 1), dvec3(0.3, 1, -0.9), dvec3(-0.5, 1, 0.2)}) {
+        const dvec3 normal = glm::normalize(slope);
+        MadeCells made{kGrid, {}};
+        const auto value = [](dvec3 place) { return 50 + 3 * place.x - 2 * place.z; };
+        for (int x = 0; x < 9; ++x)
+            for (int y = 0; y < 10; ++y)
+                for (int z = 0; z < 11; ++z) {
+                    const dvec3 middle(x + 0.5, y + 0.5, z + 0.5);
+                    const double height = glm::dot(normal, dvec3(4.5, 5, 5.5) - middle);  // cubes
+                    if (std::abs(height) < 0.6)
+                        made.add({x, y, z}, 2, vec3(normal), height * kGrid.size,
+                                 vec3(float(value(middle + height * normal))));
+                }
+        const std::vector<vec3> light = made.light();
+        const Radiosity radiosity = made.radiosity();
+        double before = 0;
+        for (double z = 4; z < 7; z += 0.01) {
+            const double x = 4.2 + 0.1 * z;
+            const dvec3 place(x, 5 - (slope.x * (x - 4.5) + slope.z * (z - 5.5)), z);
+            const double found = radiosity.at(light, kGrid.origin + kGrid.size * place, normal).x;
+            EXPECT_NEAR(found, value(place), 1) << z;
+            if (before > 0) EXPECT_NEAR(found, before, 0.1) << z << ": a step";
+            before = found;
         }
     }
-    // If there is a cell in the cube itself, that counts; of two beside it the lower.
-    MadeCells made{kGrid, {}};
-    made.add({4, 3, 4}, 2, 0.4 * kGrid.size, vec3(10)), made.add({4, 5, 4}, 2, -0.4 * kGrid.size, vec3(20));
-    EXPECT_NEAR(at(made, {4.5, 4.5, 4.5}, 2).x, 10, 1e-9);
-    made.add({4, 4, 4}, 2, 0, vec3(30));
-    EXPECT_NEAR(at(made, {4.5, 4.5, 4.5}, 2).x, 30, 1e-9);
 }
 
 // The air: linear between eight cubes, by the squares of the normal's components. Where a surface is near it counts

@@ -93,9 +93,10 @@ struct Gathering {
         std::vector<uint16_t> parts;  // as Radiosity::parts
         struct Region {
             std::vector<uint32_t> cells;
-            std::vector<Light> of_lamps;   // to each
             std::vector<uint32_t> counts;  // of sources of each
             std::vector<Radiosity::Source> sources;
+            std::vector<uint32_t> lamp_counts;  // likewise, of lamps alone
+            std::vector<Radiosity::Source> lamps;
             std::vector<FoundPlace> places;  // where rays met what is no cell yet
         };
         std::vector<Region> regions;
@@ -149,16 +150,24 @@ struct Gathering {
         return {number, cosine / density(start, number, to, cosine) * emission};
     }
 
-    // Returns the number of the cell that a ray meets, and the part of its light that it brings.
-    std::pair<uint32_t, double> send(const Start& start, glm::dvec3 direction, double share, Light& meshes, float& sky,
-                                     std::vector<FoundPlace>& places) const {
+    // A ray, and what it met.
+    struct Sent {
+        uint32_t met = Radiosity::kNowhere;  // number
+        double part = 0;                     // of the light of what it met that it brings
+        bool guided = false;                 // guided ones go there, too
+        bool to_sky = false;
+    };
+
+    Sent send(const Start& start, glm::dvec3 direction, double share, Light& meshes,
+              std::vector<FoundPlace>& places) const {
         const double cosine = glm::dot(start.normal, direction);
-        if (!(cosine > 0)) return {Radiosity::kNowhere, 0};
-        const double part = share * cosine / (std::numbers::pi * density(start, direction, cosine));
+        if (!(cosine > 0)) return {};
+        Sent sent{.part = share * cosine / (std::numbers::pi * density(start, direction, cosine)),
+                  .guided = start.guided > 0 && start.guide.density(direction) > 0};
         const std::optional<rays::Hit> hit = rays.nearest(start.point, start.point + kReach * direction);
         if (!hit) {
-            sky += float(part);
-            return {Radiosity::kNowhere, 0};
+            sent.to_sky = true;
+            return sent;
         }
         const SurfacePoint surface = surfaces.emitted(*hit, start.point);
         if (surface.emission != glm::dvec3(0))
@@ -167,10 +176,20 @@ struct Gathering {
                 add_to(meshes, hit->node, share * cosine / density(start, *number, to, cosine) * surface.emission);
             }
         const std::optional<uint32_t> cell = surface_cells.number(surface.position, surface.normal);
-        if (!cell) return {Radiosity::kNowhere, 0};
+        if (!cell) return sent;
         if (!std::ranges::binary_search(known, *cell))
             places.push_back({surface.position, surface.normal, surfaces.reflectance(*hit), hit->node, 1, 0});
-        return {*cell, part};
+        sent.met = *cell;
+        return sent;
+    }
+
+    // All parts together are 1: guided rays know best how much is where they go, and the others bring the rest.
+    static void balance(std::vector<Sent>& all) {
+        double guided = 0, others = 0;
+        for (const Sent& sent : all) (sent.guided ? guided : others) += sent.part;
+        const double of_guided = guided > 0 && (guided > 1 || others == 0) ? 1 / guided : 1,
+                     of_others = others > 0 ? std::max(1 - guided, 0.0) / others : 1;
+        for (Sent& sent : all) sent.part *= sent.guided ? of_guided : of_others;
     }
 
     // Of a cell: before its surfaces.
@@ -191,40 +210,51 @@ struct Gathering {
             Random random(~uint64_t{round.numbers[i]});
             shares.clear();
             lamps.sample(places_of(round, i), shadow_rays, random, shares);
-            Light& light = region.of_lamps.emplace_back();
+            Light light;
             for (const LampLight::Share& s : shares) add_to(light, s.node | Radiosity::kLamp, s.lux);
+            const size_t before = region.lamps.size();
+            keep_strongest(light, region.lamps);
+            region.lamp_counts.push_back(uint32_t(region.lamps.size() - before));
         }
     }
 
     // From the light of lamps on the cells of a round.
     LitCells lit_cells(const Round& round) const {
         std::vector<LitCells::Cell> cells;
-        for (const Round::Region& region : round.regions)
+        for (const Round::Region& region : round.regions) {
+            auto source = region.lamps.begin();
             for (size_t k = 0; k < region.cells.size(); ++k) {
                 const uint32_t number = round.numbers[region.cells[k]];
                 const CellPlaces& cell = round.cells[region.cells[k]];
                 glm::dvec3 lux(0);
-                for (const auto& [source, of_lamp] : region.of_lamps[k]) lux += of_lamp;
+                for (const auto end = source + region.lamp_counts[k]; source != end; ++source)
+                    lux += source->illuminance();
                 const double flux = cell.area * luminance(lux * cell.reflectance / cell.weight);
                 if (flux > 0 && !grid.is_air(number))
                     cells.push_back({number, grid.middle(number) + cell.point / cell.weight, flux});
             }
+        }
         std::ranges::sort(cells, {}, &LitCells::Cell::number);
         return LitCells(grid, cells);
     }
 
     void gather(Round& round, Round::Region& region, uint32_t fewer) const {
         Sight sight(emitters.groups().size());
+        auto lamp = region.lamps.begin();
         for (size_t k = 0; k < region.cells.size(); ++k) {
-            gather(round, region.cells[k], fewer, sight, region, region.of_lamps[k]);
+            const size_t before = region.sources.size();
+            region.sources.insert(region.sources.end(), lamp, lamp + region.lamp_counts[k]);
+            lamp += region.lamp_counts[k];
+            gather(round, region.cells[k], fewer, sight, region);
+            region.counts.push_back(uint32_t(region.sources.size() - before));
             sight.end_cell();
         }
     }
 
-    void gather(Round& round, size_t i, uint32_t fewer, Sight& sight, Round::Region& region, Light& of_lamps) const {
+    void gather(Round& round, size_t i, uint32_t fewer, Sight& sight, Round::Region& region) const {
         const uint32_t number = round.numbers[i];
         const std::vector<SurfacePlace> places = places_of(round, i);
-        const auto count = uint32_t(places.size());
+        const uint32_t count = std::min(uint32_t(places.size()), std::max(settings.rays, 1u));
         const Patch patch = Patch::around(places);
         const EmitterChoice choice(emitters, patch, sight.shares());
         const RayGuide guide = lit.guide(patch);
@@ -235,6 +265,7 @@ struct Gathering {
         Random random(number);
         const Lattice of_looks(random), directions(random), of_guided(random);
         Light meshes;
+        std::vector<Sent> sent;
         const double share = 1.0 / count;
         for (uint32_t k = 0; k < count; ++k) {
             const uint32_t first_ray = rays_sent * k / count, end_ray = rays_sent * (k + 1) / count;
@@ -251,15 +282,17 @@ struct Gathering {
                 const glm::dvec3 direction = of_place < guided
                                                  ? guide.direction(of_guided.at(guided * k + of_place))
                                                  : cosine_direction(start.normal, directions.at(r - guided * (k + 1)));
-                const auto [cell, part] = send(start, direction, share, meshes, round.sky[i], region.places);
-                round.met[i * settings.rays + r] = cell;
-                round.parts[i * settings.rays + r] = glm::packHalf1x16(float(part));
+                sent.push_back(send(start, direction, share, meshes, region.places));
             }
         }
-        for (uint32_t r = rays_sent; r < settings.rays; ++r) round.met[i * settings.rays + r] = Radiosity::kNowhere;
-        const size_t before = region.sources.size();
-        keep_strongest(of_lamps, region.sources), keep_strongest(meshes, region.sources);
-        region.counts.push_back(uint32_t(region.sources.size() - before));
+        balance(sent);
+        for (uint32_t r = 0; r < settings.rays; ++r) {
+            const Sent ray = r < sent.size() ? sent[r] : Sent{};
+            if (ray.to_sky) round.sky[i] += float(ray.part);
+            round.met[i * settings.rays + r] = ray.met;
+            round.parts[i * settings.rays + r] = glm::packHalf1x16(float(ray.part) / Radiosity::kPartUnit);
+        }
+        keep_strongest(meshes, region.sources);
     }
 
     std::optional<Radiosity> run(const std::function<bool(double)>& progress) {

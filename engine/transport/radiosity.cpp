@@ -28,7 +28,6 @@ constexpr std::array<Offset, Radiosity::kBeside> kOffsets{
 constexpr float kOwnWeight = 4, kAllWeights = 16;
 constexpr float kOneSurface = 0.9f;  // cosine between the normals of cells that are
 constexpr double kOnePlane = 0.25;   // cubes: how far off they may be
-constexpr double kLeastLean = 0.5;   // of a normal along its side: cells of more than one plane may have less
 constexpr size_t kAtATime = 4096;    // cells
 
 struct Axes {
@@ -71,17 +70,18 @@ void Radiosity::connect(const std::function<bool(uint32_t, uint32_t)>& sees) {
         for (size_t i = begin; i < end; ++i) {
             const uint32_t side = grid.side(numbers[i]);
             const Axes axes = axes_of(side);
-            const glm::dvec3 normal(normals[i]);
-            const glm::dvec3 middle = grid.place(grid.middle(numbers[i])) + double(heights[i]) / grid.size * normal;
-            const double along_side = normal[axes.along];
-            const glm::dvec3 rise = std::abs(along_side) < kLeastLean ? glm::dvec3(0) : -normal / along_side;
+            const glm::dvec3 cube = grid.place(grid.middle(numbers[i])), normal(normals[i]);
+            const glm::dvec3 middle = cube + double(heights[i]) / grid.size * normal;
             for (size_t k = 0; k < kBeside; ++k) {
                 uint32_t& other = beside[i * kBeside + k] = uint32_t(i);
                 if (grid.is_air(numbers[i])) continue;
-                glm::dvec3 place = middle;
+                glm::dvec3 place = middle, column = cube;
                 place[axes.across] += kOffsets[k].across, place[axes.over] += kOffsets[k].over;
-                place[axes.along] += rise[axes.across] * kOffsets[k].across + rise[axes.over] * kOffsets[k].over;
-                const std::optional<Nearest> cell = nearest(glm::floor(place), place, side);
+                place[axes.along] -= (normal[axes.across] * kOffsets[k].across + normal[axes.over] * kOffsets[k].over) /
+                                     normal[axes.along];
+                column[axes.across] += kOffsets[k].across, column[axes.over] += kOffsets[k].over;
+                column[axes.along] = place[axes.along];
+                const std::optional<Nearest> cell = nearest(glm::floor(column), place, side);
                 if (!cell) continue;
                 if (!sees(uint32_t(i), cell->index))
                     walls[i] |= uint8_t(1u << k);
@@ -136,7 +136,7 @@ Radiosity::Solution Radiosity::solve(const RadiosityLight& light) const {
             glm::vec3 sum(0);
             for (size_t ray = i * rays; ray < (i + 1) * rays; ++ray)
                 if (met[ray] != kNowhere) sum += glm::unpackHalf1x16(parts[ray]) * sent[met[ray]];
-            other[i] = unreflected[i] + sum;
+            other[i] = unreflected[i] + kPartUnit * sum;
         });
         if (!(light.reflection_error > 0)) continue;
         const double all = sum_of(other);
@@ -194,9 +194,10 @@ glm::dvec3 Radiosity::at(std::span<const glm::vec3> values, glm::dvec3 point, gl
     for (uint32_t k = 0; k < 8; ++k) {
         const glm::dvec3 offset(k & 1, k >> 1 & 1, k >> 2), cube = corner + offset, step = cube - own,
                                                             linear = glm::mix(1.0 - share, share, offset);
-        const std::optional<uint32_t> index = index_of(cube),
-                                      beside_own = number_beside(int(step[axes.across]), int(step[axes.over]));
-        if (!index || (beside_own && hidden >> *beside_own & 1)) continue;
+        const std::optional<uint32_t> index = index_of(cube);
+        if (!index) continue;
+        const std::optional<uint32_t> beside_own = number_beside(int(step[axes.across]), int(step[axes.over]));
+        if (beside_own && hidden >> *beside_own & 1) continue;
         const double off =
             std::abs(glm::dot(glm::dvec3(normals[*index]), place - cube - 0.5) - double(heights[*index]) / grid.size);
         const double weight =

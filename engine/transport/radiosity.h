@@ -33,8 +33,9 @@ struct RadiosityLight {
 glm::dvec3 open_sky(const RadiosityLight& light, glm::dvec3 normal);
 
 /// The transport of light among the surfaces of a scene at rest (radiosity: Goral et al. 1984), for cells of them as
-/// patches. It holds for any intensities: each cell knows what each source gives it directly, and which cells its rays,
-/// distributed as cosines, end at (form factors: Malley 1988). Surfaces count as matt.
+/// patches. It holds for any intensities: each cell knows what each source gives it directly, and which cells its rays
+/// end at, half of them distributed as cosines (form factors: Malley 1988), half sent to what lamps light. Surfaces
+/// count as matt.
 struct Radiosity {
     static constexpr uint32_t kNowhere = ~0u;  ///< a ray that meets no surface
 
@@ -47,6 +48,7 @@ struct Radiosity {
     static constexpr uint32_t kBeside = 8;
     static constexpr uint32_t kLamp = 1u << 31u;
     static constexpr double kPackedUnit = 16;  ///< lx
+    static constexpr float kPartUnit = 1.0f / 4096;
     /// How far from the plane of a cell is another surface, cubes; the weight of such, and the least weight.
     static constexpr double kSameSurface = 0.75, kElsewhere = 1e-3, kLeastWeight = 1e-7;
 
@@ -60,7 +62,7 @@ struct Radiosity {
     std::vector<uint32_t> first_source;  ///< of each, and the end
     std::vector<Source> sources;
     std::vector<uint32_t> met;     ///< index of the cell that each ray of each cell met, or kNowhere
-    std::vector<uint16_t> parts;   ///< of the light of a cell that a ray brings: of its exitance, halves
+    std::vector<uint16_t> parts;   ///< of its exitance that each brings, in kPartUnit, halves; at most 1 for a cell
     uint32_t rays = 0;             ///< of each
     std::vector<uint32_t> beside;  ///< of each the kBeside cells of the same surface around it, or itself
     std::vector<uint8_t> walls;    ///< of each bits of those around it that it does not see; empty: it sees all

@@ -111,11 +111,14 @@ void draw_small(InImage image, InQuadrant at[3], MapQuadrant quadrant) {
 
 // `number`: of the quadrant.
 void draw(uint number, MapQuadrant quadrant, vec3 q[3], InQuadrant at[3]) {
-    const float kFarthest = 8192.0;  // texels: of corners, for the precision of edges
+    // Of corners, texels, and of their distances: for the precision of edges and of depth.
+    const float kFarthest = 8192.0, kDeepest = 64.0;
+    const vec3 depths = vec3(at[0].position.w, at[1].position.w, at[2].position.w);
+    const float nearest = min(depths.x, min(depths.y, depths.z)), farthest = max(depths.x, max(depths.y, depths.z));
     const InImage image = in_image(at, quadrant);
-    const bool whole = min(at[0].position.w, min(at[1].position.w, at[2].position.w)) >= kMapNear;
+    const bool whole = nearest >= kMapNear;
     if (whole && any(greaterThan(image.first, image.last))) return;
-    bool is_small = whole && all(lessThan(image.last - image.first, vec2(float(kSmall))));
+    bool is_small = whole && farthest < kDeepest * nearest && all(lessThan(image.last - image.first, vec2(float(kSmall))));
     [[unroll]] for (int k = 0; k < 3; ++k) is_small = is_small && all(lessThan(abs(image.corners[k]), vec2(kFarthest)));
     if (is_small) {
         draw_small(image, at, quadrant);

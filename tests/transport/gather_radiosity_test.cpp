@@ -227,8 +227,8 @@ TEST(GatherRadiosity, BacksAreFoundByRays) {
         EXPECT_EQ(radiosity.sky[i], 0);
         double parts = 0;
         for (size_t ray = i * radiosity.rays; ray < (i + 1) * radiosity.rays; ++ray)
-            parts += double(glm::unpackHalf1x16(radiosity.parts[ray]));
-        EXPECT_NEAR(parts, 1, 0.4) << i;
+            parts += double(Radiosity::kPartUnit * glm::unpackHalf1x16(radiosity.parts[ray]));
+        EXPECT_NEAR(parts, 1, 1e-3) << i;
     }
     // 1.7 m over the lamp, where it faces down; less, as a cell is a mean over 1 m.
     EXPECT_NEAR(radiosity.at(light.lamps, {0.4, 2, 0}, -kUp).g, 100 / (1.7 * 1.7), 0.3 * 100 / (1.7 * 1.7));

@@ -273,9 +273,9 @@ struct Gathering {
                               guided};
             for (uint32_t l = looks * k; l < looks * (k + 1); ++l) {
                 const auto [emitter, light] = look(start, of_looks.at(l));
-                const bool lit = light != glm::dvec3(0);
-                sight.add(emitters.group_of(emitter), lit);
-                if (lit) add_to(meshes, emitters.list()[emitter].node, share * light);
+                const bool is_seen = light != glm::dvec3(0);
+                sight.add(emitters.group_of(emitter), is_seen);
+                if (is_seen) add_to(meshes, emitters.list()[emitter].node, share * light);
             }
             for (uint32_t r = first_ray; r < end_ray; ++r) {
                 const uint32_t of_place = r - first_ray;

@@ -1,25 +1,13 @@
 #include "gpu_scene/irradiance_cells.h"
 
-#include <cmath>
-
 #include <glm/gtc/packing.hpp>
 
+#include "photometry/sky_map.h"
 #include "shared/indirect.h"
 
 namespace vesper::gpu_scene {
 
 static_assert(shared::kCellSides == transport::kSides && shared::kAirCubes == transport::CellGrid::kAir);
-
-namespace {
-
-// Octahedral map (Meyer et al. 2010), in signed bytes.
-uint32_t packed_normal(glm::vec3 n) {
-    glm::vec2 p = glm::vec2(n) / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
-    if (n.z < 0) p = (1.0f - glm::abs(glm::vec2(p.y, p.x))) * glm::vec2(p.x < 0 ? -1 : 1, p.y < 0 ? -1 : 1);
-    return glm::packSnorm2x8(p);
-}
-
-}  // namespace
 
 IrradianceCells irradiance_cells(const transport::Radiosity& radiosity, std::span<const glm::vec3> illuminance) {
     IrradianceCells table;
@@ -34,10 +22,10 @@ IrradianceCells irradiance_cells(const transport::Radiosity& radiosity, std::spa
         while (table.texels[place].x != shared::kNoCell) place = (place + 1) & mask;
         const uint32_t walls = radiosity.walls.empty() ? 0 : radiosity.walls[i];
         const glm::vec3 light = glm::min(illuminance[i], glm::vec3(most)) / shared::kCellUnit;
-        table.texels[place] = {number, glm::packHalf2x16({light.r, light.g}),
-                               glm::packHalf2x16({light.b, 0}) | walls << 16u,
-                               glm::packHalf2x16({radiosity.heights[i] / float(radiosity.grid.size), 0}) |
-                                   packed_normal(radiosity.normals[i]) << 16u};
+        table.texels[place] = {
+            number, glm::packHalf2x16({light.r, light.g}), glm::packHalf2x16({light.b, 0}) | walls << 16u,
+            glm::packHalf2x16({radiosity.heights[i] / float(radiosity.grid.size), 0}) |
+                glm::packSnorm2x8(glm::vec2(photometry::octahedral_place(radiosity.normals[i]))) << 16u};
     }
     return table;
 }

@@ -43,8 +43,6 @@ struct CellGrid {
     glm::dvec3 place(glm::dvec3 point) const { return (point - origin) / size; }
     uint32_t side(uint32_t cell) const { return cell % kSides; }
     glm::dvec3 middle(uint32_t cell) const;  ///< of its cube, m, world
-    /// Of a point over the middle of a cell, along its side, m.
-    double height(uint32_t cell, glm::dvec3 point) const { return along(point - middle(cell), side(cell)); }
 };
 
 }  // namespace vesper::transport

@@ -120,13 +120,15 @@ struct Gathering {
         uint32_t looks, rays, guided;  // guided: rays besides those by cosines
     };
 
-    // Of rays in a direction, 1/sr.
-    static double density(const Start& start, glm::dvec3 direction, double cosine) {
-        return start.rays * cosine / std::numbers::pi + start.guided * start.guide.density(direction);
+    // Of guided rays in a direction, 1/sr; of all rays; and of looks and rays at a place on an emitter.
+    static double density_of_guided(const Start& start, glm::dvec3 direction) {
+        return start.guided > 0 ? start.guided * start.guide.density(direction) : 0;
     }
-    // Of the direction to a place on an emitter, of looks and rays together.
-    double density(const Start& start, size_t number, glm::dvec3 to, double cosine) const {
-        return start.looks * start.choice.density(number, to) + density(start, glm::normalize(to), cosine);
+    static double density_of_rays(const Start& start, double cosine, double of_guided) {
+        return start.rays * cosine / std::numbers::pi + of_guided;
+    }
+    static double density(const Start& start, size_t emitter, glm::dvec3 to, double of_rays) {
+        return start.looks * start.choice.density(emitter, to) + of_rays;
     }
 
     // At an emitter by chance: which, and its light, lx.
@@ -147,7 +149,8 @@ struct Gathering {
         if (rays.blocked(start.point, start.point + (1 - skin) * to) || !surfaces.stops_light(wanted))
             return {number, none};
         const glm::dvec3 emission = surfaces.emission(wanted, start.point);
-        return {number, cosine / density(start, number, to, cosine) * emission};
+        const double of_rays = density_of_rays(start, cosine, density_of_guided(start, to / distance));
+        return {number, cosine / density(start, number, to, of_rays) * emission};
     }
 
     // A ray, and what it met.
@@ -162,8 +165,9 @@ struct Gathering {
               std::vector<FoundPlace>& places) const {
         const double cosine = glm::dot(start.normal, direction);
         if (!(cosine > 0)) return {};
-        Sent sent{.part = share * cosine / (std::numbers::pi * density(start, direction, cosine)),
-                  .guided = start.guided > 0 && start.guide.density(direction) > 0};
+        const double of_guided = density_of_guided(start, direction),
+                     of_rays = density_of_rays(start, cosine, of_guided);
+        Sent sent{.part = share * cosine / (std::numbers::pi * of_rays), .guided = of_guided > 0};
         const std::optional<rays::Hit> hit = rays.nearest(start.point, start.point + kReach * direction);
         if (!hit) {
             sent.to_sky = true;
@@ -173,7 +177,7 @@ struct Gathering {
         if (surface.emission != glm::dvec3(0))
             if (const std::optional<size_t> number = emitters.find(*hit)) {
                 const glm::dvec3 to = surface.position - start.point;
-                add_to(meshes, hit->node, share * cosine / density(start, *number, to, cosine) * surface.emission);
+                add_to(meshes, hit->node, share * cosine / density(start, *number, to, of_rays) * surface.emission);
             }
         const std::optional<uint32_t> cell = surface_cells.number(surface.position, surface.normal);
         if (!cell) return sent;
@@ -286,11 +290,10 @@ struct Gathering {
             }
         }
         balance(sent);
-        for (uint32_t r = 0; r < settings.rays; ++r) {
-            const Sent ray = r < sent.size() ? sent[r] : Sent{};
-            if (ray.to_sky) round.sky[i] += float(ray.part);
-            round.met[i * settings.rays + r] = ray.met;
-            round.parts[i * settings.rays + r] = glm::packHalf1x16(float(ray.part) / Radiosity::kPartUnit);
+        for (size_t r = 0; r < sent.size(); ++r) {
+            if (sent[r].to_sky) round.sky[i] += float(sent[r].part);
+            round.met[i * settings.rays + r] = sent[r].met;
+            round.parts[i * settings.rays + r] = glm::packHalf1x16(float(sent[r].part) / Radiosity::kPartUnit);
         }
         keep_strongest(meshes, region.sources);
     }
@@ -321,7 +324,8 @@ struct Gathering {
             known.insert(known.end(), round.numbers.begin(), round.numbers.end());
             std::ranges::inplace_merge(known, known.begin() + before);
             const size_t cells = round.cells.size();
-            round.sky.resize(cells), round.met.resize(cells * settings.rays), round.parts.resize(cells * settings.rays);
+            round.sky.resize(cells), round.met.resize(cells * settings.rays, Radiosity::kNowhere),
+                round.parts.resize(cells * settings.rays);
             make_regions(round);
             // What rays of a round find takes about a fifth of the time of that.
             const double begins = 1 - std::pow(0.2, double(rounds.size() - 1)), width = 0.8 * (1 - begins);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "transport/sampling.h"
+
 namespace vesper::transport {
 namespace {
 
@@ -32,11 +34,8 @@ glm::dvec3 RayGuide::direction(glm::dvec2 chance) const {
     if (cone == cones_.end()) --cone;
     const double begin = cone == cones_.begin() ? 0 : std::prev(cone)->end;
     const double left = std::clamp((wanted - begin) / (cone->end - begin), 0.0, 1.0);
-    const double cosine = 1 - left * (1 - cone->cosine), sine = std::sqrt(std::max(1 - cosine * cosine, 0.0)),
-                 turn = 2 * std::numbers::pi * chance.y;
-    const glm::dvec3 axis = cone->axis, other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 a = glm::normalize(glm::cross(axis, other)), b = glm::cross(axis, a);
-    return sine * std::cos(turn) * a + sine * std::sin(turn) * b + cosine * axis;
+    const double cosine = 1 - left * (1 - cone->cosine), sine = std::sqrt(std::max(1 - cosine * cosine, 0.0));
+    return direction_about(cone->axis, sine, cosine, 2 * std::numbers::pi * chance.y);
 }
 
 double RayGuide::density(glm::dvec3 direction) const {

@@ -154,16 +154,24 @@ Radiosity::Solution Radiosity::solve(const RadiosityLight& light) const {
     return result;
 }
 
+std::optional<uint32_t> Radiosity::cell_in(glm::dvec3 cube, uint32_t side) const {
+    const std::optional<uint32_t> number = grid.cell(cube, side);
+    return number ? find(*number) : std::nullopt;
+}
+
+double Radiosity::off_plane(uint32_t index, glm::dvec3 from_middle) const {
+    return std::abs(glm::dot(glm::dvec3(normals[index]), from_middle) - double(heights[index]) / grid.size);
+}
+
 // In the cube of a point or one beside it along the side, that whose plane is nearest.
 std::optional<Radiosity::Nearest> Radiosity::nearest(glm::dvec3 cube, glm::dvec3 place, uint32_t side) const {
     std::optional<Nearest> found;
     for (const double layer : {0.0, -1.0, 1.0}) {
         glm::dvec3 there = cube;
         there[axes_of(side).along] += layer;
-        const std::optional<uint32_t> number = grid.cell(there, side), index = number ? find(*number) : std::nullopt;
+        const std::optional<uint32_t> index = cell_in(there, side);
         if (!index) continue;
-        const double off =
-            std::abs(glm::dot(glm::dvec3(normals[*index]), place - there - 0.5) - double(heights[*index]) / grid.size);
+        const double off = off_plane(*index, place - there - 0.5);
         if (!found || off < found->off) found = Nearest{*index, off};
     }
     return found;
@@ -181,25 +189,20 @@ glm::dvec3 Radiosity::at(std::span<const glm::vec3> values, glm::dvec3 point, gl
     const uint32_t side = side_of(normal);
     const glm::dvec3 place = grid.place(point), corner = glm::floor(place - 0.5), share = place - 0.5 - corner;
     const Axes axes = axes_of(side);
-    const auto index_of = [&](glm::dvec3 cube) -> std::optional<uint32_t> {
-        const std::optional<uint32_t> number = grid.cell(cube, side);
-        return number ? find(*number) : std::nullopt;
-    };
     // The cell of the point's cube says which of the others it sees.
     const glm::dvec3 own = glm::floor(place);
-    const std::optional<uint32_t> own_index = index_of(own);
+    const std::optional<uint32_t> own_index = cell_in(own, side);
     const uint32_t hidden = own_index && !walls.empty() ? walls[*own_index] : 0;
     glm::dvec3 sum(0);
     double weights = 0;
     for (uint32_t k = 0; k < 8; ++k) {
         const glm::dvec3 offset(k & 1, k >> 1 & 1, k >> 2), cube = corner + offset, step = cube - own,
                                                             linear = glm::mix(1.0 - share, share, offset);
-        const std::optional<uint32_t> index = index_of(cube);
+        const std::optional<uint32_t> index = cell_in(cube, side);
         if (!index) continue;
         const std::optional<uint32_t> beside_own = number_beside(int(step[axes.across]), int(step[axes.over]));
         if (beside_own && hidden >> *beside_own & 1) continue;
-        const double off =
-            std::abs(glm::dot(glm::dvec3(normals[*index]), place - cube - 0.5) - double(heights[*index]) / grid.size);
+        const double off = off_plane(*index, place - cube - 0.5);
         const double weight =
             linear.x * linear.y * linear.z * std::max(1 - off / kSameSurface, kElsewhere) + kLeastWeight;
         sum += weight * glm::dvec3(values[*index]), weights += weight;

@@ -92,6 +92,8 @@ private:
         uint32_t index;
         double off;  // in cubes
     };
+    std::optional<uint32_t> cell_in(glm::dvec3 cube, uint32_t side) const;  // its index
+    double off_plane(uint32_t index, glm::dvec3 from_middle) const;  // of a point, from its cube's middle, in cubes
     static std::optional<uint32_t> number_beside(int across, int over);
     std::optional<Nearest> nearest(glm::dvec3 cube, glm::dvec3 place, uint32_t side) const;
     glm::dvec3 in_air(std::span<const glm::vec3> values, glm::dvec3 place, glm::dvec3 normal, double& weights) const;

@@ -39,12 +39,16 @@ private:
     glm::dvec2 start_;
 };
 
+/// At an angle to a unit axis, by its sine and cosine, and at a turn about it, rad.
+inline glm::dvec3 direction_about(glm::dvec3 axis, double sine, double cosine, double turn) {
+    const glm::dvec3 other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 a = glm::normalize(glm::cross(axis, other)), b = glm::cross(axis, a);
+    return sine * std::cos(turn) * a + sine * std::sin(turn) * b + cosine * axis;
+}
+
 /// Distributed as cosines about a unit normal; both numbers from 0 to 1.
 inline glm::dvec3 cosine_direction(glm::dvec3 normal, glm::dvec2 chance) {
-    const glm::dvec3 other = std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-    const glm::dvec3 a = glm::normalize(glm::cross(normal, other)), b = glm::cross(normal, a);
-    const double sine = std::sqrt(chance.x), turn = 2 * std::numbers::pi * chance.y;
-    return sine * std::cos(turn) * a + sine * std::sin(turn) * b + std::sqrt(1 - chance.x) * normal;
+    return direction_about(normal, std::sqrt(chance.x), std::sqrt(1 - chance.x), 2 * std::numbers::pi * chance.y);
 }
 
 /// Even over a triangle: the weights of its corners (Turk 1990).

@@ -64,7 +64,8 @@ TEST(CellGrid, MiddleAndHeightAreThoseOfTheCellAtAPoint) {
         EXPECT_EQ(kGrid.cell_at(middle, normal), number);
         // Anywhere in the cube; along the side counts as height, across it nothing does.
         EXPECT_EQ(kGrid.cell_at(middle + dvec3(0.24, -0.24, 0.24), normal), number);
-        EXPECT_NEAR(kGrid.height(number, middle + 0.2 * normal + dvec3(0.1) * (1.0 - glm::abs(normal))), 0.2, 1e-12);
+        const dvec3 over = middle + 0.2 * normal + dvec3(0.1) * (1.0 - glm::abs(normal));
+        EXPECT_NEAR(transport::along(over - kGrid.middle(number), kGrid.side(number)), 0.2, 1e-12);
     }
     const auto air_at = [](dvec3 point, uint32_t side) { return kGrid.air_cell(kGrid.place(point) / 4.0, side); };
     const glm::uvec3 air = kGrid.air_count();

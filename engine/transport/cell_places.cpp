@@ -17,6 +17,8 @@ constexpr double kPlaceStep = 0.35;      // of a cube, between places that are l
 constexpr double kFew = CellGrid::kAir;  // places along each way, of which one is looked for in larger cells
 constexpr double kCovered = 0.06;        // a surface so near before another is taken to lie on it, m
 constexpr double kThinBody = 1.8;        // cubes: their diagonal, and a little more
+constexpr double kNearBy = 0.5;          // of a cube
+constexpr uint32_t kRaysToBacks = 4;     // from each place
 constexpr double kLevel = 0.7;           // cosine: ground and floors, with air over them
 constexpr double kAirHeight = 4;         // m, of that
 constexpr double kPlacesOfPart = 4'096;  // which one thread finds, roughly
@@ -62,7 +64,6 @@ std::vector<Part> parts_of(std::span<const PlacedPrimitive> primitives, double s
 
 struct NumberedPlace {
     uint32_t number;  // of the cell
-    bool covered;
     FoundPlace place;
 };
 
@@ -115,8 +116,10 @@ struct PlaceFinder {
         const glm::dvec3 reflectance = surfaces.reflectance(hit);
         for (const glm::dvec3 outwards : {normal, -normal}) {
             const std::optional<double> open = open_before(point, outwards);
-            if (const std::optional<uint32_t> number = cells.number(point, outwards))
-                found.push_back({*number, !open, {point, outwards, reflectance, hit.node, area, area}});
+            if (const std::optional<uint32_t> number = cells.number(point, outwards)) {
+                const Exposure exposure = open ? exposure_of(point, outwards) : Exposure::Covered;
+                found.push_back({*number, {point, outwards, reflectance, hit.node, area, area, exposure}});
+            }
             if (fine && open && outwards.y > kLevel) add_air(point, outwards, *open);
             if (!double_sided) break;
         }
@@ -135,21 +138,41 @@ struct PlaceFinder {
         return open < kCovered || within ? std::nullopt : std::optional(open);
     }
 
+    // So that places in relief count as often as they see what is far, and those within a body hardly ever, though one
+    // of its parts hides its backs from some directions.
+    Exposure exposure_of(glm::dvec3 point, glm::dvec3 outwards) {
+        const glm::dvec3 start = point + skin_at(rays, point) * outwards;
+        const glm::dvec2 chance(random.next(), random.next());
+        uint32_t backs = 0, near = 0;
+        for (uint32_t i = 0; i < kRaysToBacks; ++i) {
+            const glm::dvec3 way = cosine_direction(outwards, glm::fract(chance + double(i) / kRaysToBacks));
+            const std::optional<rays::Hit> hit = rays.nearest(start, start + kReach * way);
+            if (!hit) continue;
+            if (surfaces.shows_back(*hit, start)) ++backs;
+            if (i == 0 && hit->share * kReach < kNearBy * cells.grid.size) ++near;
+        }
+        if (2 * backs > kRaysToBacks) return Exposure::Covered;
+        return backs > 0 ? Exposure::Partly : near > 0 ? Exposure::Near : Exposure::Open;
+    }
+
     // Over ground and floors, where things move.
     void add_air(glm::dvec3 ground, glm::dvec3 up, double open) {
         const glm::dvec3 point = ground + std::min(random.next() * kAirHeight, 0.9 * open) * up;
         for (uint32_t side = 0; side < kSides; ++side)
             if (const std::optional<uint32_t> number = cells.air(point, side))
-                found.push_back({*number, false, {point, direction_of(side), {}, scene::kNone, 1, 0}});
+                found.push_back({*number, {point, direction_of(side), {}, scene::kNone, 1, 0, Exposure::Open}});
     }
 };
 
 }  // namespace
 
-void add_place(CellPlaces& cell, const CellGrid& grid, uint32_t number, const FoundPlace& place, bool covered) {
-    if (covered && cell.seen > 0 && !cell.covered) return;
-    if (!covered && cell.covered) cell = {};
-    cell.covered = covered;
+void add_place(CellPlaces& cell, const CellGrid& grid, uint32_t number, const FoundPlace& place) {
+    if (cell.seen > 0 && place.exposure > cell.exposure) {
+        if (place.exposure != Exposure::Covered) cell.area += place.area;
+        return;
+    }
+    if (place.exposure < cell.exposure) cell = {.area = cell.exposure == Exposure::Covered ? 0 : cell.area};
+    cell.exposure = place.exposure;
     // Any places are as likely to be kept (reservoir sampling: Vitter 1985).
     const uint32_t seen = cell.seen++;
     const uint64_t slot =
@@ -184,7 +207,7 @@ std::optional<PlacesByCell> find_places(const scene::Scene& scene, std::span<con
             auto at = by_cell.end();
             for (const NumberedPlace& p : of_part) {
                 if (at == by_cell.end() || at->first != p.number) at = by_cell.try_emplace(p.number).first;
-                add_place(at->second, cells.grid, p.number, p.place, p.covered);
+                add_place(at->second, cells.grid, p.number, p.place);
             }
         }
     }

@@ -13,6 +13,10 @@
 
 namespace vesper::transport {
 
+/// How much a place sees of what is far. Near: of some directions by chance one ends close by. Partly: some end at the
+/// back of a surface. Covered: most do, or the place is under another surface or within a body.
+enum class Exposure : uint8_t { Open, Near, Partly, Covered };
+
 /// What was found on the surfaces of a cell.
 struct CellPlaces {
     static constexpr uint32_t kMost = 4;
@@ -24,10 +28,10 @@ struct CellPlaces {
     };
     std::array<Place, kMost> places;  ///< count() of all that were seen, each as likely
     uint32_t seen = 0;
-    bool covered = false;
-    double weight = 0;    ///< of all
-    double area = 0;      ///< m^2
-    glm::dvec3 point{0};  ///< from the middle of the cube, m; this and what follows: times weight
+    Exposure exposure = Exposure::Open;  ///< of all of these
+    double weight = 0;                   ///< of all
+    double area = 0;                     ///< of those and of less open ones that are not covered, m^2
+    glm::dvec3 point{0};                 ///< from the middle of the cube, m; this and what follows: times weight
     glm::dvec3 normal{0}, reflectance{0};
 
     uint32_t count() const { return std::min(seen, kMost); }
@@ -39,14 +43,15 @@ struct FoundPlace {
     glm::dvec3 point, normal, reflectance;
     uint32_t node;
     double weight, area;
+    Exposure exposure;
 };
 
-/// Adds a place to the cell `number` of `grid`. Those that are `covered` count where a cell has no others.
-void add_place(CellPlaces& cell, const CellGrid& grid, uint32_t number, const FoundPlace& place, bool covered);
+/// Adds a place to the cell `number` of `grid`. They count where it has none that are more open.
+void add_place(CellPlaces& cell, const CellGrid& grid, uint32_t number, const FoundPlace& place);
 
-/// Places all over the triangles, and in the air over ground and floors, where things move. Covered is what lies under
-/// another surface or within a body. `progress` is called with shares from 0 to 1, from this thread; where it returns
-/// false there is no result. On all processors; however many they are, the result is the same.
+/// Places all over the triangles, and in the air over ground and floors, where things move. `progress` is called with
+/// shares from 0 to 1, from this thread; where it returns false there is no result. On all processors; however many
+/// they are, the result is the same.
 std::optional<PlacesByCell> find_places(const scene::Scene& scene, std::span<const glm::dmat4> world,
                                         const rays::RayCaster& rays, const Surfaces& surfaces,
                                         const SurfaceCells& cells, const std::function<bool(double)>& progress);

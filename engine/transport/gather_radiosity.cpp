@@ -182,7 +182,8 @@ struct Gathering {
         const std::optional<uint32_t> cell = surface_cells.number(surface.position, surface.normal);
         if (!cell) return sent;
         if (!std::ranges::binary_search(known, *cell))
-            places.push_back({surface.position, surface.normal, surfaces.reflectance(*hit), hit->node, 1, 0});
+            places.push_back(
+                {surface.position, surface.normal, surfaces.reflectance(*hit), hit->node, 1, 0, Exposure::Open});
         sent.met = *cell;
         return sent;
     }
@@ -348,7 +349,7 @@ struct Gathering {
             for (Round::Region& region : round.regions)
                 for (const FoundPlace& place : std::exchange(region.places, {})) {
                     const uint32_t number = *surface_cells.number(place.point, place.normal);
-                    add_place(wanted[number], grid, number, place, false);
+                    add_place(wanted[number], grid, number, place);
                 }
         }
         put_together(rounds, result);

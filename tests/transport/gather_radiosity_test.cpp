@@ -276,6 +276,26 @@ TEST(GatherRadiosity, WallsOfDoubleSidedSheetsAreAsBrightAsOthers) {
     }
 }
 
+// A house of double-sided sheets with sills that go as far into it as they stand out: their hidden halves, which see
+// the inside of the house, count for nothing.
+TEST(GatherRadiosity, PartsThatReachIntoAHouseAreAsBrightAsThoseThatEndAtItsWall) {
+    const auto light_below = [](float inside) {
+        scene::Scene scene;
+        const uint32_t grey = add_material(scene, 0.5f);
+        scene.materials[grey].double_sided = true;
+        add_floor(scene, grey, 12);
+        add_box(scene, grey, {3, 3, 4}, {-3, 3.1f, 0});  // its wall is at x = 0
+        for (int i = -3; i <= 3; ++i)
+            add_box(scene, grey, {0.5f * (0.3f + inside), 0.1f, 0.4f}, {0.5f * (0.3f - inside), 2.8f, float(i)});
+        const Radiosity radiosity = gathered(scene);
+        const std::vector<vec3> light = radiosity.solve({.sky = dvec3(1 / kPi)}).other;
+        double sum = 0;
+        for (int i = -3; i <= 3; ++i) sum += radiosity.at(light, {0.15, 2.7, double(i)}, -kUp).g / 7;
+        return sum;
+    };
+    EXPECT_NEAR(light_below(0.3f), light_below(0), 0.1 * light_below(0));
+}
+
 // Two closed rooms side by side, 10 cm of wall between, one of them lit. Rays find no way through; but the cells of
 // floor and ceiling that the wall crosses lie on both sides, so up to 0.58 of the light in the middle of the lit room
 // is in their part of the dark one, and what they send on: 0.028 beside them, 0.005 at 5 m, in the mean over rays of 25

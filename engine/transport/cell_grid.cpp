@@ -18,6 +18,17 @@ glm::dvec3 direction_of(uint32_t side) {
 
 double along(glm::dvec3 v, uint32_t side) { return side % 2 ? -v[int(side / 2)] : v[int(side / 2)]; }
 
+CellCut CellCut::across(uint32_t axis, double at, bool below) {
+    const auto step = uint32_t(std::clamp(at * kSteps, 0.0, kSteps - 1.0));
+    return {uint8_t(axis << 6u | (below ? kSteps : 0) | step)};
+}
+
+bool CellCut::has(glm::dvec3 point, uint32_t side) const {
+    if (!any()) return true;
+    const double beyond = point[int(side / 2 + axis()) % 3] - (bits % kSteps + 0.5) / kSteps;
+    return bits & kSteps ? beyond <= 0 : beyond >= 0;
+}
+
 CellGrid CellGrid::around(glm::dvec3 low, glm::dvec3 high, double least) {
     constexpr double kMostCubes = 0.5 * double(uint32_t(-1) / kSides);  // the other half is enough for air
     constexpr double kMostAlong = 1 << 24;                              // whole numbers of floats, for shaders

@@ -19,6 +19,21 @@ glm::dvec3 direction_of(uint32_t side);  ///< unit length
 /// Of a vector, the component to a side.
 double along(glm::dvec3 v, uint32_t side);
 
+/// A plane that cuts a cell: where a wall or a slab goes through its cube, only the surfaces on one side of it belong
+/// to the cell. It lies across one of the two axes after that of the cell's side.
+struct CellCut {
+    static constexpr uint32_t kSteps = 32;
+
+    uint8_t bits = 0;  ///< from below: 5 of its place along the axis, whether what is below it belongs, 2 of the axis
+
+    /// Across the first or the second (1 or 2) axis after that of the side, at a part of the cube.
+    static CellCut across(uint32_t axis, double at, bool below);
+    bool any() const { return bits != 0; }
+    uint32_t axis() const { return bits >> 6u; }  ///< 0: none
+    /// Whether a point belongs, as far as the plane says; from the lowest corner of the cube, in cubes.
+    bool has(glm::dvec3 point, uint32_t side) const;
+};
+
 /// Space in cubes. A cell is what lies in one cube and faces one of its sides most. Beside those of surfaces there are
 /// cells of the air in cubes kAir times as large, for what moves in it.
 struct CellGrid {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include "transport/cell_grid.h"
 #include "transport/surface_cells.h"
 #include "transport/surfaces.h"
 
@@ -19,7 +20,7 @@ enum class Exposure : uint8_t { Open, Near, Partly, Covered };
 
 /// What was found on the surfaces of a cell.
 struct CellPlaces {
-    static constexpr uint32_t kMost = 4;
+    static constexpr uint32_t kMost = 8;
 
     struct Place {
         glm::vec3 point{0};  ///< from the middle of the cube, m
@@ -33,6 +34,7 @@ struct CellPlaces {
     double area = 0;                     ///< of those and of less open ones that are not covered, m^2
     glm::dvec3 point{0};                 ///< from the middle of the cube, m; this and what follows: times weight
     glm::dvec3 normal{0}, reflectance{0};
+    CellCut cut;
 
     uint32_t count() const { return std::min(seen, kMost); }
 };

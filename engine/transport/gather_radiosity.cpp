@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <unordered_map>
 #include <utility>
 
 #include <glm/gtc/packing.hpp>
@@ -11,6 +12,7 @@
 #include "base/luminance.h"
 #include "base/parallel.h"
 #include "transport/cell_places.h"
+#include "transport/cut_cells.h"
 #include "transport/emitters.h"
 #include "transport/lamp_light.h"
 #include "transport/lit_cells.h"
@@ -32,6 +34,7 @@ constexpr double kRegion = 16;          // cubes: cells in one see about the sam
 constexpr uint32_t kFewer = 4;          // times fewer rays and looks of cells that only rays find
 constexpr double kMostOverfull = 1.5;   // times settings.most_cells
 constexpr double kKeptSources = 0.999;  // of the light of a cell
+constexpr uint32_t kUsedPlaces = 4;     // of a cell
 constexpr double kGuided = 0.5;         // of the rays of a cell, where lamps light others
 
 using Light = std::vector<std::pair<uint32_t, glm::dvec3>>;  // by source, lx
@@ -70,9 +73,10 @@ struct Gathering {
     Emitters emitters;
     LampLight lamps;
     SurfaceCells surface_cells;
-    CellGrid grid;                // of those
-    std::vector<uint32_t> known;  // numbers of cells of all rounds so far, ascending
-    LitCells lit;                 // of the first round
+    CellGrid grid;                               // of those
+    std::vector<uint32_t> known;                 // numbers of cells of all rounds so far, ascending
+    std::unordered_map<uint32_t, CellCut> cuts;  // of those that have one
+    LitCells lit;                                // of the first round
 
     Gathering(const scene::Scene& of, std::span<const glm::dmat4> at, const std::vector<bool>& moving,
               const RadiositySettings& with)
@@ -179,13 +183,28 @@ struct Gathering {
                 const glm::dvec3 to = surface.position - start.point;
                 add_to(meshes, hit->node, share * cosine / density(start, *number, to, of_rays) * surface.emission);
             }
-        const std::optional<uint32_t> cell = surface_cells.number(surface.position, surface.normal);
+        const std::optional<uint32_t> cell = cell_at(surface.position, surface.normal);
         if (!cell) return sent;
         if (!std::ranges::binary_search(known, *cell))
             places.push_back(
                 {surface.position, surface.normal, surfaces.reflectance(*hit), hit->node, 1, 0, Exposure::Open});
         sent.met = *cell;
         return sent;
+    }
+
+    // Where a cut parts a point from the cell of its cube, the one beyond.
+    std::optional<uint32_t> cell_at(glm::dvec3 point, glm::dvec3 normal) const {
+        const std::optional<uint32_t> cell = surface_cells.number(point, normal);
+        const auto cut = cell ? cuts.find(*cell) : cuts.end();
+        if (cut == cuts.end()) return cell;
+        const uint32_t side = grid.side(*cell);
+        const glm::dvec3 place = grid.place(point);
+        if (cut->second.has(glm::fract(place), side)) return cell;
+        glm::dvec3 beyond = place;
+        const int axis = int(side / 2 + cut->second.axis()) % 3;
+        beyond[axis] += glm::fract(place[axis]) < 0.5 ? -1 : 1;
+        const std::optional<uint32_t> other = grid.cell(beyond, side);
+        return other && std::ranges::binary_search(known, *other) ? other : cell;
     }
 
     // All parts together are 1: guided rays know best how much is where they go, and the others bring the rest.
@@ -197,14 +216,16 @@ struct Gathering {
         for (Sent& sent : all) sent.part *= sent.guided ? of_guided : of_others;
     }
 
-    // Of a cell: before its surfaces.
+    // Of a cell: before its surfaces. Places that follow each other lie beside each other.
     std::vector<SurfacePlace> places_of(const Round& round, size_t i) const {
         const CellPlaces& cell = round.cells[i];
         std::vector<SurfacePlace> places;
-        for (uint32_t k = 0; k < cell.count(); ++k) {
-            const glm::dvec3 point = grid.middle(round.numbers[i]) + glm::dvec3(cell.places[k].point),
-                             normal = glm::normalize(glm::dvec3(cell.places[k].normal));
-            places.push_back({point + skin_at(rays, point) * normal, normal, cell.places[k].node});
+        const uint32_t used = std::min(cell.count(), kUsedPlaces);
+        for (uint32_t k = 0; k < used; ++k) {
+            const CellPlaces::Place& place = cell.places[(2 * k + 1) * cell.count() / (2 * used)];
+            const glm::dvec3 point = grid.middle(round.numbers[i]) + glm::dvec3(place.point),
+                             normal = glm::normalize(glm::dvec3(place.normal));
+            places.push_back({point + skin_at(rays, point) * normal, normal, place.node});
         }
         return places;
     }
@@ -327,6 +348,11 @@ struct Gathering {
             const size_t cells = round.cells.size();
             round.sky.resize(cells), round.met.resize(cells * settings.rays, Radiosity::kNowhere),
                 round.parts.resize(cells * settings.rays);
+            in_parallel(cells, 1024, [&](size_t begin, size_t end) {
+                for (size_t i = begin; i < end; ++i) cut(round.cells[i], round.numbers[i], grid, rays);
+            });
+            for (size_t i = 0; i < cells; ++i)
+                if (round.cells[i].cut.any()) cuts[round.numbers[i]] = round.cells[i].cut;
             make_regions(round);
             // What rays of a round find takes about a fifth of the time of that.
             const double begins = 1 - std::pow(0.2, double(rounds.size() - 1)), width = 0.8 * (1 - begins);
@@ -356,39 +382,15 @@ struct Gathering {
         return result;
     }
 
-    // A quarter of a cube before a surface, so that what is carved or laid on it hides nothing.
-    glm::dvec3 before(uint32_t number, glm::dvec3 point) const {
-        return point + 0.25 * grid.size * direction_of(grid.side(number));
-    }
-
-    // Whether something stands between the places of a cell: a wall is between half of the pairs at least, a post is
-    // not.
-    bool is_split(const CellPlaces& cell, uint32_t number) const {
-        const glm::dvec3 middle = grid.middle(number);
-        const uint32_t places = cell.count();
-        uint32_t pairs = 0, apart = 0;
-        for (uint32_t a = 1; a < places; ++a)
-            for (uint32_t b = 0; b < a; ++b, ++pairs)
-                apart += rays.blocked(before(number, middle + glm::dvec3(cell.places[a].point)),
-                                      before(number, middle + glm::dvec3(cell.places[b].point)))
-                             ? 1
-                             : 0;
-        return pairs > 0 && 2 * apart >= pairs;
-    }
-
-    // A cell that something splits is seen by no other, and sees none.
+    // From the middle of the places of each.
     void connect(std::span<const CellPlaces* const> cells, Radiosity& result) const {
-        std::vector<char> split(cells.size());
-        in_parallel(cells.size(), 1024, [&](size_t begin, size_t end) {
-            for (size_t i = begin; i < end; ++i)
-                split[i] = !grid.is_air(result.numbers[i]) && is_split(*cells[i], result.numbers[i]);
-        });
         const auto point = [&](uint32_t i) {
+            glm::dvec3 sum(0);
+            for (uint32_t k = 0; k < cells[i]->count(); ++k) sum += glm::dvec3(cells[i]->places[k].point);
             const uint32_t number = result.numbers[i];
-            return before(number, grid.middle(number) + double(result.heights[i]) * glm::dvec3(result.normals[i]));
+            return before(grid, number, grid.middle(number) + sum / double(cells[i]->count()));
         };
-        result.connect(
-            [&](uint32_t a, uint32_t b) { return !split[a] && !split[b] && !rays.blocked(point(a), point(b)); });
+        result.connect([&](uint32_t a, uint32_t b) { return !rays.blocked(point(a), point(b)); });
     }
 
     void put_together(const std::vector<Round>& rounds, Radiosity& result) const {
@@ -410,6 +412,7 @@ struct Gathering {
             const Round& round = rounds[r];
             const CellPlaces& cell = *cells.emplace_back(&round.cells[i]);
             result.areas.push_back(float(cell.area));
+            result.cuts.push_back(cell.cut);
             const double length = glm::length(cell.normal);
             result.normals.push_back(length > 0 ? glm::vec3(cell.normal / length) : cell.places[0].normal);
             result.heights.push_back(float(glm::dot(cell.point / cell.weight, glm::dvec3(result.normals.back()))));

@@ -11,7 +11,7 @@ namespace vesper::transport {
 namespace {
 
 // To be raised whenever the same scene gives other cells.
-constexpr uint64_t kRadiosityVersion = 14;
+constexpr uint64_t kRadiosityVersion = 15;
 
 void add_use(Digest& digest, const scene::TextureUse& use) {
     digest.add_value(use.image), digest.add_value(use.wrap_u), digest.add_value(use.wrap_v);
@@ -69,7 +69,7 @@ void add_meshes(Digest& digest, const scene::Scene& scene) {
 template <class Radiosity, class Take>
 void each_list(Radiosity& r, Take take) {
     take(r.numbers), take(r.heights), take(r.areas), take(r.normals), take(r.reflectances), take(r.sky);
-    take(r.first_source), take(r.sources), take(r.met), take(r.parts), take(r.beside), take(r.walls);
+    take(r.first_source), take(r.sources), take(r.met), take(r.parts), take(r.beside), take(r.walls), take(r.cuts);
     take(r.bodies.bodies), take(r.bodies.volumes), take(r.bodies.hidden);
 }
 
@@ -78,9 +78,9 @@ struct Header {
     double size = 0;
     glm::uvec3 count{0};
     uint32_t rays = 0;
-    std::array<uint64_t, 15> sizes{};  // of the lists
+    std::array<uint64_t, 16> sizes{};  // of the lists
 };
-static_assert(sizeof(Header) == 168, "without padding");
+static_assert(sizeof(Header) == 176, "without padding");
 
 Digest::Value key_of_lists(const Digest::Value& key) {
     Digest digest;

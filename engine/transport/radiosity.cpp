@@ -61,7 +61,7 @@ std::optional<uint32_t> Radiosity::find(uint32_t number) const {
 uint64_t Radiosity::bytes() const {
     return bytes_of(numbers) + bytes_of(heights) + bytes_of(areas) + bytes_of(normals) + bytes_of(reflectances) +
            bytes_of(sky) + bytes_of(first_source) + bytes_of(sources) + bytes_of(met) + bytes_of(parts) +
-           bytes_of(beside) + bytes_of(walls);
+           bytes_of(beside) + bytes_of(walls) + bytes_of(cuts);
 }
 
 void Radiosity::connect(const std::function<bool(uint32_t, uint32_t)>& sees) {
@@ -163,6 +163,8 @@ double Radiosity::off_plane(uint32_t index, glm::dvec3 from_middle) const {
     return std::abs(glm::dot(glm::dvec3(normals[index]), from_middle) - double(heights[index]) / grid.size);
 }
 
+CellCut Radiosity::cut_of(uint32_t index) const { return cuts.empty() ? CellCut() : cuts[index]; }
+
 // In the cube of a point or one beside it along the side, that whose plane is nearest.
 std::optional<Radiosity::Nearest> Radiosity::nearest(glm::dvec3 cube, glm::dvec3 place, uint32_t side) const {
     std::optional<Nearest> found;
@@ -189,9 +191,15 @@ glm::dvec3 Radiosity::at(std::span<const glm::vec3> values, glm::dvec3 point, gl
     const uint32_t side = side_of(normal);
     const glm::dvec3 place = grid.place(point), corner = glm::floor(place - 0.5), share = place - 0.5 - corner;
     const Axes axes = axes_of(side);
-    // The cell of the point's cube says which of the others it sees.
-    const glm::dvec3 own = glm::floor(place);
-    const std::optional<uint32_t> own_index = cell_in(own, side);
+    // The cell of the point's cube says which of the others it sees; where it is cut off, that on the same side of the
+    // cut.
+    glm::dvec3 own = glm::floor(place);
+    std::optional<uint32_t> own_index = cell_in(own, side);
+    if (own_index && !cut_of(*own_index).has(place - own, side)) {
+        const int axis = int(side / 2 + cut_of(*own_index).axis()) % 3;
+        own[axis] = 2 * corner[axis] + 1 - own[axis];
+        own_index = cell_in(own, side);
+    }
     const uint32_t hidden = own_index && !walls.empty() ? walls[*own_index] : 0;
     glm::dvec3 sum(0);
     double weights = 0;
@@ -203,8 +211,8 @@ glm::dvec3 Radiosity::at(std::span<const glm::vec3> values, glm::dvec3 point, gl
         const std::optional<uint32_t> beside_own = number_beside(int(step[axes.across]), int(step[axes.over]));
         if (beside_own && hidden >> *beside_own & 1) continue;
         const double off = off_plane(*index, place - cube - 0.5);
-        const double weight =
-            linear.x * linear.y * linear.z * std::max(1 - off / kSameSurface, kElsewhere) + kLeastWeight;
+        const double same = cut_of(*index).has(place - cube, side) ? std::max(1 - off / kSameSurface, kElsewhere) : 0;
+        const double weight = linear.x * linear.y * linear.z * same + kLeastWeight;
         sum += weight * glm::dvec3(values[*index]), weights += weight;
     }
     double weights_of_air = 0;

@@ -66,6 +66,7 @@ struct Radiosity {
     uint32_t rays = 0;             ///< of each
     std::vector<uint32_t> beside;  ///< of each the kBeside cells of the same surface around it, or itself
     std::vector<uint8_t> walls;    ///< of each bits of those around it that it does not see; empty: it sees all
+    std::vector<CellCut> cuts;     ///< of each; empty: none
     MovingBodies bodies;           ///< that hide light of the cells
 
     /// Finds `beside` and `walls`, from the rest and from what `sees` says of two cells, by several threads.
@@ -84,7 +85,8 @@ struct Radiosity {
     Solution solve(const RadiosityLight& light) const;
 
     /// Of cells' values, the one at a point of a surface: linear between the eight cells around it that face the same
-    /// side, those in its plane; where there is none, between those of the air. 0 where there are none either.
+    /// side, those in its plane that no cut parts from it; where there is none, between those of the air. 0 where there
+    /// are none either.
     glm::dvec3 at(std::span<const glm::vec3> values, glm::dvec3 point, glm::dvec3 normal) const;
 
 private:
@@ -93,6 +95,7 @@ private:
         double off;  // in cubes
     };
     std::optional<uint32_t> cell_in(glm::dvec3 cube, uint32_t side) const;  // its index
+    CellCut cut_of(uint32_t index) const;
     double off_plane(uint32_t index, glm::dvec3 from_middle) const;  // of a point, from its cube's middle, in cubes
     static std::optional<uint32_t> number_beside(int across, int over);
     std::optional<Nearest> nearest(glm::dvec3 cube, glm::dvec3 place, uint32_t side) const;

@@ -101,7 +101,10 @@ bool Surfaces::stops_light(const rays::Hit& hit) const {
            rays::stops_light(scene_, primitive, hit.triangle, hit.weights);
 }
 
-bool Surfaces::shows_back(const rays::Hit& hit, glm::dvec3 from) const { return !facet(hit, from).front; }
+bool Surfaces::shows_back(const rays::Hit& hit, glm::dvec3 from) const {
+    const Facet met = facet(hit, from);
+    return !met.front && met.material.alpha != scene::Material::Alpha::Mask;
+}
 
 bool Surfaces::is_double_sided(const rays::Hit& hit) const {
     return scene_.materials[scene_.meshes[scene_.nodes[hit.node].mesh].primitives[hit.primitive].material].double_sided;

@@ -36,7 +36,7 @@ public:
     /// Whether the surface has no hole there (rays/opacity.h).
     bool stops_light(const rays::Hit& hit) const;
     /// Whether a ray from `from` hits the back of a triangle, by the order of its corners; of one that is double-sided,
-    /// too.
+    /// too. Masked ones, such as railings and leaves, are sheets without a back.
     bool shows_back(const rays::Hit& hit, glm::dvec3 from) const;
     bool is_double_sided(const rays::Hit& hit) const;
     /// Whether a triangle of a node, in the world, is housing of a lamp.

@@ -47,10 +47,12 @@ vec3 light_of(uvec4 cell) { return kCellUnit * vec3(unpackHalf2x16(cell.y), unpa
 // between these middles. Cells 2 k and 2 k + 1 are the lower and the upper of a column; columns 0 and 1, 2 and 3 follow each other across
 // the side.
 struct Corners {
-    ivec4 of;        // the cube lowest along each axis, and the side
-    vec4 light[8];   // lx, and 1; nothing where there is no cell
-    vec4 plane[8];   // of their surfaces: the normal, and its product with points on it, from the corner of the lowest cube, in cubes
-    uint walls[8];   // bits of hidden ones around
+    ivec4 of;       // the cube lowest along each axis, and the side
+    vec4 light[8];  // lx, and 1; nothing where there is no cell
+    vec4 plane[8];  // of their surfaces: the normal, and its product with points on it, from the corner of the lowest cube, in cubes
+    uint seen;      // 4 bits of each: the columns that it sees
+    uint cut;       // a bit of those that have a cut
+    uvec2 cuts;     // those, a byte of each
 };
 
 // Of a vector: along a side, and across it the two axes after that.
@@ -59,42 +61,65 @@ vec3 turned_back(uint axis, vec3 v) { return axis == 0u ? v.xyz : axis == 1u ? v
 
 Corners corners_of(ivec4 of) {
     Corners corners;
-    corners.of = of;
+    corners.of = of, corners.seen = 0u, corners.cut = 0u, corners.cuts = uvec2(0u);
     const uint axis = uint(of.w) >> 1u;
     [[unroll]] for (uint k = 0u; k < 8u; ++k) {
-        const vec3 offset = turned_back(axis, vec3(k & 1u, k >> 1u & 1u, k >> 2u));
+        const uvec3 step = uvec3(k & 1u, k >> 1u & 1u, k >> 2u);
+        const vec3 offset = turned_back(axis, vec3(step));
         const uint number = number_of(vec3(of.xyz) + offset, push.cubes, uint(of.w));
         const uvec4 cell = find(number);
         const bool there = cell.x == number && number != kNoCell;
         const vec3 normal = decode_normal(unpackSnorm4x8(cell.w).zw);
         corners.light[k] = there ? vec4(light_of(cell), 1.0) : vec4(0.0);
         corners.plane[k] = vec4(normal, dot(normal, offset + 0.5) + unpackHalf2x16(cell.w).x);
-        corners.walls[k] = there ? cell.z >> 16u : 0u;
+        const uint cut = there ? cell.z >> 24u : 0u;
+        corners.cut |= cut != 0u ? 1u << k : 0u;
+        corners.cuts[k >> 2u] |= cut << 8u * (k & 3u);
+        const uint walls = there ? cell.z >> 16u & 0xffu : 0u;
+        [[unroll]] for (uint column = 0u; column < 4u; ++column) {
+            const ivec2 other = ivec2(column & 1u, column >> 1u) - ivec2(step.yz);
+            const int bit = 3 * (other.y + 1) + other.x + 1;
+            const bool seen = other == ivec2(0) || (walls >> uint(bit > 4 ? bit - 1 : bit) & 1u) == 0u;
+            corners.seen |= (seen ? 1u : 0u) << 4u * k + column;
+        }
     }
     return corners;
 }
 
+uint cut_of(Corners corners, uint k) { return (k < 4u ? corners.cuts.x : corners.cuts.y) >> 8u * (k & 3u) & 0xffu; }
+uint cut_axis(uint cut) { return cut >> 6u; }
+
 // Of light and its weight, the sum over the corners.
 vec4 on_surfaces(Corners corners, vec3 at) {
-    const vec3 local = at - vec3(corners.of.xyz), share = turned_to(uint(corners.of.w) >> 1u, clamp(local - 0.5, 0.0, 1.0));
-    // The cell of the point's cube says which of the others it sees.
-    const ivec3 own = ivec3(greaterThanEqual(share, vec3(0.5)));
-    uint hidden = corners.walls[0];
-    [[unroll]] for (uint k = 1u; k < 8u; ++k) hidden = own == ivec3(k & 1u, k >> 1u & 1u, k >> 2u) ? corners.walls[k] : hidden;
+    const vec3 local = at - vec3(corners.of.xyz);
+    const uint axis = uint(corners.of.w) >> 1u;
+    const vec3 share = turned_to(axis, clamp(local - 0.5, 0.0, 1.0));
+    const vec2 across = turned_to(axis, local).yz;
+    uint off = 0u, left = corners.cut;  // a bit of each corner: a cut parts it from the point; the cuts to look at
+    do {
+        const uint k = left != 0u ? uint(findLSB(left)) : 0u, cut = cut_of(corners, k);
+        const bool second = cut_axis(cut) == 2u;
+        const float place = second ? across.y : across.x,
+                    at = float(second ? k >> 2u : k >> 1u & 1u) + (float(cut & kCutSteps - 1u) + 0.5) / float(kCutSteps);
+        off |= cut != 0u && ((cut & kCutSteps) != 0u ? place > at : place < at) ? 1u << k : 0u;
+        left &= left - 1u;
+    } while (left != 0u);
+    // The cell of the point's cube says which columns are seen; where it is cut off, that on the same side of the cut.
+    const uvec3 nearest = uvec3(greaterThanEqual(share, vec3(0.5)));
+    uint own = nearest.x | nearest.y << 1u | nearest.z << 2u;
+    own ^= (off >> own & 1u) != 0u ? cut_axis(cut_of(corners, own)) << 1u : 0u;
+    const uint seen = corners.seen >> 4u * own;
     vec4 sum = vec4(0.0);
     [[unroll]] for (uint column = 0u; column < 4u; ++column) {
-        const uint u = column & 1u, v = column >> 1u;
-        const ivec2 other = ivec2(u, v) - own.yz;
-        const int number = 3 * (other.y + 1) + other.x + 1;
-        const bool seen = other == ivec2(0) || (hidden >> uint(number > 4 ? number - 1 : number) & 1u) == 0u;
-        const float linear = (u != 0u ? share.y : 1.0 - share.y) * (v != 0u ? share.z : 1.0 - share.z);
+        const float linear = ((column & 1u) != 0u ? share.y : 1.0 - share.y) * ((column & 2u) != 0u ? share.z : 1.0 - share.z);
         vec4 both = vec4(0.0);
         [[unroll]] for (uint layer = 0u; layer < 2u; ++layer) {
             const uint k = 2u * column + layer;
             const float same = max(1.0 - abs(dot(corners.plane[k].xyz, local) - corners.plane[k].w) / kSameSurface, kElsewhere);
-            both += (linear * (layer != 0u ? share.x : 1.0 - share.x) * same + kLeastWeight) * corners.light[k];
+            const float part = (off >> k & 1u) != 0u ? 0.0 : linear * (layer != 0u ? share.x : 1.0 - share.x) * same;
+            both += (part + kLeastWeight) * corners.light[k];
         }
-        sum += seen ? both : vec4(0.0);
+        sum += (seen >> column & 1u) != 0u ? both : vec4(0.0);
     }
     return sum;
 }

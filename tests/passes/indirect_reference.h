@@ -1,6 +1,7 @@
 // Light of cells on surfaces, one pixel after another, in double. SPDX-License-Identifier: MIT
 // Each cell of the list is asked in turn what it gives a point: none but those whose middles are less than a cube away
-// along each axis, and none that a wall hides from the cell of the point's own cube. Weights are tents around the
+// along each axis, none that a wall hides from the cell of the point's own cube, and
+// none that a cut parts from the point. Weights are tents around the
 // middle, times one that falls with the distance from the plane of the cell to that of another surface.
 #pragma once
 
@@ -20,7 +21,16 @@ struct LitCell {
     double height;        // of its plane over the middle of its cube, m
     dvec3 normal;         // of that
     uint32_t hidden = 0;  // bits of the eight cells around it that walls hide, see step_of()
+    int cut_axis =
+        0;  // 1, 2: the plane that cuts it lies across the next axis after that of the side, or the one after; 0: none
+    double cut_at = 0;       // from the lowest corner of its cube, cubes
+    bool below_cut = false;  // whether what is below it belongs, or what is above
 };
+
+/// From the 8 bits of a cut.
+inline void set_cut(LitCell& cell, uint32_t bits) {
+    cell.cut_axis = int(bits / 64), cell.below_cut = bits / 32 % 2 == 1, cell.cut_at = (bits % 32 + 0.5) / 32;
+}
 
 /// The step to a cell around another, across its side (next axis after that of the side, and the one after that).
 inline glm::ivec2 step_of(uint32_t bit) {
@@ -50,8 +60,9 @@ public:
             const bool air = grid.is_air(cell.number);
             const dvec3 in_grid = (grid.middle(cell.number) - grid.origin) / grid.size,
                         middle = air ? in_grid : glm::floor(in_grid) + 0.5;
-            (air ? air_ : surfaces_)[cell.number % 6].push_back(
-                {middle, cell.light, cell.normal, cell.height / grid.size, cell.hidden});
+            (air ? air_ : surfaces_)[cell.number % 6].push_back({middle, cell.light, cell.normal,
+                                                                 cell.height / grid.size, cell.hidden, cell.cut_axis,
+                                                                 cell.cut_at, cell.below_cut});
         }
     }
 
@@ -61,7 +72,13 @@ public:
     /// `place` in cubes; `side` 0 to 5: +x, -x, +y, -y, +z, -z.
     CellLight on_surfaces(dvec3 place, uint32_t side) const {
         const int along = int(side / 2), across = (along + 1) % 3, over = (along + 2) % 3;
-        const dvec3 own = glm::floor(place) + 0.5;
+        dvec3 own = glm::floor(place) + 0.5;
+        for (const Lit& cell : surfaces_[side])
+            if (cell.middle == own && cell.is_cut_off(place, along)) {
+                const int axis = (along + cell.cut_axis) % 3;
+                own[axis] += place[axis] < own[axis] ? -1 : 1;
+                break;
+            }
         uint32_t hidden = 0;
         for (const Lit& cell : surfaces_[side])
             if (cell.middle == own) hidden = cell.hidden;
@@ -77,7 +94,9 @@ public:
             if (behind_a_wall) continue;
             const dvec3 tent = 1.0 - glm::abs(off);
             const double same =
-                std::max(1 - std::abs(glm::dot(cell.normal, off) - cell.height) / kSameSurface, kElsewhere);
+                cell.is_cut_off(place, along)
+                    ? 0
+                    : std::max(1 - std::abs(glm::dot(cell.normal, off) - cell.height) / kSameSurface, kElsewhere);
             sum.add(tent.x * tent.y * tent.z * same + kLeastWeight, cell.light);
         }
         return sum;
@@ -104,6 +123,16 @@ private:
         dvec3 middle, light, normal;
         double height;  // cubes
         uint32_t hidden;
+        int cut_axis;
+        double cut_at;
+        bool below_cut;
+
+        bool is_cut_off(dvec3 place, int along) const {
+            if (cut_axis == 0) return false;
+            const int axis = (along + cut_axis) % 3;
+            const double above = place[axis] - (middle[axis] - 0.5 + cut_at);
+            return below_cut ? above > 0 : above < 0;
+        }
     };
     transport::CellGrid grid_;
     dvec3 above_, below_;

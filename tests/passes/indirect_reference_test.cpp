@@ -21,8 +21,10 @@ const transport::CellGrid kGrid{.origin = {-4, 50, 9}, .size = 0.5, .count = {12
 
 reference::CellList listed(const MadeCells& made) {
     std::vector<reference::LitCell> cells;
-    for (const auto& [number, cell] : made.cells)
+    for (const auto& [number, cell] : made.cells) {
         cells.push_back({number, dvec3(cell.light), double(cell.height), dvec3(cell.normal), cell.walls});
+        reference::set_cut(cells.back(), cell.cut.bits);
+    }
     return {made.grid, cells};
 }
 
@@ -76,6 +78,23 @@ TEST(IndirectReference, NoLightCrossesAWall) {
     EXPECT_NEAR(light_at(1 << 6, {5.25, 3.5, 4.5}), 0.25 + 0.75 * 24, 1e-4);
 }
 
+// A wall of a facade (+x) that a slab at a third of its cube's height parts: below the slab there is the light of the
+// cube below, above it none of that. On +x the eight around a cell are counted by y first.
+TEST(IndirectReference, ACutPartsACell) {
+    const auto light_at = [](double height, uint8_t walls_below) {
+        MadeCells made{kGrid, {}};
+        const uint32_t kSide = 0;
+        made.add({4, 3, 4}, kSide, {1, 0, 0}, 0, glm::vec3(1), walls_below);
+        made.add({4, 4, 4}, kSide, {1, 0, 0}, 0, glm::vec3(8), 0, transport::CellCut::across(1, 1 / 3.0, false));
+        made.add({4, 5, 4}, kSide, {1, 0, 0}, 0, glm::vec3(8));
+        return reference::illuminance_on_side(listed(made), {4.5, height, 4.5}, {1, 0, 0}, kSide).x;
+    };
+    for (const double below : {3.6, 3.9, 4.1, 4.3}) EXPECT_NEAR(light_at(below, 0), 1, 1e-4) << below;
+    // Above it, the cube below counts unless it is hidden: that is for the cell to say.
+    EXPECT_NEAR(light_at(4.4, 0), 0.1 * 1 + 0.9 * 8, 1e-4);
+    for (const double above : {4.4, 4.9, 5.2}) EXPECT_GT(light_at(above, 1 << 4), 7) << above;
+}
+
 TEST(IndirectReference, OfTheAirSidesCountByTheSquaresOfTheNormal) {
     MadeCells made{kGrid, {}};
     for (uint32_t side = 0; side < 6; ++side) made.add_air({1, 1, 1}, side, glm::vec3(std::exp2(float(side))));
@@ -123,7 +142,9 @@ TEST(IndirectReference, IsTheLookupOfTheHost) {
         made.add({below(12), below(9), below(10)}, uint32_t(below(6)),
                  glm::normalize(glm::vec3(random.normal(), random.normal(), random.normal())),
                  0.5 * (double(random.unit()) - 0.5), {random.unit(), random.unit(), random.unit()},
-                 uint8_t(below(256)) & uint8_t(below(256)));
+                 uint8_t(below(256)) & uint8_t(below(256)),
+                 i % 3 == 0 ? transport::CellCut::across(1 + uint32_t(below(2)), double(random.unit()), below(2) > 0)
+                            : transport::CellCut());
     for (int i = 0; i < 20; ++i)
         made.add_air({below(3), below(3), below(3)}, uint32_t(below(6)), glm::vec3(random.unit()));
     const reference::CellList cells = listed(made);

@@ -46,7 +46,7 @@ Lit noise(VkExtent2D extent, uint32_t seed) {
 float exact(Noise& random) { return shared::kCellUnit * random.fine(); }
 
 /// A grid of 20 x 12 x 20 m about a place, of which a part of all cells is there, with walls to a quarter of those
-/// around them, and cells of air in half of it.
+/// around them, cuts through a quarter, and cells of air in half of it.
 MadeCells cells_around(dvec3 middle, uint32_t seed, double part) {
     Noise random(seed);
     MadeCells made{{.origin = middle - dvec3(10, 6, 10), .size = 0.8, .count = {25, 15, 25}}, {}};
@@ -61,7 +61,11 @@ MadeCells cells_around(dvec3 middle, uint32_t seed, double part) {
                     const vec3 normal(reference::octahedral_decode({byte(), byte()}));
                     uint8_t walls = 0;
                     for (uint32_t bit = 0; bit < 8; ++bit) walls |= uint8_t((random.unit() < 0.25f ? 1u : 0u) << bit);
-                    if (there) made.add({x, y, z}, side, normal, height, light(), walls);
+                    transport::CellCut cut;
+                    if (random.unit() < 0.25f)
+                        cut = transport::CellCut::across(random.unit() < 0.5f ? 1 : 2, double(random.unit()),
+                                                         random.unit() < 0.5f);
+                    if (there) made.add({x, y, z}, side, normal, height, light(), walls, cut);
                 }
     for (int z = 0; z < 7; ++z)
         for (int y = 0; y < 4; ++y)
@@ -95,8 +99,10 @@ std::vector<glm::vec4> add(PassRig& rig, const Lit& s, const MadeCells& made, co
 void expect_reference(const std::vector<glm::vec4>& got, const Lit& s, const MadeCells& made,
                       const gpu_scene::View& view) {
     std::vector<reference::LitCell> list;
-    for (const auto& [number, cell] : made.cells)
+    for (const auto& [number, cell] : made.cells) {
         list.push_back({number, dvec3(cell.light), double(cell.height), dvec3(cell.normal), cell.walls});
+        reference::set_cut(list.back(), cell.cut.bits);
+    }
     const reference::CellList cells(made.grid, list, dvec3(kAbove), dvec3(kBelow));
     const dvec3 eye = made.grid.place(gpu_scene::eye_of(view));
     size_t jumps = 0;

@@ -8,8 +8,8 @@
 
 namespace vesper::test {
 
-/// Cells with a value each, in any order; as a Radiosity they have numbers, heights, normals and walls, and nothing
-/// else.
+/// Cells with a value each, in any order; as a Radiosity they have numbers, heights, normals, walls and cuts, and
+/// nothing else.
 struct MadeCells {
     transport::CellGrid grid;
     struct Cell {
@@ -17,6 +17,7 @@ struct MadeCells {
         glm::vec3 light;
         uint8_t walls;  // bits, as in Radiosity
         glm::vec3 normal;
+        transport::CellCut cut;
     };
     std::map<uint32_t, Cell> cells;  // by number
 
@@ -28,11 +29,12 @@ struct MadeCells {
     void add(glm::dvec3 cube, uint32_t side, double height, glm::vec3 light, uint8_t walls = 0) {
         add(cube, side, normal_of(side), height, light, walls);
     }
-    void add(glm::dvec3 cube, uint32_t side, glm::vec3 normal, double height, glm::vec3 light, uint8_t walls = 0) {
-        cells[grid.cell(cube, side).value()] = {float(height), light, walls, normal};
+    void add(glm::dvec3 cube, uint32_t side, glm::vec3 normal, double height, glm::vec3 light, uint8_t walls = 0,
+             transport::CellCut cut = {}) {
+        cells[grid.cell(cube, side).value()] = {float(height), light, walls, normal, cut};
     }
     void add_air(glm::dvec3 cube, uint32_t side, glm::vec3 light) {
-        cells[grid.air_cell(cube, side).value()] = {0, light, 0, normal_of(side)};
+        cells[grid.air_cell(cube, side).value()] = {0, light, 0, normal_of(side), {}};
     }
 
     transport::Radiosity radiosity() const {
@@ -40,7 +42,7 @@ struct MadeCells {
         radiosity.grid = grid;
         for (const auto& [number, cell] : cells) {
             radiosity.numbers.push_back(number), radiosity.heights.push_back(cell.height);
-            radiosity.walls.push_back(cell.walls);
+            radiosity.walls.push_back(cell.walls), radiosity.cuts.push_back(cell.cut);
             radiosity.normals.push_back(cell.normal);
         }
         return radiosity;

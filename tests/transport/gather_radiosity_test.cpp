@@ -296,10 +296,10 @@ TEST(GatherRadiosity, PartsThatReachIntoAHouseAreAsBrightAsThoseThatEndAtItsWall
     EXPECT_NEAR(light_below(0.3f), light_below(0), 0.1 * light_below(0));
 }
 
-// Two closed rooms side by side, 10 cm of wall between, one of them lit. Rays find no way through; but the cells of
-// floor and ceiling that the wall crosses lie on both sides, so up to 0.58 of the light in the middle of the lit room
-// is in their part of the dark one, and what they send on: 0.028 beside them, 0.005 at 5 m, in the mean over rays of 25
-// seeds, of which single ones gave 0.70, 0.041 and 0.009. None where a border of cubes lies in the wall.
+// Two closed rooms side by side, 10 cm of wall between, one of them lit. Rays find no way through. The cells of floor
+// and ceiling that the wall crosses are cut there, but for some whose places do not say so: up to 0.04 of the light in
+// the middle of the lit room is in their part of the dark one, and of what they send on 0.003 beside them, 0.0003 at 5
+// m. None where a border of cubes lies in the wall.
 TEST(GatherRadiosity, LightThroughAThinWallStaysNearIt) {
     for (const double shift : {0.0, 0.2, 0.45, 0.7}) {  // of the walls against the cubes, whose borders are at 0.5
         scene::Scene scene;
@@ -322,7 +322,7 @@ TEST(GatherRadiosity, LightThroughAThinWallStaysNearIt) {
             if (x + shift > border) {
                 EXPECT_EQ(mean(x, light.lamps), 0) << x << " by " << shift;
             }
-            const double most = shift == 0.45 ? 0 : x + shift < border ? 0.85 : x > 8 ? 0.015 : 0.06;
+            const double most = shift == 0.45 ? 0 : x + shift < border ? 0.05 : x > 8 ? 0.001 : 0.004;
             EXPECT_LE(mean(x, light.other), most * bright) << x << " by " << shift;
         }
     }

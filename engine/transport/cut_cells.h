@@ -1,0 +1,16 @@
+// Cells that a wall or a slab goes through. SPDX-License-Identifier: MIT
+#pragma once
+
+#include "rays/ray_caster.h"
+#include "transport/cell_places.h"
+
+namespace vesper::transport {
+
+/// A quarter of a cube before a surface of a cell, so that what is carved or laid on it hides nothing.
+glm::dvec3 before(const CellGrid& grid, uint32_t number, glm::dvec3 point);
+
+/// Where a wall or a slab goes through its cube, so that most places see it along an axis, a cell is cut there: what is
+/// on the side of the cube's middle is left. Surfaces beyond have the light of the cube there.
+void cut(CellPlaces& cell, uint32_t number, const CellGrid& grid, const rays::RayCaster& rays);
+
+}  // namespace vesper::transport

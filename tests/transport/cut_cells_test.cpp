@@ -1,0 +1,118 @@
+// Cells that a wall or a slab goes through. SPDX-License-Identifier: MIT
+#include "transport/cut_cells.h"
+
+#include <gtest/gtest.h>
+
+#include "support/gathered.h"
+#include "support/rooms.h"
+#include "transport/light_tracer.h"
+
+namespace vesper::test::cut_cells_test {
+namespace {
+
+using glm::dvec3, transport::CellCut, transport::Radiosity;
+
+TEST(CellCut, HasPointsOnItsSide) {
+    EXPECT_TRUE(CellCut().has({0.1, 0.9, 0.5}, 0));
+    EXPECT_FALSE(CellCut().any());
+    // Of cells that face +x or -x the first axis is y, the second z; of +y: z and x.
+    const CellCut lower = CellCut::across(1, 0.25, true), upper = CellCut::across(2, 0.75, false);
+    for (const uint32_t side : {0u, 1u}) {
+        EXPECT_TRUE(lower.has({0, 0.2, 0.9}, side) && lower.has({0, -3, 0.9}, side));
+        EXPECT_FALSE(lower.has({0, 0.3, 0}, side) || lower.has({0, 1.5, 0}, side));
+        EXPECT_TRUE(upper.has({0, 0, 0.8}, side) && upper.has({0, 0, 1.8}, side));
+        EXPECT_FALSE(upper.has({0, 0, 0.7}, side));
+    }
+    EXPECT_TRUE(lower.has({0.9, 0.9, 0.2}, 2) && upper.has({0.8, 0, 0}, 2));
+    EXPECT_FALSE(lower.has({0, 0, 0.3}, 2) || upper.has({0.7, 1, 1}, 2));
+    // Within a step of 1/32, at the ends as well.
+    for (double at = 0; at <= 1; at += 0.01) {
+        EXPECT_TRUE(CellCut::across(1, at, true).has({0, at - 0.035, 0}, 0)) << at;
+        EXPECT_FALSE(CellCut::across(1, at, true).has({0, at + 0.035, 0}, 0)) << at;
+    }
+}
+
+/// A wall, 8 m high, that faces +x, whose cubes have borders at halves of metres.
+scene::Scene wall() {
+    scene::Scene scene;
+    add_rectangle(scene, add_material(scene, 0.5f), {0, 0, 4}, {0, 0, -8}, {0, 8, 0});
+    return scene;
+}
+
+transport::CellPlaces cut_at(const scene::Scene& scene, dvec3 point) {
+    const auto world = scene::world_transforms(scene, 0);
+    const rays::RayCaster rays(scene, world);
+    const transport::CellGrid grid{.origin = {-0.5, -0.5, -4.5}, .size = 1, .count = {8, 9, 9}};
+    const uint32_t number = grid.cell_at(point, {1, 0, 0}).value();
+    transport::CellPlaces cell;
+    for (const double y : {0.1, 0.35, 0.65, 0.9})
+        for (const double z : {0.3, 0.7})
+            add_place(cell, grid, number,
+                      {dvec3(0, std::floor(point.y + 0.5) - 0.5 + y, std::floor(point.z + 0.5) - 0.5 + z),
+                       {1, 0, 0},
+                       dvec3(0.5),
+                       0,
+                       1,
+                       1,
+                       transport::Exposure::Open});
+    transport::cut(cell, number, grid, rays);
+    return cell;
+}
+
+TEST(CutCells, ASlabCutsTheCellsThatItMeets) {
+    scene::Scene scene = wall();
+    add_box(scene, 0, {0.5f, 0.05f, 4}, {0.5f, 3.0f - 0.25f, 0});  // 2.7 to 2.8 m: at 0.25 of a cube
+    const transport::CellPlaces cell = cut_at(scene, {0, 3, 0});
+    ASSERT_TRUE(cell.cut.any());
+    EXPECT_EQ(cell.count(), 6u) << "the upper part is the larger";
+    for (uint32_t k = 0; k < cell.count(); ++k) EXPECT_GT(cell.places[k].point.y, -0.2f);
+    EXPECT_TRUE(cell.cut.has({0.5, 0.3, 0.5}, 0));
+    EXPECT_FALSE(cell.cut.has({0.5, 0.2, 0.5}, 0));
+    EXPECT_FALSE(cut_at(scene, {0, 2, 0}).cut.any());
+    EXPECT_FALSE(cut_at(scene, {0, 4, 0}).cut.any());
+}
+
+TEST(CutCells, APierCutsThemBesideIt) {
+    scene::Scene scene = wall();
+    add_box(scene, 0, {0.5f, 4, 0.04f}, {0.5f, 4, 0.1f});  // at 0.6 of a cube: what is below it is larger
+    const transport::CellPlaces cell = cut_at(scene, {0, 3, 0});
+    EXPECT_EQ(cell.cut.axis(), 2u);
+    EXPECT_TRUE(cell.cut.has({0.5, 0.5, 0.5}, 0));
+    EXPECT_FALSE(cell.cut.has({0.5, 0.5, 0.7}, 0));
+}
+
+TEST(CutCells, WhatDoesNotPartThemCutsNothing) {
+    scene::Scene scene = wall();
+    EXPECT_FALSE(cut_at(scene, {0, 3, 0}).cut.any());
+    add_box(scene, 0, {0.5f, 0.05f, 0.1f}, {0.5f, 2.75f, -0.4f});  // a bracket, at the side
+    EXPECT_FALSE(cut_at(scene, {0, 3, 0}).cut.any());
+    add_box(scene, 0, {0.05f, 0.05f, 4}, {0.05f, 2.75f, 0});  // a moulding, 10 cm
+    EXPECT_FALSE(cut_at(scene, {0, 3, 0}).cut.any());
+}
+
+// Two facades and a lit floor between: above a balcony one gets the light of the other, below it that of the floor, up
+// to where it meets the wall.
+TEST(CutCells, ABalconyKeepsItsShadow) {
+    scene::Scene scene = wall();
+    add_rectangle(scene, 0, {0, 0, 4}, {8, 0, 0}, {0, 0, -8});
+    add_rectangle(scene, 0, {8, 0, -4}, {0, 0, 8}, {0, 8, 0});
+    add_box(scene, 0, {0.6f, 0.05f, 4}, {0.6f, 3.2f, 0});
+    add_lamp(scene, 2000, {1.5, 1, 0});
+    const auto world = scene::world_transforms(scene, 0);
+    const Radiosity radiosity = gathered(scene);
+    const transport::LightTracer tracer(scene, world);
+    const auto light = radiosity.solve({}).other;
+    for (const double y : {2.3, 2.6, 2.9, 3.1, 3.3, 3.5, 3.8, 4.2}) {
+        double found = 0, wanted = 0;
+        for (double z = -2; z < 2.1; z += 0.5) {
+            found += radiosity.at(light, {0, y, z}, {1, 0, 0}).g;
+            const transport::Illuminance traced = tracer.at({1e-3, y, z}, {1, 0, 0}, {.paths = 2048, .lamp_rays = 1});
+            wanted += traced.sum().g - traced[transport::Origin::Lamps].g;
+        }
+        // 5 cm over the balcony it hides half.
+        EXPECT_NEAR(found / wanted, 1, y == 3.3 ? 0.8 : 0.3) << y;
+    }
+}
+
+}  // namespace
+}  // namespace vesper::test::cut_cells_test

@@ -1,5 +1,6 @@
 // Luminous flux of a scene: what is emitted, and where it goes. SPDX-License-Identifier: MIT
 #include <array>
+#include <cmath>
 
 #include "arguments/cache_arguments.h"
 #include "base/one_line.h"
@@ -9,11 +10,13 @@
 #include "scene/placement.h"
 #include "scene/read_scene.h"
 #include "transport/flux_balance.h"
+#include "transport/path_check.h"
 
 namespace vesper::commands {
 namespace {
 
 constexpr uint32_t kReflections = 32;
+constexpr double kRight = 0.05;  // of the light: more is said to be lost or gained, if it is three standard errors
 
 struct FluxRow {
     const char *text, *key;
@@ -44,6 +47,21 @@ Inspection inspect_balance(const InspectArguments& arguments) {
         made.text += apps::format("  %-26s %10.4g lm   %6.1f %%\n", row.text, row.lumen, share);
         made.json["flux_lm"][row.key] = row.lumen;
     }
+    const transport::PathCheck check = transport::check_by_paths(scene, world, moving, *radiosity, kReflections);
+    made.text += apps::format(
+        "\nLight between surfaces, with the sky, mean of %u places:\n"
+        "  %-26s %10.4g lx\n  %-26s %10.4g lx\n  %-26s %10.1f %%, std. error %.1f %%\n",
+        check.places, "of cells", check.cells, "of paths of rays", check.paths, "of cells, to that of paths",
+        100 * check.ratio(), 100 * check.error);
+    const double off = check.ratio() - 1;
+    if (check.paths > 0 && std::abs(off) > kRight && std::abs(off) > 3 * check.error)
+        made.text += apps::format("  This scene %s %.0f %% of that light; --paths of vesper render does not.\n",
+                                  off < 0 ? "loses" : "gains", 100 * std::abs(off));
+    made.json["light_between_surfaces"] = {{"places", check.places},
+                                           {"cells_lx", check.cells},
+                                           {"paths_lx", check.paths},
+                                           {"ratio", check.ratio()},
+                                           {"standard_error", check.error}};
     return made;
 }
 

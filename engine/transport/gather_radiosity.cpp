@@ -93,15 +93,16 @@ struct Gathering {
         std::vector<uint32_t> numbers;
         std::vector<CellPlaces> cells;
         std::vector<float> sky;
-        std::vector<uint32_t> met;    // numbers
-        std::vector<uint16_t> parts;  // as Radiosity::parts
         struct Region {
             std::vector<uint32_t> cells;
             std::vector<uint32_t> counts;  // of sources of each
             std::vector<Radiosity::Source> sources;
             std::vector<uint32_t> lamp_counts;  // likewise, of lamps alone
             std::vector<Radiosity::Source> lamps;
-            std::vector<FoundPlace> places;  // where rays met what is no cell yet
+            std::vector<uint32_t> met_counts;  // of cells that the rays of each met
+            std::vector<uint32_t> met;         // numbers
+            std::vector<uint16_t> parts;       // as Radiosity::parts
+            std::vector<FoundPlace> places;    // where rays met what is no cell yet
         };
         std::vector<Region> regions;
     };
@@ -159,9 +160,9 @@ struct Gathering {
 
     // A ray, and what it met.
     struct Sent {
-        uint32_t met = Radiosity::kNowhere;  // number
-        double part = 0;                     // of the light of what it met that it brings
-        bool guided = false;                 // guided ones go there, too
+        std::optional<uint32_t> met;  // number
+        double part = 0;              // of the light of what it met that it brings
+        bool guided = false;          // guided ones go there, too
         bool to_sky = false;
     };
 
@@ -214,6 +215,21 @@ struct Gathering {
         const double of_guided = guided > 0 && (guided > 1 || others == 0) ? 1 / guided : 1,
                      of_others = others > 0 ? std::max(1 - guided, 0.0) / others : 1;
         for (Sent& sent : all) sent.part *= sent.guided ? of_guided : of_others;
+    }
+
+    // Each cell once.
+    static void keep_met(std::vector<Sent>& sent, Round::Region& region) {
+        std::erase_if(sent, [](const Sent& one) { return !one.met || !(one.part > 0); });
+        std::ranges::stable_sort(sent, {}, &Sent::met);
+        const size_t before = region.met.size();
+        for (auto one = sent.begin(); one != sent.end();) {
+            const uint32_t number = *one->met;
+            double part = 0;
+            for (; one != sent.end() && *one->met == number; ++one) part += one->part;
+            region.met.push_back(number);
+            region.parts.push_back(glm::packHalf1x16(float(part) / Radiosity::kPartUnit));
+        }
+        region.met_counts.push_back(uint32_t(region.met.size() - before));
     }
 
     // Of a cell: before its surfaces. Places that follow each other lie beside each other.
@@ -312,18 +328,15 @@ struct Gathering {
             }
         }
         balance(sent);
-        for (size_t r = 0; r < sent.size(); ++r) {
-            if (sent[r].to_sky) round.sky[i] += float(sent[r].part);
-            round.met[i * settings.rays + r] = sent[r].met;
-            round.parts[i * settings.rays + r] = glm::packHalf1x16(float(sent[r].part) / Radiosity::kPartUnit);
-        }
+        for (const Sent& one : sent)
+            if (one.to_sky) round.sky[i] += float(one.part);
+        keep_met(sent, region);
         keep_strongest(meshes, region.sources);
     }
 
     std::optional<Radiosity> run(const std::function<bool(double)>& progress) {
         Radiosity result;
-        result.rays = settings.rays;
-        result.first_source.push_back(0);
+        result.first_source.push_back(0), result.first_met.push_back(0);
         std::optional<PlacesByCell> places;
         // Where surfaces are small there are more cells than their area says.
         for (RadiositySettings sized = settings;
@@ -346,8 +359,7 @@ struct Gathering {
             known.insert(known.end(), round.numbers.begin(), round.numbers.end());
             std::ranges::inplace_merge(known, known.begin() + before);
             const size_t cells = round.cells.size();
-            round.sky.resize(cells), round.met.resize(cells * settings.rays, Radiosity::kNowhere),
-                round.parts.resize(cells * settings.rays);
+            round.sky.resize(cells);
             in_parallel(cells, 1024, [&](size_t begin, size_t end) {
                 for (size_t i = begin; i < end; ++i) cut(round.cells[i], round.numbers[i], grid, rays);
             });
@@ -395,13 +407,20 @@ struct Gathering {
 
     void put_together(const std::vector<Round>& rounds, Radiosity& result) const {
         result.grid = grid, result.numbers = known;
-        std::vector<std::vector<std::span<const Radiosity::Source>>> sources;  // of each cell of each round
+        struct Found {
+            std::span<const Radiosity::Source> sources;
+            std::span<const uint32_t> met;
+            std::span<const uint16_t> parts;
+        };
+        std::vector<std::vector<Found>> found;  // of each cell of each round
         for (const Round& round : rounds) {
-            auto& of_cells = sources.emplace_back(round.cells.size());
+            auto& of_cells = found.emplace_back(round.cells.size());
             for (const Round::Region& region : round.regions) {
-                size_t first = 0;
-                for (size_t i = 0; i < region.cells.size(); first += region.counts[i++])
-                    of_cells[region.cells[i]] = std::span(region.sources).subspan(first, region.counts[i]);
+                size_t source = 0, met = 0;
+                for (size_t i = 0; i < region.cells.size(); source += region.counts[i], met += region.met_counts[i++])
+                    of_cells[region.cells[i]] = {std::span(region.sources).subspan(source, region.counts[i]),
+                                                 std::span(region.met).subspan(met, region.met_counts[i]),
+                                                 std::span(region.parts).subspan(met, region.met_counts[i])};
             }
         }
         std::vector<std::pair<size_t, size_t>> at(known.size());  // round, and index in it
@@ -418,15 +437,13 @@ struct Gathering {
             result.heights.push_back(float(glm::dot(cell.point / cell.weight, glm::dvec3(result.normals.back()))));
             result.reflectances.push_back(glm::vec3(cell.reflectance / cell.weight));
             result.sky.push_back(round.sky[i]);
-            const auto first_ray = std::ptrdiff_t(i * settings.rays);
-            result.parts.insert(result.parts.end(), round.parts.begin() + first_ray,
-                                round.parts.begin() + first_ray + settings.rays);
-            for (size_t ray = i * settings.rays; ray < (i + 1) * settings.rays; ++ray)
-                result.met.push_back(round.met[ray] == Radiosity::kNowhere
-                                         ? Radiosity::kNowhere
-                                         : result.find(round.met[ray]).value_or(Radiosity::kNowhere));
-            const std::span of_cell = sources[r][i];
-            result.sources.insert(result.sources.end(), of_cell.begin(), of_cell.end());
+            const Found& of_cell = found[r][i];
+            // What rays of the last round met may be no cell.
+            for (size_t k = 0; k < of_cell.met.size(); ++k)
+                if (const std::optional<uint32_t> met = result.find(of_cell.met[k]))
+                    result.met.push_back(*met), result.parts.push_back(of_cell.parts[k]);
+            result.first_met.push_back(uint32_t(result.met.size()));
+            result.sources.insert(result.sources.end(), of_cell.sources.begin(), of_cell.sources.end());
             result.first_source.push_back(uint32_t(result.sources.size()));
         }
         connect(cells, result);

@@ -11,7 +11,7 @@ namespace vesper::transport {
 namespace {
 
 // To be raised whenever the same scene gives other cells.
-constexpr uint64_t kRadiosityVersion = 15;
+constexpr uint64_t kRadiosityVersion = 16;
 
 void add_use(Digest& digest, const scene::TextureUse& use) {
     digest.add_value(use.image), digest.add_value(use.wrap_u), digest.add_value(use.wrap_v);
@@ -69,7 +69,8 @@ void add_meshes(Digest& digest, const scene::Scene& scene) {
 template <class Radiosity, class Take>
 void each_list(Radiosity& r, Take take) {
     take(r.numbers), take(r.heights), take(r.areas), take(r.normals), take(r.reflectances), take(r.sky);
-    take(r.first_source), take(r.sources), take(r.met), take(r.parts), take(r.beside), take(r.walls), take(r.cuts);
+    take(r.first_source), take(r.sources), take(r.first_met), take(r.met), take(r.parts), take(r.beside), take(r.walls),
+        take(r.cuts);
     take(r.bodies.bodies), take(r.bodies.volumes), take(r.bodies.hidden);
 }
 
@@ -77,10 +78,10 @@ struct Header {
     glm::dvec3 origin{0};
     double size = 0;
     glm::uvec3 count{0};
-    uint32_t rays = 0;
-    std::array<uint64_t, 16> sizes{};  // of the lists
+    uint32_t unused = 0;               // instead of padding
+    std::array<uint64_t, 17> sizes{};  // of the lists
 };
-static_assert(sizeof(Header) == 176, "without padding");
+static_assert(sizeof(Header) == 184, "without padding");
 
 Digest::Value key_of_lists(const Digest::Value& key) {
     Digest digest;
@@ -127,7 +128,7 @@ std::optional<Radiosity> read_radiosity(Cache& cache, const Digest::Value& key) 
     Header header;
     if (!cache.read(key, std::as_writable_bytes(std::span(&header, 1)))) return std::nullopt;
     Radiosity radiosity;
-    radiosity.grid = {header.origin, header.size, header.count}, radiosity.rays = header.rays;
+    radiosity.grid = {header.origin, header.size, header.count};
     std::vector<std::byte> bytes(bytes_of_lists(header, radiosity));
     if (!cache.read(key_of_lists(key), bytes)) return std::nullopt;
     size_t i = 0, at = 0;
@@ -142,7 +143,7 @@ std::optional<Radiosity> read_radiosity(Cache& cache, const Digest::Value& key) 
 
 std::string write_radiosity(Cache& cache, const Digest::Value& key, const Radiosity& radiosity) {
     const CellGrid& grid = radiosity.grid;
-    Header header{.origin = grid.origin, .size = grid.size, .count = grid.count, .rays = radiosity.rays};
+    Header header{.origin = grid.origin, .size = grid.size, .count = grid.count};
     std::vector<std::byte> bytes;
     size_t i = 0;
     each_list(radiosity, [&](const auto& list) {

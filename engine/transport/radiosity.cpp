@@ -60,8 +60,8 @@ std::optional<uint32_t> Radiosity::find(uint32_t number) const {
 
 uint64_t Radiosity::bytes() const {
     return bytes_of(numbers) + bytes_of(heights) + bytes_of(areas) + bytes_of(normals) + bytes_of(reflectances) +
-           bytes_of(sky) + bytes_of(first_source) + bytes_of(sources) + bytes_of(met) + bytes_of(parts) +
-           bytes_of(beside) + bytes_of(walls) + bytes_of(cuts);
+           bytes_of(sky) + bytes_of(first_source) + bytes_of(sources) + bytes_of(first_met) + bytes_of(met) +
+           bytes_of(parts) + bytes_of(beside) + bytes_of(walls) + bytes_of(cuts);
 }
 
 void Radiosity::connect(const std::function<bool(uint32_t, uint32_t)>& sees) {
@@ -134,8 +134,8 @@ Radiosity::Solution Radiosity::solve(const RadiosityLight& light) const {
         each_cell([&](size_t i) { sent[i] = reflectances[i] * (result.lamps[i] + other[i]); });
         each_cell([&](size_t i) {
             glm::vec3 sum(0);
-            for (size_t ray = i * rays; ray < (i + 1) * rays; ++ray)
-                if (met[ray] != kNowhere) sum += glm::unpackHalf1x16(parts[ray]) * sent[met[ray]];
+            for (uint32_t k = first_met[i]; k < first_met[i + 1]; ++k)
+                sum += glm::unpackHalf1x16(parts[k]) * sent[met[k]];
             other[i] = unreflected[i] + kPartUnit * sum;
         });
         if (!(light.reflection_error > 0)) continue;

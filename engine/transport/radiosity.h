@@ -37,8 +37,6 @@ glm::dvec3 open_sky(const RadiosityLight& light, glm::dvec3 normal);
 /// end at, half of them distributed as cosines (form factors: Malley 1988), half sent to what lamps light. Surfaces
 /// count as matt.
 struct Radiosity {
-    static constexpr uint32_t kNowhere = ~0u;  ///< a ray that meets no surface
-
     /// Direct light of a cell from a lamp or an emitting mesh, at its full light.
     struct Source {
         uint32_t node;  ///< with kLamp, or of the mesh
@@ -61,13 +59,13 @@ struct Radiosity {
     std::vector<float> sky;              ///< part of the light of a uniform hemisphere that comes from the sky
     std::vector<uint32_t> first_source;  ///< of each, and the end
     std::vector<Source> sources;
-    std::vector<uint32_t> met;     ///< index of the cell that each ray of each cell met, or kNowhere
-    std::vector<uint16_t> parts;   ///< of its exitance that each brings, in kPartUnit, halves; at most 1 for a cell
-    uint32_t rays = 0;             ///< of each
-    std::vector<uint32_t> beside;  ///< of each the kBeside cells of the same surface around it, or itself
-    std::vector<uint8_t> walls;    ///< of each bits of those around it that it does not see; empty: it sees all
-    std::vector<CellCut> cuts;     ///< of each; empty: none
-    MovingBodies bodies;           ///< that hide light of the cells
+    std::vector<uint32_t> first_met;  ///< of each, and the end
+    std::vector<uint32_t> met;        ///< indices of the cells that its rays met, ascending
+    std::vector<uint16_t> parts;      ///< of their exitance that it gets, in kPartUnit, halves; at most 1 for a cell
+    std::vector<uint32_t> beside;     ///< of each the kBeside cells of the same surface around it, or itself
+    std::vector<uint8_t> walls;       ///< of each bits of those around it that it does not see; empty: it sees all
+    std::vector<CellCut> cuts;        ///< of each; empty: none
+    MovingBodies bodies;              ///< that hide light of the cells
 
     /// Finds `beside` and `walls`, from the rest and from what `sees` says of two cells, by several threads.
     void connect(const std::function<bool(uint32_t, uint32_t)>& sees);

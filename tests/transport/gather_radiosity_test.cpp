@@ -44,6 +44,7 @@ void expect_same(const Radiosity& a, const Radiosity& b) {
     EXPECT_EQ(a.reflectances, b.reflectances);
     EXPECT_EQ(a.sky, b.sky);
     EXPECT_EQ(a.first_source, b.first_source);
+    EXPECT_EQ(a.first_met, b.first_met);
     EXPECT_EQ(a.met, b.met);
     EXPECT_EQ(a.parts, b.parts);
     EXPECT_EQ(a.beside, b.beside);
@@ -62,11 +63,13 @@ TEST(GatherRadiosity, TheSameSceneGivesTheSame) {
     EXPECT_GT(cells, 256u);
     const auto unsorted = std::ranges::adjacent_find(radiosity.numbers, std::ranges::greater_equal{});
     EXPECT_TRUE(unsorted == radiosity.numbers.end());
-    EXPECT_EQ(radiosity.met.size(), cells * radiosity.rays);
+    EXPECT_EQ(radiosity.first_met.size(), cells + 1);
+    EXPECT_EQ(radiosity.first_met.back(), radiosity.met.size());
+    EXPECT_EQ(radiosity.parts.size(), radiosity.met.size());
     EXPECT_EQ(radiosity.beside.size(), cells * Radiosity::kBeside);
     EXPECT_EQ(radiosity.first_source.size(), cells + 1);
     EXPECT_EQ(radiosity.first_source.back(), radiosity.sources.size());
-    for (const uint32_t met : radiosity.met) EXPECT_TRUE(met < cells || met == Radiosity::kNowhere);
+    for (const uint32_t met : radiosity.met) EXPECT_LT(met, cells);
     for (uint32_t i = 0; i < cells; ++i) EXPECT_EQ(radiosity.find(radiosity.numbers[i]), i);
     const Radiosity::Solution lit = radiosity.solve({.sky = dvec3(1)});
     for (const std::vector<vec3>& values : {lit.lamps, lit.other})
@@ -226,8 +229,8 @@ TEST(GatherRadiosity, BacksAreFoundByRays) {
         if (radiosity.grid.is_air(radiosity.numbers[i]) || radiosity.grid.middle(radiosity.numbers[i]).y >= 2) continue;
         EXPECT_EQ(radiosity.sky[i], 0);
         double parts = 0;
-        for (size_t ray = i * radiosity.rays; ray < (i + 1) * radiosity.rays; ++ray)
-            parts += double(Radiosity::kPartUnit * glm::unpackHalf1x16(radiosity.parts[ray]));
+        for (uint32_t k = radiosity.first_met[i]; k < radiosity.first_met[i + 1]; ++k)
+            parts += double(Radiosity::kPartUnit * glm::unpackHalf1x16(radiosity.parts[k]));
         EXPECT_NEAR(parts, 1, 1e-3) << i;
     }
     // 1.7 m over the lamp, where it faces down; less, as a cell is a mean over 1 m.

@@ -1,6 +1,8 @@
 #include "transport/cell_grid.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace vesper::transport {
 
@@ -18,15 +20,33 @@ glm::dvec3 direction_of(uint32_t side) {
 
 double along(glm::dvec3 v, uint32_t side) { return side % 2 ? -v[int(side / 2)] : v[int(side / 2)]; }
 
-CellCut CellCut::across(uint32_t axis, double at, bool below) {
-    const auto step = uint32_t(std::clamp(at * kSteps, 0.0, kSteps - 1.0));
-    return {uint8_t(axis << 6u | (below ? kSteps : 0) | step)};
+CellCut CellCut::across(uint32_t way, double at, bool below) {
+    const double step = at * kSteps - 0.5;
+    const auto beyond = uint32_t(std::clamp(below ? std::ceil(step) : std::floor(step), 1.0, kSteps - 1.0));
+    return {uint8_t(way << 6u | (below ? kSteps : 0) | beyond)};  // not 0: that is none
+}
+
+glm::dvec3 CellCut::direction(uint32_t way, uint32_t side) {
+    constexpr double kHalf = 0.5 * std::numbers::sqrt2;
+    constexpr double kOf[kWays][2]{{1, 0}, {0, 1}, {kHalf, kHalf}, {kHalf, -kHalf}};
+    glm::dvec3 direction(0);
+    direction[int(side / 2 + 1) % 3] = kOf[way][0], direction[int(side / 2 + 2) % 3] = kOf[way][1];
+    return direction;
+}
+
+double CellCut::along(uint32_t way, glm::dvec3 point, uint32_t side) {
+    return glm::dot(point - 0.5, direction(way, side)) + 0.5;
 }
 
 bool CellCut::has(glm::dvec3 point, uint32_t side) const {
     if (!any()) return true;
-    const double beyond = point[int(side / 2 + axis()) % 3] - (bits % kSteps + 0.5) / kSteps;
-    return bits & kSteps ? beyond <= 0 : beyond >= 0;
+    const double past = along(way(), point, side) - (bits % kSteps + 0.5) / kSteps;
+    return bits & kSteps ? past <= 0 : past >= 0;
+}
+
+glm::dvec3 CellCut::beyond(glm::dvec3 point, uint32_t side) const {
+    const glm::dvec3 from_middle = point - 0.5, away = (bits & kSteps ? 1.0 : -1.0) * direction(way(), side);
+    return glm::sign(from_middle) * glm::dvec3(glm::greaterThan(from_middle * away, glm::dvec3(0)));
 }
 
 CellGrid CellGrid::around(glm::dvec3 low, glm::dvec3 high, double least) {

@@ -20,18 +20,26 @@ glm::dvec3 direction_of(uint32_t side);  ///< unit length
 double along(glm::dvec3 v, uint32_t side);
 
 /// A plane that cuts a cell: where a wall or a slab goes through its cube, only the surfaces on one side of it belong
-/// to the cell. It lies across one of the two axes after that of the cell's side.
+/// to the cell. It stands on the cell's side, across one of four ways: the two axes after that of the side, the
+/// diagonal between them, and that from the first away from the second. A place along a way is in cubes, 0.5 in the
+/// middle of the cube.
 struct CellCut {
-    static constexpr uint32_t kSteps = 32;
+    static constexpr uint32_t kSteps = 32, kWays = 4;
 
-    uint8_t bits = 0;  ///< from below: 5 of its place along the axis, whether what is below it belongs, 2 of the axis
+    uint8_t bits = 0;  ///< from below: 5 of its place along the way, whether what is below it belongs, 2 of the way
 
-    /// Across the first or the second (1 or 2) axis after that of the side, at a part of the cube.
-    static CellCut across(uint32_t axis, double at, bool below);
+    /// At the next step beyond `at`, from what belongs.
+    static CellCut across(uint32_t way, double at, bool below);
+    /// Unit length, along the side.
+    static glm::dvec3 direction(uint32_t way, uint32_t side);
+    static double along(uint32_t way, glm::dvec3 point, uint32_t side);  ///< `point` from the cube's lowest corner
     bool any() const { return bits != 0; }
-    uint32_t axis() const { return bits >> 6u; }  ///< 0: none
+    uint32_t way() const { return bits >> 6u; }
     /// Whether a point belongs, as far as the plane says; from the lowest corner of the cube, in cubes.
     bool has(glm::dvec3 point, uint32_t side) const;
+    /// From the cube of a point that does not belong to the one whose cell it goes to: beside it, where the point lies
+    /// on the way beyond the plane from the middle of the cube.
+    glm::dvec3 beyond(glm::dvec3 point, uint32_t side) const;
 };
 
 /// Space in cubes. A cell is what lies in one cube and faces one of its sides most. Beside those of surfaces there are

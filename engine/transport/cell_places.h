@@ -25,7 +25,8 @@ struct CellPlaces {
     struct Place {
         glm::vec3 point{0};  ///< from the middle of the cube, m
         glm::vec3 normal{0};
-        uint32_t node = 0;
+        uint32_t node = 0;         ///< scene::kNone in the air
+        uint32_t reflectance = 0;  ///< glm::packF3x9_E1x5
     };
     std::array<Place, kMost> places;  ///< count() of all that were seen, each as likely
     uint32_t seen = 0;
@@ -37,6 +38,8 @@ struct CellPlaces {
     CellCut cut;
 
     uint32_t count() const { return std::min(seen, kMost); }
+    /// Only those of places() for which a bit is set; sums become those of these.
+    void keep(uint32_t places);
 };
 using PlacesByCell = std::map<uint32_t, CellPlaces>;
 

@@ -2,46 +2,62 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 namespace vesper::transport {
 namespace {
 
-constexpr double kOfPlaces = 0.75;  // so many must meet what cuts a cell
-constexpr double kThick = 0.2;      // of a cube: half of what that is at most
+constexpr uint32_t kLeastPlaces = 3;  // of a cell that is cut
+constexpr double kOfPlaces = 0.75;    // so many must meet what cuts a cell
+constexpr double kThick = 0.3;        // of a cube, from the plane of a cut to where it is met
 
-// A place of a cell, and what is met from there along an axis before the cube ends; in cubes.
+// A place of a cell along a way, and what is met from there before the cube ends, in cubes.
 struct Probe {
     double at = 0;
     std::optional<double> below, above;
 
-    std::optional<double> towards(double plane) const { return plane < at ? below : above; }
+    // From a plane to what is met on the way there; at most kThick.
+    double off(double plane) const {
+        const std::optional<double>& towards = plane < at ? below : above;
+        return towards ? std::min(std::abs(*towards - plane), kThick) : kThick;
+    }
 };
 
-std::optional<double> met(glm::dvec3 from, double at, double end, int axis, double size, const rays::RayCaster& rays) {
-    glm::dvec3 to = from;
-    to[axis] += (end - at) * size;
-    const std::optional<rays::Hit> hit = rays.nearest(from, to);
+std::optional<double> met(glm::dvec3 from, double at, double end, glm::dvec3 way, const rays::RayCaster& rays) {
+    const std::optional<rays::Hit> hit = rays.nearest(from, from + (end - at) * way);
     return hit ? std::optional(glm::mix(at, end, hit->share)) : std::nullopt;
 }
 
-// Where most probes meet something.
-std::optional<double> plane_of(std::span<const Probe> probes) {
-    std::optional<double> plane;
-    size_t most = 0;
+// A plane across a way.
+struct Plane {
+    uint32_t way;
+    double at;   // cubes
+    double off;  // from there to what probes meet, the sum over all
+};
+
+// The one that probes meet best, in the middle between any two hits: of a wall its faces on both sides, of one that is
+// turned its ends.
+std::optional<Plane> plane_of(uint32_t way, std::span<const Probe> probes) {
+    std::vector<double> hits;
     for (const Probe& probe : probes)
-        for (const std::optional<double> wanted : {probe.below, probe.above}) {
-            if (!wanted) continue;
-            size_t count = 0;
-            double low = 1, high = 0;
-            for (const Probe& other : probes) {
-                const std::optional<double> hit = other.towards(*wanted);
-                if (!hit || std::abs(*hit - *wanted) > kThick) continue;
-                ++count, low = std::min(low, *hit), high = std::max(high, *hit);
+        for (const std::optional<double>& hit : {probe.below, probe.above})
+            if (hit) hits.push_back(*hit);
+    std::optional<Plane> best;
+    for (size_t a = 0; a < hits.size(); ++a)
+        for (size_t b = 0; b <= a; ++b) {
+            Plane plane{way, 0.5 * (hits[a] + hits[b]), 0};
+            if (!(plane.at > 0 && plane.at < 1)) continue;
+            double met = 0;
+            for (const Probe& probe : probes) {
+                const double off = probe.off(plane.at);
+                plane.off += off, met += off < kThick ? 1 : 0;
             }
-            if (count > most) most = count, plane = 0.5 * (low + high);
+            if (met >= kOfPlaces * double(probes.size()) && (!best || plane.off < best->off)) best = plane;
         }
-    return double(most) >= kOfPlaces * double(probes.size()) ? plane : std::nullopt;
+    return best;
 }
 
 }  // namespace
@@ -51,26 +67,41 @@ glm::dvec3 before(const CellGrid& grid, uint32_t number, glm::dvec3 point) {
 }
 
 void cut(CellPlaces& cell, uint32_t number, const CellGrid& grid, const rays::RayCaster& rays) {
-    if (grid.is_air(number)) return;
-    CellPlaces least = cell;  // of both axes, the cut that leaves less
-    for (uint32_t across = 1; across <= 2; ++across) {
-        const int axis = int(grid.side(number) / 2 + across) % 3;
+    if (grid.is_air(number) || cell.count() < kLeastPlaces) return;
+    const uint32_t side = grid.side(number);
+    const auto at = [&](uint32_t way, uint32_t i) {
+        return CellCut::along(way, glm::dvec3(cell.places[i].point) / grid.size + 0.5, side);
+    };
+    std::optional<Plane> best;
+    for (uint32_t way = 0; way < CellCut::kWays; ++way) {
+        const glm::dvec3 direction = CellCut::direction(way, side), across = grid.size * direction;
+        const double end = CellCut::along(way, 0.5 + 0.5 * glm::sign(direction), side);  // of the cube
         std::array<Probe, CellPlaces::kMost> probes;
         for (uint32_t i = 0; i < cell.count(); ++i) {
             const glm::dvec3 from = before(grid, number, grid.middle(number) + glm::dvec3(cell.places[i].point));
-            const double at = double(cell.places[i].point[axis]) / grid.size + 0.5;
-            probes[i] = {at, met(from, at, 0, axis, grid.size, rays), met(from, at, 1, axis, grid.size, rays)};
+            probes[i] = {at(way, i), met(from, at(way, i), 1 - end, across, rays),
+                         met(from, at(way, i), end, across, rays)};
         }
-        const std::optional<double> plane = plane_of(std::span(probes).first(cell.count()));
-        if (!plane) continue;
-        const bool below = *plane >= 0.5;
-        CellPlaces left = cell;
-        left.seen = 0, left.cut = CellCut::across(across, *plane, below);
-        for (uint32_t i = 0; i < cell.count(); ++i)
-            if ((probes[i].at < *plane) == below) left.places[left.seen++] = cell.places[i];
-        if (left.seen > 0 && (!least.cut.any() || left.seen < least.count())) least = left;
+        const std::optional<Plane> plane = plane_of(way, std::span(probes).first(cell.count()));
+        if (plane && (!best || plane->off < best->off)) best = plane;
     }
-    cell = least;
+    if (!best) return;
+    uint32_t places[2] = {0, 0};  // above and below it, a bit each
+    for (uint32_t i = 0; i < cell.count(); ++i) places[at(best->way, i) < best->at ? 1 : 0] |= 1u << i;
+    // On the side of the middle, if some are there.
+    const bool middle_below = best->at >= 0.5, below = places[middle_below ? 1 : 0] != 0 ? middle_below : !middle_below;
+    cell.keep(places[below ? 1 : 0]), cell.cut = CellCut::across(best->way, best->at, below);
+}
+
+bool is_split(const CellPlaces& cell, uint32_t number, const CellGrid& grid, const rays::RayCaster& rays) {
+    if (grid.is_air(number)) return false;
+    const auto start = [&](uint32_t i) {
+        return before(grid, number, grid.middle(number) + glm::dvec3(cell.places[i].point));
+    };
+    uint32_t pairs = 0, apart = 0;
+    for (uint32_t a = 1; a < cell.count(); ++a)
+        for (uint32_t b = 0; b < a; ++b, ++pairs) apart += rays.blocked(start(a), start(b)) ? 1 : 0;
+    return pairs > 0 && 2 * apart >= pairs;
 }
 
 }  // namespace vesper::transport

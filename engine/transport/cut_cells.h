@@ -11,6 +11,11 @@ glm::dvec3 before(const CellGrid& grid, uint32_t number, glm::dvec3 point);
 
 /// Where a wall or a slab goes through its cube, so that most places see it along an axis, a cell is cut there: what is
 /// on the side of the cube's middle is left. Surfaces beyond have the light of the cube there.
+/// Of fewer than four places none is cut.
 void cut(CellPlaces& cell, uint32_t number, const CellGrid& grid, const rays::RayCaster& rays);
+
+/// Whether something that cuts it nowhere stands between its places, such as a wall across the corners of its cube: it
+/// is between half of the pairs at least; a post is not.
+bool is_split(const CellPlaces& cell, uint32_t number, const CellGrid& grid, const rays::RayCaster& rays);
 
 }  // namespace vesper::transport

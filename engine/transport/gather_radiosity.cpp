@@ -199,12 +199,9 @@ struct Gathering {
         const auto cut = cell ? cuts.find(*cell) : cuts.end();
         if (cut == cuts.end()) return cell;
         const uint32_t side = grid.side(*cell);
-        const glm::dvec3 place = grid.place(point);
-        if (cut->second.has(glm::fract(place), side)) return cell;
-        glm::dvec3 beyond = place;
-        const int axis = int(side / 2 + cut->second.axis()) % 3;
-        beyond[axis] += glm::fract(place[axis]) < 0.5 ? -1 : 1;
-        const std::optional<uint32_t> other = grid.cell(beyond, side);
+        const glm::dvec3 place = grid.place(point), in_cube = glm::fract(place);
+        if (cut->second.has(in_cube, side)) return cell;
+        const std::optional<uint32_t> other = grid.cell(place + cut->second.beyond(in_cube, side), side);
         return other && std::ranges::binary_search(known, *other) ? other : cell;
     }
 
@@ -394,7 +391,7 @@ struct Gathering {
         return result;
     }
 
-    // From the middle of the places of each.
+    // From the middle of the places of each. A cell that something splits is seen by no other, and sees none.
     void connect(std::span<const CellPlaces* const> cells, Radiosity& result) const {
         const auto point = [&](uint32_t i) {
             glm::dvec3 sum(0);
@@ -402,7 +399,12 @@ struct Gathering {
             const uint32_t number = result.numbers[i];
             return before(grid, number, grid.middle(number) + sum / double(cells[i]->count()));
         };
-        result.connect([&](uint32_t a, uint32_t b) { return !rays.blocked(point(a), point(b)); });
+        std::vector<char> split(cells.size());
+        in_parallel(cells.size(), 1024, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) split[i] = is_split(*cells[i], result.numbers[i], grid, rays);
+        });
+        result.connect(
+            [&](uint32_t a, uint32_t b) { return !split[a] && !split[b] && !rays.blocked(point(a), point(b)); });
     }
 
     void put_together(const std::vector<Round>& rounds, Radiosity& result) const {
@@ -438,7 +440,7 @@ struct Gathering {
             result.reflectances.push_back(glm::vec3(cell.reflectance / cell.weight));
             result.sky.push_back(round.sky[i]);
             const Found& of_cell = found[r][i];
-            // What rays of the last round met may be no cell.
+            // Surfaces that rays of the last round met may be of no cell.
             for (size_t k = 0; k < of_cell.met.size(); ++k)
                 if (const std::optional<uint32_t> met = result.find(of_cell.met[k]))
                     result.met.push_back(*met), result.parts.push_back(of_cell.parts[k]);

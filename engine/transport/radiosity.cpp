@@ -196,8 +196,7 @@ glm::dvec3 Radiosity::at(std::span<const glm::vec3> values, glm::dvec3 point, gl
     glm::dvec3 own = glm::floor(place);
     std::optional<uint32_t> own_index = cell_in(own, side);
     if (own_index && !cut_of(*own_index).has(place - own, side)) {
-        const int axis = int(side / 2 + cut_of(*own_index).axis()) % 3;
-        own[axis] = 2 * corner[axis] + 1 - own[axis];
+        own += cut_of(*own_index).beyond(place - own, side);
         own_index = cell_in(own, side);
     }
     const uint32_t hidden = own_index && !walls.empty() ? walls[*own_index] : 0;

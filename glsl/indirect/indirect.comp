@@ -87,7 +87,16 @@ Corners corners_of(ivec4 of) {
 }
 
 uint cut_of(Corners corners, uint k) { return (k < 4u ? corners.cuts.x : corners.cuts.y) >> 8u * (k & 3u) & 0xffu; }
-uint cut_axis(uint cut) { return cut >> 6u; }
+// Unit length; of the two axes across the side, or the diagonals between them.
+vec2 cut_way(uint cut) {
+    const float x = cut < 0x40u ? 1.0 : cut < 0x80u ? 0.0 : kDiagonal, y = cut < 0x40u ? 0.0 : cut < 0x80u ? 1.0 : kDiagonal;
+    return vec2(x, cut < 0xc0u ? y : -y);
+}
+// How far beyond the plane of a cut a point is, from the middle of its cube, cubes; negative on the side of the cell.
+float past_cut(uint cut, vec2 from_middle) {
+    const float past = dot(from_middle, cut_way(cut)) + 0.5 - (float(cut & kCutSteps - 1u) + 0.5) / float(kCutSteps);
+    return (cut & kCutSteps) != 0u ? past : -past;
+}
 
 // Of light and its weight, the sum over the corners.
 vec4 on_surfaces(Corners corners, vec3 at) {
@@ -98,17 +107,15 @@ vec4 on_surfaces(Corners corners, vec3 at) {
     uint off = 0u, left = corners.cut;  // a bit of each corner: a cut parts it from the point; the cuts to look at
     do {
         const uint k = left != 0u ? uint(findLSB(left)) : 0u, cut = cut_of(corners, k);
-        const bool second = cut_axis(cut) == 2u;
-        const float place = second ? across.y : across.x,
-                    at = float(second ? k >> 2u : k >> 1u & 1u) + (float(cut & kCutSteps - 1u) + 0.5) / float(kCutSteps);
-        off |= cut != 0u && ((cut & kCutSteps) != 0u ? place > at : place < at) ? 1u << k : 0u;
+        off |= cut != 0u && past_cut(cut, across - vec2(k >> 1u & 1u, k >> 2u) - 0.5) > 0.0 ? 1u << k : 0u;
         left &= left - 1u;
     } while (left != 0u);
-    // The cell of the point's cube says which columns are seen; where it is cut off, that on the same side of the cut.
+    // The cell of the point's cube says which columns are seen; where it is cut off, that beside it on the same side of the cut.
     const uvec3 nearest = uvec3(greaterThanEqual(share, vec3(0.5)));
-    uint own = nearest.x | nearest.y << 1u | nearest.z << 2u;
-    own ^= (off >> own & 1u) != 0u ? cut_axis(cut_of(corners, own)) << 1u : 0u;
-    const uint seen = corners.seen >> 4u * own;
+    const uint own = nearest.x | nearest.y << 1u | nearest.z << 2u, own_cut = cut_of(corners, own);
+    const vec2 away = cut_way(own_cut) * ((own_cut & kCutSteps) != 0u ? 1.0 : -1.0);
+    const uvec2 beyond = uvec2(greaterThan((across - vec2(nearest.yz) - 0.5) * away, vec2(0.0)));
+    const uint seen = corners.seen >> 4u * (own ^ ((off >> own & 1u) != 0u ? beyond.x << 1u | beyond.y << 2u : 0u));
     vec4 sum = vec4(0.0);
     [[unroll]] for (uint column = 0u; column < 4u; ++column) {
         const float linear = ((column & 1u) != 0u ? share.y : 1.0 - share.y) * ((column & 2u) != 0u ? share.z : 1.0 - share.z);

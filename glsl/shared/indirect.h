@@ -7,13 +7,14 @@ SHARED_BEGIN
 // Cells lie in a table of rgba32ui texels, by a hash of their number and, where that is taken, the next free one after it
 // (Knuth 1973, linear probing); the last is followed by the first. x: the number, y and z: red and green, and blue, as
 // halves of kCellUnit lx, and above them in z a bit for each cell around that a wall hides, by rows from (-1, -1) to (1, 1)
-// across the side, and a byte of the plane that cuts the cell (transport::CellCut); w: the height of the plane of their surfaces over the middle of the cube, along its normal, in
-// cubes, a half, and above it the normal, octahedral, two signed bytes.
+// across the side, and a byte of the plane that cuts the cell (transport::CellCut); w: the height of the plane of their surfaces over the
+// middle of the cube, along its normal, in cubes, a half, and above it the normal, octahedral, two signed bytes.
 const uint kNoCell = 0xffffffffu;  // x of an empty place
 const uint kCellHash = 2654435769u;  // times the number; its upper bits are the place
 const float kCellUnit = 16.0f;       // lx
 const uint kCellSides = 6u;          // of a cube: +x, -x, +y, -y, +z, -z
-const uint kCutSteps = 32u;          // along the axis of a cut: its place is one of them; above them the bit of what is below
+const uint kCutSteps = 32u;          // along the way of a cut: its place is one of them; above them the bit of what is below
+const float kDiagonal = 0.70710678f;  // of a way between two axes, along each
 const uint kAirCubes = 4u;           // along each axis of one of air
 
 // Times the components of a normal along each axis before they are compared, see transport::kSideFactors.

@@ -17,19 +17,21 @@ namespace vesper::reference {
 
 struct LitCell {
     uint32_t number;
-    dvec3 light;          // lx
-    double height;        // of its plane over the middle of its cube, m
-    dvec3 normal;         // of that
-    uint32_t hidden = 0;  // bits of the eight cells around it that walls hide, see step_of()
-    int cut_axis =
-        0;  // 1, 2: the plane that cuts it lies across the next axis after that of the side, or the one after; 0: none
-    double cut_at = 0;       // from the lowest corner of its cube, cubes
+    dvec3 light;             // lx
+    double height;           // of its plane over the middle of its cube, m
+    dvec3 normal;            // of that
+    uint32_t hidden = 0;     // bits of the eight cells around it that walls hide, see step_of()
+    glm::dvec2 cut_way{0};   // across the plane that cuts it: unit, along the two axes after that of the side; 0: none
+    double cut_at = 0;       // of that plane along it, from the middle of its cube, cubes
     bool below_cut = false;  // whether what is below it belongs, or what is above
 };
 
 /// From the 8 bits of a cut.
 inline void set_cut(LitCell& cell, uint32_t bits) {
-    cell.cut_axis = int(bits / 64), cell.below_cut = bits / 32 % 2 == 1, cell.cut_at = (bits % 32 + 0.5) / 32;
+    if (bits == 0) return;
+    const glm::dvec2 ways[4]{{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+    cell.cut_way = glm::normalize(ways[bits / 64]);
+    cell.cut_at = (bits % 32 + 0.5) / 32 - 0.5, cell.below_cut = bits / 32 % 2 == 1;
 }
 
 /// The step to a cell around another, across its side (next axis after that of the side, and the one after that).
@@ -60,9 +62,8 @@ public:
             const bool air = grid.is_air(cell.number);
             const dvec3 in_grid = (grid.middle(cell.number) - grid.origin) / grid.size,
                         middle = air ? in_grid : glm::floor(in_grid) + 0.5;
-            (air ? air_ : surfaces_)[cell.number % 6].push_back({middle, cell.light, cell.normal,
-                                                                 cell.height / grid.size, cell.hidden, cell.cut_axis,
-                                                                 cell.cut_at, cell.below_cut});
+            (air ? air_ : surfaces_)[cell.number % 6].push_back(
+                {middle, cell.light, cell.normal, cell.height / grid.size, cell.hidden, cell});
         }
     }
 
@@ -75,8 +76,11 @@ public:
         dvec3 own = glm::floor(place) + 0.5;
         for (const Lit& cell : surfaces_[side])
             if (cell.middle == own && cell.is_cut_off(place, along)) {
-                const int axis = (along + cell.cut_axis) % 3;
-                own[axis] += place[axis] < own[axis] ? -1 : 1;
+                // To the cubes that lie that way from the middle of this one.
+                const glm::dvec2 off(place[across] - own[across], place[over] - own[over]),
+                    way = cell.cut.below_cut ? cell.cut.cut_way : -cell.cut.cut_way;
+                for (int i = 0; i < 2; ++i)
+                    if (off[i] * way[i] > 0) own[i == 0 ? across : over] += off[i] < 0 ? -1 : 1;
                 break;
             }
         uint32_t hidden = 0;
@@ -123,15 +127,13 @@ private:
         dvec3 middle, light, normal;
         double height;  // cubes
         uint32_t hidden;
-        int cut_axis;
-        double cut_at;
-        bool below_cut;
+        LitCell cut;
 
         bool is_cut_off(dvec3 place, int along) const {
-            if (cut_axis == 0) return false;
-            const int axis = (along + cut_axis) % 3;
-            const double above = place[axis] - (middle[axis] - 0.5 + cut_at);
-            return below_cut ? above > 0 : above < 0;
+            const dvec3 off = place - middle;
+            const double above =
+                glm::dot(glm::dvec2(off[(along + 1) % 3], off[(along + 2) % 3]), cut.cut_way) - cut.cut_at;
+            return cut.below_cut ? above > 0 : above < 0;
         }
     };
     transport::CellGrid grid_;

@@ -85,7 +85,7 @@ TEST(IndirectReference, ACutPartsACell) {
         MadeCells made{kGrid, {}};
         const uint32_t kSide = 0;
         made.add({4, 3, 4}, kSide, {1, 0, 0}, 0, glm::vec3(1), walls_below);
-        made.add({4, 4, 4}, kSide, {1, 0, 0}, 0, glm::vec3(8), 0, transport::CellCut::across(1, 1 / 3.0, false));
+        made.add({4, 4, 4}, kSide, {1, 0, 0}, 0, glm::vec3(8), 0, transport::CellCut::across(0, 1 / 3.0, false));
         made.add({4, 5, 4}, kSide, {1, 0, 0}, 0, glm::vec3(8));
         return reference::illuminance_on_side(listed(made), {4.5, height, 4.5}, {1, 0, 0}, kSide).x;
     };
@@ -93,6 +93,24 @@ TEST(IndirectReference, ACutPartsACell) {
     // Above it, the cube below counts unless it is hidden: that is for the cell to say.
     EXPECT_NEAR(light_at(4.4, 0), 0.1 * 1 + 0.9 * 8, 1e-4);
     for (const double above : {4.4, 4.9, 5.2}) EXPECT_GT(light_at(above, 1 << 4), 7) << above;
+}
+
+// A wall of a facade (+x; y, then z) that another meets at 45°: beyond it there is the light of the cube where the
+// point lies, of two beside this one the nearer.
+TEST(IndirectReference, ACutPartsACellAlongADiagonal) {
+    MadeCells made{kGrid, {}};
+    const uint32_t kSide = 0;
+    made.add({4, 4, 4}, kSide, {1, 0, 0}, 0, glm::vec3(8), 0, transport::CellCut::across(2, 0.6, true));
+    for (const auto& [y, z, light] : {std::array{5, 4, 1}, std::array{4, 5, 2}, std::array{5, 5, 4}})
+        made.add({4, y, z}, kSide, {1, 0, 0}, 0, glm::vec3(float(light)), y == 4 ? 1 << 1 : 0);
+    const auto at = [&](double y, double z) {
+        return reference::illuminance_on_side(listed(made), {4.5, y, z}, {1, 0, 0}, kSide).x;
+    };
+    EXPECT_NEAR(at(4.5, 4.5), 8, 1e-4);
+    EXPECT_NEAR(at(4.6, 4.6), 0.01 / 0.19 * 4 + 0.09 / 0.19 * 3, 1e-3) << "just beyond: of the other three";
+    EXPECT_NEAR(at(4.9, 4.9), (0.16 * 4 + 0.24 * 3) / 0.64, 1e-3);
+    // Where z alone is beyond, the cube at z says what is seen: not the one below it, nor this one.
+    EXPECT_NEAR(at(4.45, 4.95), 2, 1e-4);
 }
 
 TEST(IndirectReference, OfTheAirSidesCountByTheSquaresOfTheNormal) {
@@ -143,7 +161,7 @@ TEST(IndirectReference, IsTheLookupOfTheHost) {
                  glm::normalize(glm::vec3(random.normal(), random.normal(), random.normal())),
                  0.5 * (double(random.unit()) - 0.5), {random.unit(), random.unit(), random.unit()},
                  uint8_t(below(256)) & uint8_t(below(256)),
-                 i % 3 == 0 ? transport::CellCut::across(1 + uint32_t(below(2)), double(random.unit()), below(2) > 0)
+                 i % 3 == 0 ? transport::CellCut::across(uint32_t(below(4)), double(random.unit()), below(2) > 0)
                             : transport::CellCut());
     for (int i = 0; i < 20; ++i)
         made.add_air({below(3), below(3), below(3)}, uint32_t(below(6)), glm::vec3(random.unit()));

@@ -63,7 +63,7 @@ MadeCells cells_around(dvec3 middle, uint32_t seed, double part) {
                     for (uint32_t bit = 0; bit < 8; ++bit) walls |= uint8_t((random.unit() < 0.25f ? 1u : 0u) << bit);
                     transport::CellCut cut;
                     if (random.unit() < 0.25f)
-                        cut = transport::CellCut::across(random.unit() < 0.5f ? 1 : 2, double(random.unit()),
+                        cut = transport::CellCut::across(uint32_t(random.unit() * 4) % 4, double(random.unit()),
                                                          random.unit() < 0.5f);
                     if (there) made.add({x, y, z}, side, normal, height, light(), walls, cut);
                 }

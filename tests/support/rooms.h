@@ -1,6 +1,8 @@
 // Scenes of flat walls and bare lamps, built in code. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+
 #include "scene/scene.h"
 
 namespace vesper::test {
@@ -44,6 +46,23 @@ inline void add_box(scene::Scene& scene, uint32_t material, glm::vec3 half, glm:
         p.indices = {0, 2, 1, 0, 3, 2};
         for (scene::Vertex& vertex : p.vertices) vertex.normal = -vertex.normal;
     }
+}
+
+/// Turns what has no transforms of its own about the y axis, and returns by what.
+inline glm::dmat3 turn(scene::Scene& scene, double degrees) {
+    const double c = std::cos(glm::radians(degrees)), s = std::sin(glm::radians(degrees));
+    const glm::dmat3 by(glm::dvec3(c, 0, -s), glm::dvec3(0, 1, 0), glm::dvec3(s, 0, c));
+    for (scene::Mesh& mesh : scene.meshes)
+        for (scene::Primitive& p : mesh.primitives) {
+            p.bounds = {};
+            for (scene::Vertex& vertex : p.vertices) {
+                vertex.position = glm::vec3(by * glm::dvec3(vertex.position));
+                vertex.normal = glm::vec3(by * glm::dvec3(vertex.normal));
+                p.bounds.add(vertex.position);
+            }
+        }
+    for (scene::Node& node : scene.nodes) node.translation = by * node.translation;
+    return by;
 }
 
 /// The same candela in all directions; every mesh hides it.

@@ -1,6 +1,8 @@
 // Where masked materials stop light. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include "scene/scene.h"
 
 namespace vesper::rays {
@@ -13,5 +15,9 @@ double opacity_at(const scene::Scene& scene, const scene::Primitive& primitive, 
 /// Whether light that meets the triangle there stops: at the material's cutoff or above, which is exact to half a step
 /// of half floats, as on the device.
 bool stops_light(const scene::Scene& scene, const scene::Primitive& primitive, uint32_t triangle, glm::dvec3 weights);
+
+/// Whether light may pass each material of a scene somewhere: of masked ones, where the least opacity of texture and
+/// corners is below the cutoff.
+std::vector<bool> have_holes(const scene::Scene& scene);
 
 }  // namespace vesper::rays

@@ -136,26 +136,28 @@ struct PlaceFinder {
             rays.nearest(point + skin_at(rays, point) * outwards, point + kReach * outwards);
         if (!hit) return kReach;
         const double open = hit->share * kReach;
-        const bool within =
-            surfaces.shows_back(*hit, point) && (!surfaces.is_double_sided(*hit) || open < kThinBody * cells.grid.size);
+        const bool within = surfaces.shows_back(*hit, point) && !stands_alone(*hit);
         return open < kCovered || within ? std::nullopt : std::optional(open);
+    }
+    bool stands_alone(const rays::Hit& hit) const {
+        return surfaces.is_double_sided(hit) && hit.share * kReach >= kThinBody * cells.grid.size;
     }
 
     // So that places in relief count as often as they see what is far, and those within a body hardly ever, though one
     // of its parts hides its backs from some directions.
     Exposure exposure_of(glm::dvec3 point, glm::dvec3 outwards) {
         const glm::dvec3 start = point + skin_at(rays, point) * outwards;
-        const glm::dvec2 chance(random.next(), random.next());
-        uint32_t backs = 0, near = 0;
+        const glm::dvec2 chance{random.next(), random.next()};
+        uint32_t backs = 0, sheets = 0, near = 0;
         for (uint32_t i = 0; i < kRaysToBacks; ++i) {
             const glm::dvec3 way = cosine_direction(outwards, glm::fract(chance + double(i) / kRaysToBacks));
             const std::optional<rays::Hit> hit = rays.nearest(start, start + kReach * way);
             if (!hit) continue;
-            if (surfaces.shows_back(*hit, start)) ++backs;
+            if (surfaces.shows_back(*hit, start)) ++(stands_alone(*hit) ? sheets : backs);
             if (i == 0 && hit->share * kReach < kNearBy * cells.grid.size) ++near;
         }
         if (2 * backs > kRaysToBacks) return Exposure::Covered;
-        return backs > 0 ? Exposure::Partly : near > 0 ? Exposure::Near : Exposure::Open;
+        return backs + sheets > 0 ? Exposure::Partly : near > 0 ? Exposure::Near : Exposure::Open;
     }
 
     // Over ground and floors, where things move.
@@ -163,7 +165,7 @@ struct PlaceFinder {
         const glm::dvec3 point = ground + std::min(random.next() * kAirHeight, 0.9 * open) * up;
         for (uint32_t side = 0; side < kSides; ++side)
             if (const std::optional<uint32_t> number = cells.air(point, side))
-                found.push_back({*number, {point, direction_of(side), {}, scene::kNone, 1, 0, Exposure::Open}});
+                found.push_back({*number, {point, direction_of(side), {}, scene::kNone, 1, 0, Exposure::Air}});
     }
 };
 
@@ -201,12 +203,13 @@ void CellPlaces::keep(uint32_t which) {
 
 std::optional<PlacesByCell> find_places(const scene::Scene& scene, std::span<const glm::dmat4> world,
                                         const rays::RayCaster& rays, const Surfaces& surfaces,
-                                        const SurfaceCells& cells, const std::function<bool(double)>& progress) {
+                                        const SurfaceCells& cells, size_t most,
+                                        const std::function<bool(double)>& progress) {
     const double step = cells.grid.size * kPlaceStep;
     const std::vector<PlacedPrimitive> primitives = primitives_of(scene, world);
     const std::vector<Part> parts = parts_of(primitives, step);
     PlacesByCell by_cell;
-    for (size_t first = 0, end = 0; first < parts.size(); first = end) {
+    for (size_t first = 0, end = 0; first < parts.size() && by_cell.size() <= most; first = end) {
         for (double places = 0; end < parts.size() && places < kPlacesAtATime; ++end) places += parts[end].places;
         std::vector<std::vector<NumberedPlace>> found(end - first);
         const bool done = in_parallel(

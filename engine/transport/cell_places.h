@@ -15,8 +15,9 @@
 namespace vesper::transport {
 
 /// How much a place sees of what is far. Near: of some directions by chance one ends close by. Partly: some end at the
-/// back of a surface. Covered: most do, or the place is under another surface or within a body.
-enum class Exposure : uint8_t { Open, Near, Partly, Covered };
+/// back of a surface. Air: the place is on no surface. Covered: most directions end at backs, or the place is under
+/// another surface or within a body.
+enum class Exposure : uint8_t { Open, Near, Partly, Air, Covered };
 
 /// What was found on the surfaces of a cell.
 struct CellPlaces {
@@ -54,11 +55,13 @@ struct FoundPlace {
 /// Adds a place to the cell `number` of `grid`. They count where it has none that are more open.
 void add_place(CellPlaces& cell, const CellGrid& grid, uint32_t number, const FoundPlace& place);
 
-/// Places all over the triangles, and in the air over ground and floors, where things move. `progress` is called with
-/// shares from 0 to 1, from this thread; where it returns false there is no result. On all processors; however many
-/// they are, the result is the same.
+/// Places all over the triangles, and in the air over ground and floors, where things move. Ends early with more than
+/// `most` cells, so that memory is bounded: larger ones are wanted. `progress` is called with shares from 0 to 1, from
+/// this thread; where it returns false there is no result. On all processors; however many they are, the result is the
+/// same.
 std::optional<PlacesByCell> find_places(const scene::Scene& scene, std::span<const glm::dmat4> world,
                                         const rays::RayCaster& rays, const Surfaces& surfaces,
-                                        const SurfaceCells& cells, const std::function<bool(double)>& progress);
+                                        const SurfaceCells& cells, size_t most,
+                                        const std::function<bool(double)>& progress);
 
 }  // namespace vesper::transport

@@ -336,13 +336,13 @@ struct Gathering {
         result.first_source.push_back(0), result.first_met.push_back(0);
         std::optional<PlacesByCell> places;
         // Where surfaces are small there are more cells than their area says.
-        for (RadiositySettings sized = settings;
-             !places || double(places->size()) > kMostOverfull * double(settings.most_cells);
+        const auto most = size_t(kMostOverfull * double(settings.most_cells));
+        for (RadiositySettings sized = settings; !places || places->size() > most;
              sized.cell_size *= std::sqrt(double(places->size()) / double(settings.most_cells))) {
             std::optional<SurfaceCells> found = SurfaceCells::of(scene, world, emitters, sized);
             if (!found) return result;
             surface_cells = std::move(*found), grid = surface_cells.grid;
-            places = find_places(scene, world, rays, surfaces, surface_cells,
+            places = find_places(scene, world, rays, surfaces, surface_cells, most,
                                  [&](double share) { return !progress || progress(kPlacesShare * share); });
             if (!places) return std::nullopt;
         }

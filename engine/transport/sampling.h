@@ -30,7 +30,7 @@ private:
 /// (Roberts 2018), moved by chance.
 class Lattice {
 public:
-    explicit Lattice(Random& random) : start_(random.next(), random.next()) {}
+    explicit Lattice(Random& random) : start_{random.next(), random.next()} {}
     glm::dvec2 at(uint32_t number) const {
         return glm::fract(start_ + double(number) * glm::dvec2(0.7548776662466927, 0.5698402909980532));
     }

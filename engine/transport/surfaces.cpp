@@ -35,6 +35,7 @@ Surfaces::Surfaces(const scene::Scene& scene, std::span<const glm::dmat4> world)
       world_(world),
       codes_(scene::linear_codes(scene.transfer)),
       emitted_(scene::linear_codes(scene::Transfer{})),
+      holes_(rays::have_holes(scene)),
       housings_(scene.nodes.size()) {
     const std::vector<uint32_t> lamps = scene::nodes_with_lamps(scene);
     const std::vector<std::vector<uint32_t>> fixtures = scene::fixture_nodes(scene, lamps, world);
@@ -102,8 +103,8 @@ bool Surfaces::stops_light(const rays::Hit& hit) const {
 }
 
 bool Surfaces::shows_back(const rays::Hit& hit, glm::dvec3 from) const {
-    const Facet met = facet(hit, from);
-    return !met.front && met.material.alpha != scene::Material::Alpha::Mask;
+    const uint32_t material = scene_.meshes[scene_.nodes[hit.node].mesh].primitives[hit.primitive].material;
+    return !holes_[material] && !facet(hit, from).front;
 }
 
 bool Surfaces::is_double_sided(const rays::Hit& hit) const {

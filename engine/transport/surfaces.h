@@ -36,7 +36,7 @@ public:
     /// Whether the surface has no hole there (rays/opacity.h).
     bool stops_light(const rays::Hit& hit) const;
     /// Whether a ray from `from` hits the back of a triangle, by the order of its corners; of one that is double-sided,
-    /// too. Masked ones, such as railings and leaves, are sheets without a back.
+    /// too. Those of materials with holes, such as railings and leaves, are sheets without a back.
     bool shows_back(const rays::Hit& hit, glm::dvec3 from) const;
     bool is_double_sided(const rays::Hit& hit) const;
     /// Whether a triangle of a node, in the world, is housing of a lamp.
@@ -51,6 +51,7 @@ private:
     const scene::Scene& scene_;
     std::span<const glm::dmat4> world_;
     std::array<double, 256> codes_, emitted_;  // linear values of base colours, and of textures of emission
+    std::vector<bool> holes_;                  // whether each material has some
     struct Housing {
         glm::dvec3 lamp;
         double reach;  // m

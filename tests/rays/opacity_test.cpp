@@ -89,6 +89,23 @@ TEST(Opacity, MaterialAndCornersCount) {
     EXPECT_TRUE(rays::stops_light(scene, p, 0, {0.1, 0.2, 0.7}));
 }
 
+TEST(Opacity, SaysWhichMaterialsHaveHoles) {
+    const auto has_holes = [](const scene::Scene& scene) -> bool { return rays::have_holes(scene).at(0); };
+    EXPECT_FALSE(has_holes(masked_plate({255, 128}, true)));
+    EXPECT_TRUE(has_holes(masked_plate({255, 127}, true)));
+    scene::Scene scene = masked_plate({255, 128}, true);
+    scene.meshes[0].primitives[0].vertices[1].colour[3] = 65000;
+    EXPECT_TRUE(has_holes(scene)) << "corners count";
+    scene.materials[0].base_colour_texture = {};
+    EXPECT_FALSE(has_holes(scene)) << "opaque, though it is masked";
+    scene.materials[0].base_colour.a = 0.5f;
+    EXPECT_TRUE(has_holes(scene));
+    scene.materials[0].alpha = scene::Material::Alpha::Opaque;
+    EXPECT_FALSE(has_holes(scene));
+    scene.meshes.clear(), scene.materials[0].alpha = scene::Material::Alpha::Mask;
+    EXPECT_FALSE(has_holes(scene)) << "nothing has it";
+}
+
 TEST(Opacity, ClearMaterialsStopNothing) {
     scene::Scene scene = masked_plate({255}, true);
     EXPECT_TRUE(stops(scene, 0.5));

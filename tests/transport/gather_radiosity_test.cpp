@@ -280,12 +280,12 @@ TEST(GatherRadiosity, WallsOfDoubleSidedSheetsAreAsBrightAsOthers) {
 }
 
 // A house of double-sided sheets with sills that go as far into it as they stand out: their hidden halves, which see
-// the inside of the house, count for nothing.
+// the inside of the house, count for nothing; the same where its material may have holes, and has none.
 TEST(GatherRadiosity, PartsThatReachIntoAHouseAreAsBrightAsThoseThatEndAtItsWall) {
-    const auto light_below = [](float inside) {
+    const auto light_below = [](float inside, scene::Material::Alpha alpha = scene::Material::Alpha::Opaque) {
         scene::Scene scene;
         const uint32_t grey = add_material(scene, 0.5f);
-        scene.materials[grey].double_sided = true;
+        scene.materials[grey].double_sided = true, scene.materials[grey].alpha = alpha;
         add_floor(scene, grey, 12);
         add_box(scene, grey, {3, 3, 4}, {-3, 3.1f, 0});  // its wall is at x = 0
         for (int i = -3; i <= 3; ++i)
@@ -297,6 +297,65 @@ TEST(GatherRadiosity, PartsThatReachIntoAHouseAreAsBrightAsThoseThatEndAtItsWall
         return sum;
     };
     EXPECT_NEAR(light_below(0.3f), light_below(0), 0.1 * light_below(0));
+    EXPECT_EQ(light_below(0.3f, scene::Material::Alpha::Mask), light_below(0.3f));
+}
+
+// A floor with crates under a roof of one double-sided sheet has the light and the area of one under a roof with two
+// sides: it is no inside of a body.
+TEST(GatherRadiosity, AFloorUnderASheetIsOutside) {
+    const auto gathered_under = [](bool sheet) {
+        scene::Scene scene;
+        const uint32_t grey = add_material(scene, 0.5f);
+        add_floor(scene, grey, 8);
+        for (int i = -2; i <= 2; ++i) add_box(scene, grey, {0.3f, 0.3f, 0.3f}, {float(i), 0.31f, float(i)});
+        const uint32_t roof = add_material(scene, 0.5f);
+        scene.materials[roof].double_sided = sheet;
+        add_rectangle(scene, roof, {-4, 3, 4}, {8, 0, 0}, {0, 0, -8});
+        if (!sheet) add_rectangle(scene, roof, {-4, 3, -4}, {8, 0, 0}, {0, 0, 8});
+        return gathered(scene);
+    };
+    const Radiosity sheet = gathered_under(true), roof = gathered_under(false);
+    const auto of_sheet = lux(sheet.solve({.sky = dvec3(1 / kPi)}).other),
+               of_roof = lux(roof.solve({.sky = dvec3(1 / kPi)}).other);
+    const auto is_floor = [](const Radiosity& radiosity) {
+        return [&](size_t i, dvec3 at) {
+            return radiosity.grid.side(radiosity.numbers[i]) == 2 && std::abs(at.y) < 0.5 &&
+                   std::max(std::abs(at.x), std::abs(at.z)) < 4;
+        };
+    };
+    const double wanted = mean_over(roof, of_roof, is_floor(roof));
+    EXPECT_NEAR(mean_over(sheet, of_sheet, is_floor(sheet)), wanted, 0.06 * wanted);
+    const auto area = [&](const Radiosity& radiosity) {
+        double sum = 0;
+        for (size_t i = 0; i < radiosity.cells(); ++i)
+            if (is_floor(radiosity)(i, radiosity.grid.middle(radiosity.numbers[i]))) sum += double(radiosity.areas[i]);
+        return sum;
+    };
+    EXPECT_NEAR(area(sheet), area(roof), 0.05 * area(roof)) << "crates cut some";
+}
+
+// In coarse cells, whose numbers those of the air have, too.
+TEST(GatherRadiosity, PlacesInTheAirReplaceNoneOfSurfaces) {
+    using transport::Exposure;
+    const transport::CellGrid grid{.size = 1, .count = {8, 8, 8}};
+    const uint32_t number = grid.air_cell({0, 0, 0}, 2).value();
+    const auto with = [&](std::initializer_list<Exposure> exposures) {
+        transport::CellPlaces cell;
+        for (const Exposure exposure : exposures) {
+            const bool air = exposure == Exposure::Air;
+            add_place(cell, grid, number,
+                      {{1, 1, 1}, kUp, dvec3(air ? 0 : 0.5), air ? scene::kNone : 0, 1, air ? 0.0 : 1.0, exposure});
+        }
+        return cell;
+    };
+    for (const Exposure of_surface : {Exposure::Open, Exposure::Near, Exposure::Partly})
+        for (const auto& cell : {with({of_surface, Exposure::Air}), with({Exposure::Air, of_surface})}) {
+            EXPECT_EQ(cell.places[0].node, 0u);
+            EXPECT_EQ(cell.reflectance.g / cell.weight, 0.5);
+            EXPECT_EQ(cell.area, 1);
+        }
+    EXPECT_EQ(with({Exposure::Air, Exposure::Covered}).places[0].node, scene::kNone);
+    EXPECT_EQ(with({Exposure::Covered, Exposure::Air}).places[0].node, scene::kNone);
 }
 
 // Two closed rooms side by side, a wall between, one of them lit. Rays find no way through. The cells of floor and
@@ -408,6 +467,23 @@ TEST(GatherRadiosity, TheNumberOfCellsIsBounded) {
     scene::Scene far = yard();
     add_rectangle(far, 0, {5e7f, 3e7f, -5e7f}, {8, 0, 0}, {0, 8, 0});
     EXPECT_GT(gathered(far).cells(), 0u);
+}
+
+// Small triangles with far more cells than their area says.
+TEST(GatherRadiosity, TheNumberOfCellsOfScatteredTrianglesIsBounded) {
+    scene::Scene scene;
+    add_rectangle(scene, add_material(scene, 0.5f), {0, 0, 0}, {0.1f, 0, 0}, {0, 0.1f, 0});
+    scene::Primitive& p = scene.meshes[0].primitives[0];
+    for (uint32_t i = 1; i < 20'000; ++i)
+        for (const uint32_t corner : {0u, 1u, 2u}) {
+            scene::Vertex vertex = p.vertices[corner];
+            vertex.position += 200.0f * glm::fract(float(i) * glm::vec3(0.8191725f, 0.6710436f, 0.5497005f));
+            p.bounds.add(vertex.position);
+            p.indices.push_back(uint32_t(p.vertices.size())), p.vertices.push_back(vertex);
+        }
+    const Radiosity radiosity = gathered(scene, {.rays = 4, .looks = 1, .most_cells = 2'000});
+    EXPECT_LE(radiosity.cells(), 2 * 3'000u) << "and those of backs that rays find";
+    EXPECT_GE(radiosity.cells(), 500u);
 }
 
 // Nodes without extent, and turned inside out.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "rays/texture_lookup.h"
 
@@ -45,12 +46,14 @@ bool stops_light(const scene::Scene& scene, const scene::Primitive& primitive, u
 }
 
 std::vector<bool> have_holes(const scene::Scene& scene) {
-    std::vector<double> least;  // of each material's opacity, but for corners
+    std::vector<std::optional<double>> of_images(scene.images.size());  // their least alpha, of those that matter
+    std::vector<double> least;                                          // of each material's opacity, but for corners
     for (const scene::Material& material : scene.materials) {
+        double& opacity = least.emplace_back(double(material.base_colour.a));
         const uint32_t image = material.base_colour_texture.image;
-        const bool masked = material.alpha == scene::Material::Alpha::Mask;
-        least.push_back(double(material.base_colour.a) *
-                        (masked && image != scene::kNone ? least_alpha(scene.images[image]) : 1));
+        if (material.alpha != scene::Material::Alpha::Mask || image == scene::kNone) continue;
+        if (!of_images[image]) of_images[image] = least_alpha(scene.images[image]);
+        opacity *= *of_images[image];
     }
     std::vector<bool> holes(least.size());
     for (const scene::Mesh& mesh : scene.meshes)

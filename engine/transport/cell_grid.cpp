@@ -22,8 +22,9 @@ double along(glm::dvec3 v, uint32_t side) { return side % 2 ? -v[int(side / 2)] 
 
 CellCut CellCut::across(uint32_t way, double at, bool below) {
     const double step = at * kSteps - 0.5;
-    const auto beyond = uint32_t(std::clamp(below ? std::ceil(step) : std::floor(step), 1.0, kSteps - 1.0));
-    return {uint8_t(way << 6u | (below ? kSteps : 0) | beyond)};  // not 0: that is none
+    const auto beyond = uint32_t(std::clamp(below ? std::ceil(step) : std::floor(step), 0.0, kSteps - 1.0));
+    const uint32_t bits = way << 6u | (below ? kSteps : 0) | beyond;
+    return {uint8_t(std::max(bits, 1u))};  // 0 is none
 }
 
 glm::dvec3 CellCut::direction(uint32_t way, uint32_t side) {

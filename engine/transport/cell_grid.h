@@ -28,7 +28,7 @@ struct CellCut {
 
     uint8_t bits = 0;  ///< from below: 5 of its place along the way, whether what is below it belongs, 2 of the way
 
-    /// At the next step beyond `at`, from what belongs.
+    /// At the next step beyond `at`, from what belongs; at 1/64 and 63/64 at the ends, one step on at one of these.
     static CellCut across(uint32_t way, double at, bool below);
     /// Unit length, along the side.
     static glm::dvec3 direction(uint32_t way, uint32_t side);

@@ -184,21 +184,23 @@ void add_place(CellPlaces& cell, const CellGrid& grid, uint32_t number, const Fo
         seen < CellPlaces::kMost ? seen : Random((uint64_t{number} << 32u) + seen).next_bits() % (uint64_t{seen} + 1);
     if (slot < CellPlaces::kMost)
         cell.places[slot] = {glm::vec3(place.point - grid.middle(number)), glm::vec3(place.normal), place.node,
-                             glm::packF3x9_E1x5(glm::vec3(place.reflectance))};
+                             glm::packF3x9_E1x5(glm::vec3(place.reflectance)), float(place.weight)};
     cell.weight += place.weight, cell.area += place.area;
     cell.point += place.weight * (place.point - grid.middle(number));
     cell.normal += place.weight * place.normal, cell.reflectance += place.weight * place.reflectance;
 }
 
 void CellPlaces::keep(uint32_t which) {
-    const double before = count();
-    seen = 0, point = normal = reflectance = glm::dvec3(0);
+    double before = 0;
+    for (uint32_t i = 0; i < count(); ++i) before += double(places[i].weight);
+    seen = 0, weight = 0, point = normal = reflectance = glm::dvec3(0);
     for (uint32_t bits = which; bits != 0; bits &= bits - 1) {
         const Place& kept = places[seen++] = places[size_t(std::countr_zero(bits))];
-        point += glm::dvec3(kept.point), normal += glm::dvec3(kept.normal);
-        reflectance += glm::dvec3(glm::unpackF3x9_E1x5(kept.reflectance));
+        const auto times = double(kept.weight);
+        weight += times, point += times * glm::dvec3(kept.point), normal += times * glm::dvec3(kept.normal);
+        reflectance += times * glm::dvec3(glm::unpackF3x9_E1x5(kept.reflectance));
     }
-    area *= seen / before, weight = seen;
+    area *= weight / before;
 }
 
 std::optional<PlacesByCell> find_places(const scene::Scene& scene, std::span<const glm::dmat4> world,

@@ -15,8 +15,8 @@
 namespace vesper::transport {
 
 /// How much a place sees of what is far. Near: of some directions by chance one ends close by. Partly: some end at the
-/// back of a surface. Air: the place is on no surface. Covered: most directions end at backs, or the place is under
-/// another surface or within a body.
+/// back of a surface. Air: the place is on no surface. Covered: most directions end at backs of bodies, or the place
+/// is under another surface or within a body.
 enum class Exposure : uint8_t { Open, Near, Partly, Air, Covered };
 
 /// What was found on the surfaces of a cell.
@@ -28,6 +28,7 @@ struct CellPlaces {
         glm::vec3 normal{0};
         uint32_t node = 0;         ///< scene::kNone in the air
         uint32_t reflectance = 0;  ///< glm::packF3x9_E1x5
+        float weight = 0;
     };
     std::array<Place, kMost> places;  ///< count() of all that were seen, each as likely
     uint32_t seen = 0;
@@ -39,8 +40,8 @@ struct CellPlaces {
     CellCut cut;
 
     uint32_t count() const { return std::min(seen, kMost); }
-    /// Only those of places() for which a bit is set; sums become those of these.
-    void keep(uint32_t places);
+    /// Only the places for which a bit is set; sums become those of these.
+    void keep(uint32_t which);
 };
 using PlacesByCell = std::map<uint32_t, CellPlaces>;
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -14,7 +13,8 @@ constexpr uint32_t kLeastPlaces = 3;  // of a cell that is cut
 constexpr double kOfPlaces = 0.75;    // so many must meet what cuts a cell
 constexpr double kThick = 0.3;        // of a cube, from the plane of a cut to where it is met
 
-// A place of a cell along a way, and what is met from there before the cube ends, in cubes.
+// A place of a cell along a way, and what is met from there before the way ends, in cubes; on diagonals that may be
+// beyond the cube.
 struct Probe {
     double at = 0;
     std::optional<double> below, above;
@@ -38,18 +38,19 @@ struct Plane {
     double off;  // from there to what probes meet, the sum over all
 };
 
+// Across a side; from the middle of the cube, in cubes.
+bool is_in_cube(glm::dvec3 point, uint32_t side) {
+    return std::abs(point[int(side / 2 + 1) % 3]) < 0.5 && std::abs(point[int(side / 2 + 2) % 3]) < 0.5;
+}
+
 // The one that probes meet best, in the middle between any two hits: of a wall its faces on both sides, of one that is
-// turned its ends.
-std::optional<Plane> plane_of(uint32_t way, std::span<const Probe> probes) {
-    std::vector<double> hits;
-    for (const Probe& probe : probes)
-        for (const std::optional<double>& hit : {probe.below, probe.above})
-            if (hit) hits.push_back(*hit);
+// turned its ends. `hits`: those in the cube.
+std::optional<Plane> plane_of(uint32_t way, std::span<const Probe> probes, std::span<const double> hits) {
     std::optional<Plane> best;
     for (size_t a = 0; a < hits.size(); ++a)
         for (size_t b = 0; b <= a; ++b) {
             Plane plane{way, 0.5 * (hits[a] + hits[b]), 0};
-            if (!(plane.at > 0 && plane.at < 1)) continue;
+            if (!(plane.at > 0 && plane.at < 1)) continue;  // by a corner of the cube
             double met = 0;
             for (const Probe& probe : probes) {
                 const double off = probe.off(plane.at);
@@ -77,12 +78,16 @@ void cut(CellPlaces& cell, uint32_t number, const CellGrid& grid, const rays::Ra
         const glm::dvec3 direction = CellCut::direction(way, side), across = grid.size * direction;
         const double end = CellCut::along(way, 0.5 + 0.5 * glm::sign(direction), side);  // of the cube
         std::array<Probe, CellPlaces::kMost> probes;
+        std::vector<double> hits;
         for (uint32_t i = 0; i < cell.count(); ++i) {
             const glm::dvec3 from = before(grid, number, grid.middle(number) + glm::dvec3(cell.places[i].point));
             probes[i] = {at(way, i), met(from, at(way, i), 1 - end, across, rays),
                          met(from, at(way, i), end, across, rays)};
+            const glm::dvec3 place = glm::dvec3(cell.places[i].point) / grid.size;
+            for (const std::optional<double>& hit : {probes[i].below, probes[i].above})
+                if (hit && is_in_cube(place + (*hit - probes[i].at) * direction, side)) hits.push_back(*hit);
         }
-        const std::optional<Plane> plane = plane_of(way, std::span(probes).first(cell.count()));
+        const std::optional<Plane> plane = plane_of(way, std::span(probes).first(cell.count()), hits);
         if (plane && (!best || plane->off < best->off)) best = plane;
     }
     if (!best) return;

@@ -229,7 +229,7 @@ struct Gathering {
         region.met_counts.push_back(uint32_t(region.met.size() - before));
     }
 
-    // Of a cell: before its surfaces. Places that follow each other lie beside each other.
+    // Of a cell: some of its places, before its surfaces.
     std::vector<SurfacePlace> places_of(const Round& round, size_t i) const {
         const CellPlaces& cell = round.cells[i];
         std::vector<SurfacePlace> places;
@@ -338,7 +338,7 @@ struct Gathering {
         // Where surfaces are small there are more cells than their area says.
         const auto most = size_t(kMostOverfull * double(settings.most_cells));
         for (RadiositySettings sized = settings; !places || places->size() > most;
-             sized.cell_size *= std::sqrt(double(places->size()) / double(settings.most_cells))) {
+             sized.cell_size = grid.size * std::sqrt(double(places->size()) / double(settings.most_cells))) {
             std::optional<SurfaceCells> found = SurfaceCells::of(scene, world, emitters, sized);
             if (!found) return result;
             surface_cells = std::move(*found), grid = surface_cells.grid;

@@ -28,7 +28,7 @@ TEST(CellCut, HasPointsOnItsSide) {
     // Within a step of 1/32, at the ends as well.
     for (double at = 0; at <= 1; at += 0.01) {
         EXPECT_TRUE(CellCut::across(0, at, true).has({0, at - 0.035, 0}, 0)) << at;
-        EXPECT_FALSE(CellCut::across(0, at, true).has({0, at + 0.05, 0}, 0)) << at;
+        EXPECT_FALSE(CellCut::across(0, at, true).has({0, at + 0.035, 0}, 0)) << at;
     }
 }
 
@@ -148,6 +148,36 @@ TEST(CutCells, CellsOfTwoPlacesAreNotCut) {
     add_box(scene, 0, {0.5f, 0.05f, 4}, {0.5f, 3.0f, 0});
     EXPECT_FALSE(cut_at(scene, {0, 3, 0}, 2).cut.any());
     EXPECT_TRUE(cut_at(scene, {0, 3, 0}, 3).cut.any());
+}
+
+// The corner of a room 2 cm beyond the cube, which diagonals reach.
+TEST(CutCells, WallsBesideTheCubeCutNothing) {
+    scene::Scene scene = wall();
+    add_rectangle(scene, 0, {0, 3.52f, 4}, {0, 0, -8}, {1, 0, 0});
+    EXPECT_FALSE(cut_at(scene, {0, 3, 0}).cut.any());
+    add_rectangle(scene, 0, {0, 0, 0.52f}, {0, 8, 0}, {1, 0, 0});
+    EXPECT_FALSE(cut_at(scene, {0, 3, 0}).cut.any());
+}
+
+TEST(CutCells, PlacesCountByTheirWeights) {
+    transport::CellPlaces cell;
+    const transport::CellGrid grid{.size = 1, .count = {4, 4, 4}};
+    const uint32_t number = grid.cell_at({1.5, 1.5, 1.5}, {1, 0, 0}).value();
+    for (const double weight : {3.0, 1.0, 4.0})
+        add_place(cell, grid, number,
+                  {{1.5, 1.5 + 0.1 * weight, 1.5},
+                   {1, 0, 0},
+                   dvec3(0.125 * weight),
+                   0,
+                   weight,
+                   weight,
+                   transport::Exposure::Open});
+    cell.keep(0b011);
+    EXPECT_EQ(cell.count(), 2u);
+    EXPECT_EQ(cell.weight, 4);
+    EXPECT_EQ(cell.area, 4);
+    EXPECT_NEAR(cell.reflectance.g / cell.weight, 0.125 * (3 * 3 + 1) / 4, 0.002);
+    EXPECT_NEAR(cell.point.y / cell.weight, (3 * 0.3 + 0.1) / 4, 1e-6);
 }
 
 TEST(CutCells, WallsBetweenHalfOfThePairsSplitThem) {

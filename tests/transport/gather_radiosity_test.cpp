@@ -11,6 +11,7 @@
 
 #include "support/gathered.h"
 #include "support/rooms.h"
+#include "transport/cell_places.h"
 
 namespace vesper::test::gather_radiosity_test {
 namespace {
@@ -474,14 +475,21 @@ TEST(GatherRadiosity, TheNumberOfCellsOfScatteredTrianglesIsBounded) {
     scene::Scene scene;
     add_rectangle(scene, add_material(scene, 0.5f), {0, 0, 0}, {0.1f, 0, 0}, {0, 0.1f, 0});
     scene::Primitive& p = scene.meshes[0].primitives[0];
-    for (uint32_t i = 1; i < 20'000; ++i)
+    for (uint32_t i = 1; i < 300'000; ++i)
         for (const uint32_t corner : {0u, 1u, 2u}) {
             scene::Vertex vertex = p.vertices[corner];
             vertex.position += 200.0f * glm::fract(float(i) * glm::vec3(0.8191725f, 0.6710436f, 0.5497005f));
             p.bounds.add(vertex.position);
             p.indices.push_back(uint32_t(p.vertices.size())), p.vertices.push_back(vertex);
         }
-    const Radiosity radiosity = gathered(scene, {.rays = 4, .looks = 1, .most_cells = 2'000});
+    const transport::RadiositySettings settings{.rays = 4, .looks = 1, .most_cells = 2'000};
+    const auto world = scene::world_transforms(scene, 0);
+    const rays::RayCaster rays(scene, world);
+    const transport::Surfaces surfaces(scene, world);
+    const auto cells = transport::SurfaceCells::of(scene, world, transport::Emitters(scene, world, surfaces), settings);
+    EXPECT_LT(find_places(scene, world, rays, surfaces, *cells, 2'000, {})->size(), 200'000u)
+        << "no more are looked at";
+    const Radiosity radiosity = gathered(scene, settings);
     EXPECT_LE(radiosity.cells(), 2 * 3'000u) << "and those of backs that rays find";
     EXPECT_GE(radiosity.cells(), 500u);
 }

@@ -10,11 +10,61 @@
 #include "base/luminance.h"
 #include "base/one_line.h"
 #include "scene/scene.h"
+#include "transport/sampling.h"
 
 namespace vesper::transport {
 namespace {
 
+constexpr double kSide = 0.5;  // m: triangles with longer sides are in parts
+constexpr double kLarge = 64;  // m: those with such sides are not, as of domes
+constexpr uint8_t kMostHalvings = 3;
+constexpr size_t kManyParts = 1u << 17;  // with so many emitters the next triangles are whole, without their textures
+constexpr double kLeastPart = 0.05;      // of its material's luminance that a part counts with, at least; and of the
+constexpr double kLeastOfPicture = 0.5;  // mean of a picture, whose small bright spots may lie between the samples
+constexpr uint8_t kSamples = 2;          // halvings of a part, where its texture is looked up
+
 auto key_of(const Emitters::Emitter& e) { return std::tuple(e.node, e.primitive, e.triangle); }
+
+constexpr uint32_t parts(uint32_t halvings) { return 1u << 2 * halvings; }
+
+// Of a part, the place with some weights of its corners, by its weights of those of the triangle. Parts 0 to 2 of four
+// are at these corners, the last is between them, turned about.
+glm::dvec3 in_triangle(uint32_t halvings, uint32_t part, glm::dvec3 weights) {
+    for (; halvings > 0; --halvings, part /= 4) {
+        weights *= 0.5;
+        if (part % 4 == 3)
+            weights = 0.5 - weights;
+        else
+            weights[int(part % 4)] += 0.5;
+    }
+    return weights;
+}
+
+uint32_t part_at(uint32_t halvings, glm::dvec3 weights) {
+    uint32_t part = 0;
+    for (; halvings > 0; --halvings) {
+        uint32_t k = 0;
+        while (k < 3 && !(weights[int(k)] > 0.5)) ++k;
+        if (k < 3)
+            weights[int(k)] -= 0.5;
+        else
+            weights = 0.5 - weights;
+        weights *= 2.0, part = 4 * part + k;
+    }
+    return part;
+}
+
+// About the mean over a part, cd/m^2, at least `least`; `from`: before its front.
+double luminance_on(const Surfaces& surfaces, const Emitters::Emitter& e, double least, glm::dvec3 from) {
+    double sum = 0;
+    for (uint32_t part = 0; part < parts(kSamples); ++part) {
+        const glm::dvec3 weights = in_triangle(e.halvings, e.part, in_triangle(kSamples, part, glm::dvec3(1 / 3.0)));
+        const rays::Hit hit{
+            .share = 1, .node = e.node, .primitive = e.primitive, .triangle = e.triangle, .weights = weights};
+        sum += luminance(surfaces.emission(hit, from));
+    }
+    return std::max(least, sum / parts(kSamples));
+}
 
 // Of each material, cd/m^2.
 std::vector<double> luminances_of(const scene::Scene& scene) {
@@ -45,20 +95,40 @@ Emitters::Emitters(const scene::Scene& scene, std::span<const glm::dmat4> world,
             if (!(emitted > 0) || material.clear) continue;
             spend(primitive.indices.size() / 3 * 2 * sizeof(Emitter));  // of a vector that grows
             for (uint32_t t = 0; 3 * size_t(t) < primitive.indices.size(); ++t) {
-                Emitter e{node, p, t, {}, {}, 0, emitted, material.double_sided};
+                Emitter e{node, p, t, 0, 0, {}, {}, 0, emitted, material.double_sided};
+                std::array<glm::dvec3, 3> corners;
                 for (size_t k = 0; k < 3; ++k) {
                     const scene::Vertex& vertex = primitive.vertices[primitive.indices[3 * size_t(t) + k]];
-                    e.corners[k] = glm::dvec3(world[node] * glm::dvec4(vertex.position, 1));
+                    corners[k] = glm::dvec3(world[node] * glm::dvec4(vertex.position, 1));
                 }
-                const glm::dvec3 twice = glm::cross(e.corners[1] - e.corners[0], e.corners[2] - e.corners[0]);
-                e.area = 0.5 * glm::length(twice);
-                if (!(e.area > 0) || !std::isfinite(e.area) || surfaces.is_housing(node, e.corners)) continue;
-                e.outwards = front * twice / (2 * e.area);
-                if (list_.size() == kMost)
-                    throw Error("light between surfaces: more than " + std::to_string(kMost) +
-                                " triangles emit, with those of node " + std::to_string(node) + " '" +
-                                one_line(scene.nodes[node].name) + "'");
-                list_.push_back(e);
+                const glm::dvec3 twice = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+                const double area = 0.5 * glm::length(twice);
+                if (!(area > 0) || !std::isfinite(area) || surfaces.is_housing(node, corners)) continue;
+                e.outwards = front * twice / (2 * area);
+                double side = std::max({glm::distance(corners[0], corners[1]), glm::distance(corners[1], corners[2]),
+                                        glm::distance(corners[2], corners[0])});
+                const bool whole = list_.size() >= kManyParts || side > kLarge;
+                for (; !whole && side > kSide && e.halvings < kMostHalvings; side /= 2) ++e.halvings;
+                e.area = area / parts(e.halvings);
+                const bool textured = !whole && (material.emission_texture.image != scene::kNone ||
+                                                 material.emission_picture.image != scene::kNone);
+                const double least =
+                    emitted * (material.emission_picture.image == scene::kNone ? kLeastPart : kLeastOfPicture);
+                for (uint32_t part = 0; part < parts(e.halvings); ++part) {
+                    e.part = uint8_t(part);
+                    for (int k = 0; k < 3; ++k) {
+                        glm::dvec3 corner(0);
+                        corner[k] = 1;
+                        const glm::dvec3 weights = in_triangle(e.halvings, part, corner);
+                        e.corners[size_t(k)] = weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2];
+                    }
+                    if (textured) e.luminance = luminance_on(surfaces, e, least, e.corners[0] + e.outwards);
+                    if (list_.size() == kMost)
+                        throw Error("light between surfaces: more than " + std::to_string(kMost) +
+                                    " triangles or parts of them emit, with those of node " + std::to_string(node) +
+                                    " '" + one_line(scene.nodes[node].name) + "'");
+                    list_.push_back(e);
+                }
             }
         }
     }
@@ -69,12 +139,23 @@ std::optional<size_t> Emitters::find(const rays::Hit& hit) const {
     const std::tuple key(hit.node, hit.primitive, hit.triangle);
     const auto at = std::ranges::lower_bound(list_, key, {}, key_of);
     if (at == list_.end() || key_of(*at) != key) return std::nullopt;
-    return size_t(at - list_.begin());
+    return size_t(at - list_.begin()) + part_at(at->halvings, hit.weights);
 }
 
-// As many groups as nodes that emit, or the root of the number of emitters: choosing takes time by their number.
+Emitters::Place Emitters::place_on(size_t emitter, glm::dvec2 chance) const {
+    const Emitter& e = list_[emitter];
+    const glm::dvec3 weights = triangle_weights(chance);
+    Place place{.hit = {.share = 1, .node = e.node, .primitive = e.primitive, .triangle = e.triangle}};
+    place.hit.weights = in_triangle(e.halvings, e.part, weights);
+    for (int k = 0; k < 3; ++k) place.point += weights[k] * e.corners[size_t(k)];
+    return place;
+}
+
+// As many groups as nodes that emit, or kGroups: choosing takes time by their number.
 void Emitters::make_groups() {
-    const auto most = std::max(size_t(16), size_t(std::sqrt(double(list_.size()))));
+    constexpr size_t kGroups = 2048;
+    size_t most = 16;
+    while (list_.size() / most > kGroups) most *= 4;  // parts beside each other
     double sum = 0;
     for (size_t i = 0; i < list_.size(); ++i) {
         if (groups_.empty() || list_[i].node != list_[groups_.back().first].node || groups_.back().count == most)

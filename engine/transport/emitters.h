@@ -12,15 +12,18 @@
 
 namespace vesper::transport {
 
-/// The triangles of a scene that emit, as Surfaces has them.
+/// The triangles of a scene that emit, as Surfaces has them. Large ones are in parts, so that what is near or bright is
+/// chosen often.
 class Emitters {
 public:
     struct Emitter {
         uint32_t node, primitive, triangle;  ///< as in rays::Hit
-        std::array<glm::dvec3, 3> corners;   ///< m, world
+        uint8_t halvings;                    ///< of the sides of the triangle: it has 4^halvings parts
+        uint8_t part;                        ///< beside each other: at each corner, and between these, a fourth of them
+        std::array<glm::dvec3, 3> corners;   ///< of the part, m, world
         glm::dvec3 outwards;                 ///< unit length, where its front faces
-        double area;                         ///< m^2
-        double luminance;                    ///< cd/m^2, of its material without texture, of a picture the mean
+        double area;                         ///< of the part, m^2
+        double luminance;  ///< cd/m^2, above 0: of its material; of parts about the mean with textures
         bool double_sided;
     };
 
@@ -39,19 +42,25 @@ public:
         Lanes plane{}, flat{}, radius{}, power{};  ///< plane: of flat ones, its distance along `outwards`; else -1
     };
 
-    /// Keeps nothing of the scene. Throws Error if more than kMost triangles emit.
+    /// Keeps nothing of the scene. Throws Error with more than kMost in the list.
     static constexpr size_t kMost = size_t{1} << 22;
     Emitters(const scene::Scene& scene, std::span<const glm::dmat4> world, const Surfaces& surfaces);
 
-    std::span<const Emitter> list() const { return list_; }  ///< ascending by node, primitive and triangle
+    std::span<const Emitter> list() const { return list_; }  ///< ascending by node, primitive, triangle and part
     std::span<const Group> groups() const { return groups_; }
     std::span<const GroupLanes> group_lanes() const { return group_lanes_; }
     glm::dvec3 origin() const { return groups_.empty() ? glm::dvec3(0) : groups_[0].centre; }
     size_t group_of(size_t emitter) const { return group_of_[emitter]; }
     /// Of all emitters up to and with each: luminance times area, cd.
     std::span<const double> powers_up_to() const { return powers_up_to_; }
-    /// Of the triangle that a ray meets; none if it emits nothing.
+    /// Of the triangle that a ray meets, the part; none if it emits nothing.
     std::optional<size_t> find(const rays::Hit& hit) const;
+    /// A place on one, by chance, even over it; both numbers from 0 to 1.
+    struct Place {
+        glm::dvec3 point{0};  ///< m, world
+        rays::Hit hit;        ///< there, at `share` 1
+    };
+    Place place_on(size_t emitter, glm::dvec2 chance) const;
 
 private:
     void make_groups();

@@ -76,13 +76,10 @@ void add_emitters(FluxBalance& balance, const scene::Scene& scene, std::span<con
         double first = (i + 0.5) / kRaysOfEmitters;
         const size_t number = choice.choose(first);
         const Emitters::Emitter& e = emitters.list()[number];
-        const glm::dvec3 weights = triangle_weights({random.next(), random.next()});
+        const auto [place, here] = emitters.place_on(number, {random.next(), random.next()});
         const bool back = e.double_sided && random.next() < 0.5;
         const glm::dvec3 normal = back ? -e.outwards : e.outwards;
-        const glm::dvec3 place = weights.x * e.corners[0] + weights.y * e.corners[1] + weights.z * e.corners[2];
         const glm::dvec3 start = place + skin_at(rays, place) * normal;
-        const rays::Hit here{
-            .share = 1, .node = e.node, .primitive = e.primitive, .triangle = e.triangle, .weights = weights};
         const double sides = e.double_sided ? 2 : 1;
         if (!surfaces.stops_light(here)) continue;  // a hole of a mask
         const double flux = std::numbers::pi * luminance(surfaces.emission(here, place + normal)) * sides * e.area /

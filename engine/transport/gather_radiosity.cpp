@@ -141,10 +141,7 @@ struct Gathering {
         const glm::dvec3 none(0);
         const size_t number = start.choice.choose(chance.x);
         const Emitters::Emitter& e = emitters.list()[number];
-        rays::Hit wanted{.share = 1, .node = e.node, .primitive = e.primitive, .triangle = e.triangle};
-        wanted.weights = triangle_weights(chance);
-        glm::dvec3 place(0);
-        for (int k = 0; k < 3; ++k) place += wanted.weights[k] * e.corners[size_t(k)];
+        const auto [place, wanted] = emitters.place_on(number, chance);
         const glm::dvec3 to = place - start.point;
         const double distance = glm::length(to), cosine = glm::dot(start.normal, to) / distance;
         const bool front = e.double_sided || glm::dot(e.outwards, to) < 0;

@@ -74,13 +74,11 @@ double LightTracer::cosine_share(const Way& way, size_t number, glm::dvec3 to) c
 glm::dvec3 LightTracer::look_at_emitter(const Way& way, glm::dvec2 chance) const {
     const size_t number = way.choice->choose(chance.x);
     const Emitters::Emitter& e = emitters_.list()[number];
-    const glm::dvec3 weights = triangle_weights(chance);
-    const glm::dvec3 place = weights.x * e.corners[0] + weights.y * e.corners[1] + weights.z * e.corners[2];
+    const auto [place, wanted] = emitters_.place_on(number, chance);
     const glm::dvec3 start = way.point + skin_at(rays_, way.point) * way.normal, to = place - start;
     const double distance = glm::length(to), leaving = std::abs(glm::dot(e.outwards, to)) / distance;
     if (!(glm::dot(way.normal, to) > 0) || !(leaving > kLeastLeaving) || !(distance < kReach)) return glm::dvec3(0);
-    const glm::dvec3 emission = surfaces_.emission(
-        {.share = 1, .node = e.node, .primitive = e.primitive, .triangle = e.triangle, .weights = weights}, start);
+    const glm::dvec3 emission = surfaces_.emission(wanted, start);
     if (emission == glm::dvec3(0)) return glm::dvec3(0);
     // It is seen if a path that way would meet it: not where it has a hole, nor where another surface lies on it.
     const std::optional<rays::Hit> hit = rays_.nearest(start, start + kReach / distance * to);

@@ -96,43 +96,48 @@ Emitters::Emitters(const scene::Scene& scene, std::span<const glm::dmat4> world,
             spend(primitive.indices.size() / 3 * 2 * sizeof(Emitter));  // of a vector that grows
             for (uint32_t t = 0; 3 * size_t(t) < primitive.indices.size(); ++t) {
                 Emitter e{node, p, t, 0, 0, {}, {}, 0, emitted, material.double_sided};
-                std::array<glm::dvec3, 3> corners;
                 for (size_t k = 0; k < 3; ++k) {
                     const scene::Vertex& vertex = primitive.vertices[primitive.indices[3 * size_t(t) + k]];
-                    corners[k] = glm::dvec3(world[node] * glm::dvec4(vertex.position, 1));
+                    e.corners[k] = glm::dvec3(world[node] * glm::dvec4(vertex.position, 1));
                 }
-                const glm::dvec3 twice = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-                const double area = 0.5 * glm::length(twice);
-                if (!(area > 0) || !std::isfinite(area) || surfaces.is_housing(node, corners)) continue;
-                e.outwards = front * twice / (2 * area);
-                double side = std::max({glm::distance(corners[0], corners[1]), glm::distance(corners[1], corners[2]),
-                                        glm::distance(corners[2], corners[0])});
-                const bool whole = list_.size() >= kManyParts || side > kLarge;
-                for (; !whole && side > kSide && e.halvings < kMostHalvings; side /= 2) ++e.halvings;
-                e.area = area / parts(e.halvings);
-                const bool textured = !whole && (material.emission_texture.image != scene::kNone ||
-                                                 material.emission_picture.image != scene::kNone);
-                const double least =
-                    emitted * (material.emission_picture.image == scene::kNone ? kLeastPart : kLeastOfPicture);
-                for (uint32_t part = 0; part < parts(e.halvings); ++part) {
-                    e.part = uint8_t(part);
-                    for (int k = 0; k < 3; ++k) {
-                        glm::dvec3 corner(0);
-                        corner[k] = 1;
-                        const glm::dvec3 weights = in_triangle(e.halvings, part, corner);
-                        e.corners[size_t(k)] = weights.x * corners[0] + weights.y * corners[1] + weights.z * corners[2];
-                    }
-                    if (textured) e.luminance = luminance_on(surfaces, e, least, e.corners[0] + e.outwards);
-                    if (list_.size() == kMost)
-                        throw Error("light between surfaces: more than " + std::to_string(kMost) +
-                                    " triangles or parts of them emit, with those of node " + std::to_string(node) +
-                                    " '" + one_line(scene.nodes[node].name) + "'");
-                    list_.push_back(e);
-                }
+                const glm::dvec3 twice = glm::cross(e.corners[1] - e.corners[0], e.corners[2] - e.corners[0]);
+                e.area = 0.5 * glm::length(twice);
+                if (!(e.area > 0) || !std::isfinite(e.area) || surfaces.is_housing(node, e.corners)) continue;
+                e.outwards = front * twice / (2 * e.area);
+                add(scene, surfaces, e);
             }
         }
     }
     make_groups();
+}
+
+void Emitters::add(const scene::Scene& scene, const Surfaces& surfaces, const Emitter& triangle) {
+    const auto& [a, b, c] = triangle.corners;
+    double side = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+    const bool whole = list_.size() >= kManyParts || side > kLarge;
+    Emitter e = triangle;
+    for (; !whole && side > kSide && e.halvings < kMostHalvings; side /= 2) ++e.halvings;
+    e.area = triangle.area / parts(e.halvings);
+    const scene::Mesh& mesh = scene.meshes[scene.nodes[e.node].mesh];
+    const scene::Material& material = scene.materials[mesh.primitives[e.primitive].material];
+    const bool picture = material.emission_picture.image != scene::kNone,
+               textured = picture || material.emission_texture.image != scene::kNone;
+    const double least = triangle.luminance * (picture ? kLeastOfPicture : kLeastPart);
+    for (uint32_t part = 0; part < parts(e.halvings); ++part) {
+        e.part = uint8_t(part);
+        for (int k = 0; k < 3; ++k) {
+            glm::dvec3 corner(0);
+            corner[k] = 1;
+            const glm::dvec3 weights = in_triangle(e.halvings, part, corner);
+            e.corners[size_t(k)] = weights.x * a + weights.y * b + weights.z * c;
+        }
+        if (textured && !whole) e.luminance = luminance_on(surfaces, e, least, e.corners[0] + e.outwards);
+        if (list_.size() == kMost)
+            throw Error("light between surfaces: more than " + std::to_string(kMost) +
+                        " triangles or parts of them emit, with those of node " + std::to_string(e.node) + " '" +
+                        one_line(scene.nodes[e.node].name) + "'");
+        list_.push_back(e);
+    }
 }
 
 std::optional<size_t> Emitters::find(const rays::Hit& hit) const {

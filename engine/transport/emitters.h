@@ -63,6 +63,7 @@ public:
     Place place_on(size_t emitter, glm::dvec2 chance) const;
 
 private:
+    void add(const scene::Scene& scene, const Surfaces& surfaces, const Emitter& triangle);  // its parts
     void make_groups();
     void make_group_lanes();
 

@@ -61,8 +61,12 @@ struct Surfaces::Facet {
     bool front, housing;
 };
 
+const scene::Primitive& Surfaces::primitive_of(const rays::Hit& hit) const {
+    return scene_.meshes[scene_.nodes[hit.node].mesh].primitives[hit.primitive];
+}
+
 Surfaces::Facet Surfaces::facet(const rays::Hit& hit, glm::dvec3 from) const {
-    const scene::Primitive& primitive = scene_.meshes[scene_.nodes[hit.node].mesh].primitives[hit.primitive];
+    const scene::Primitive& primitive = primitive_of(hit);
     const glm::dmat4& to_world = world_[hit.node];
     Facet facet{.material = scene_.materials[primitive.material], .front = true, .housing = false};
     std::array<glm::dvec3, 3> corners;
@@ -97,18 +101,17 @@ glm::dvec3 Surfaces::emission(const Facet& facet) const {
 glm::dvec3 Surfaces::emission(const rays::Hit& hit, glm::dvec3 from) const { return emission(facet(hit, from)); }
 
 bool Surfaces::stops_light(const rays::Hit& hit) const {
-    const scene::Primitive& primitive = scene_.meshes[scene_.nodes[hit.node].mesh].primitives[hit.primitive];
+    const scene::Primitive& primitive = primitive_of(hit);
     return scene_.materials[primitive.material].alpha != scene::Material::Alpha::Mask ||
            rays::stops_light(scene_, primitive, hit.triangle, hit.weights);
 }
 
 bool Surfaces::shows_back(const rays::Hit& hit, glm::dvec3 from) const {
-    const uint32_t material = scene_.meshes[scene_.nodes[hit.node].mesh].primitives[hit.primitive].material;
-    return !holes_[material] && !facet(hit, from).front;
+    return !holes_[primitive_of(hit).material] && !facet(hit, from).front;
 }
 
 bool Surfaces::is_double_sided(const rays::Hit& hit) const {
-    return scene_.materials[scene_.meshes[scene_.nodes[hit.node].mesh].primitives[hit.primitive].material].double_sided;
+    return scene_.materials[primitive_of(hit).material].double_sided;
 }
 
 glm::dvec3 Surfaces::reflectance(const Facet& facet) const {

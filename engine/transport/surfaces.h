@@ -7,6 +7,10 @@
 
 #include "rays/ray_caster.h"
 
+namespace vesper::scene {
+struct Primitive;
+}
+
 namespace vesper::transport {
 
 /// A point of a surface, seen from where a ray comes from.
@@ -44,6 +48,7 @@ public:
 
 private:
     struct Facet;
+    const scene::Primitive& primitive_of(const rays::Hit& hit) const;
     Facet facet(const rays::Hit& hit, glm::dvec3 from) const;
     glm::dvec3 emission(const Facet& facet) const;
     glm::dvec3 reflectance(const Facet& facet) const;

@@ -26,6 +26,11 @@ inline void add_rectangle(scene::Scene& scene, uint32_t material, glm::vec3 corn
     scene.nodes.emplace_back().mesh = uint32_t(scene.meshes.size() - 1);
 }
 
+/// A floor at y = 0, square about the origin.
+inline void add_floor(scene::Scene& scene, uint32_t material, float half) {
+    add_rectangle(scene, material, {-half, 0, -half}, {0, 0, 2 * half}, {2 * half, 0, 0});
+}
+
 /// The inside of a box; each wall at a node of its own.
 inline void add_room(scene::Scene& scene, uint32_t material, glm::vec3 half, glm::vec3 middle = glm::vec3(0)) {
     const auto wall = [&](glm::vec3 corner, glm::vec3 along, glm::vec3 up) {

@@ -19,11 +19,6 @@ using glm::dvec3, glm::vec3, transport::Radiosity, transport::RadiosityLight;
 constexpr double kPi = std::numbers::pi;
 const dvec3 kUp(0, 1, 0);
 
-/// A floor at y = 0, square about the origin.
-void add_floor(scene::Scene& scene, uint32_t material, float half) {
-    add_rectangle(scene, material, {-half, 0, -half}, {0, 0, 2 * half}, {2 * half, 0, 0});
-}
-
 // The closed room that glows, an integrating sphere of any shape: E = pi L (1 + rho + rho^2 + ...), everywhere. Rays
 // all meet the same light, so that only the looks at emitters are left to chance.
 TEST(Radiosity, ARoomThatGlowsHasTheGeometricSeries) {

@@ -109,7 +109,8 @@ TEST(Emitters, PartsHaveHalfOfThePictureAtLeast) {
     for (const size_t channel : {0u, 1u, 2u}) picture.rgb[(256 * 100 + 77) * 3 + channel] = 65536;
     scene.luminance_pictures.push_back(picture);
     scene.materials[0].emission_picture = {0, scene::Wrap::Clamp, scene::Wrap::Clamp, true};
-    for (const Emitters::Emitter& e : emitters_of(scene).list()) EXPECT_GE(e.luminance, 0.5 * (1 - 1e-6));
+    const Emitters emitters = emitters_of(scene);
+    for (const Emitters::Emitter& e : emitters.list()) EXPECT_GE(e.luminance, 0.5 * (1 - 1e-6));
 }
 
 }  // namespace

@@ -86,11 +86,13 @@ std::optional<uint32_t> CellGrid::air_cell(glm::dvec3 cube, uint32_t side) const
     return number ? std::optional(air_begins() + *number) : std::nullopt;
 }
 
+uint32_t CellGrid::air_cubes() const { return uint32_t(std::max(double(kLeastAirCubes), std::ceil(kAirSize / size))); }
+
 glm::dvec3 CellGrid::middle(uint32_t cell) const {
     const glm::uvec3 of = is_air(cell) ? air_count() : count;
     const uint32_t cube = (is_air(cell) ? cell - air_begins() : cell) / kSides;
     const glm::uvec3 at(cube % of.x, cube / of.x % of.y, cube / (of.x * of.y));
-    return origin + (is_air(cell) ? kAir : 1) * size * (glm::dvec3(at) + 0.5);
+    return origin + (is_air(cell) ? air_cubes() : 1) * size * (glm::dvec3(at) + 0.5);
 }
 
 }  // namespace vesper::transport

@@ -43,9 +43,10 @@ struct CellCut {
 };
 
 /// Space in cubes. A cell is what lies in one cube and faces one of its sides most. Beside those of surfaces there are
-/// cells of the air in cubes kAir times as large, for what moves in it.
+/// cells of the air in larger cubes, for what moves in it.
 struct CellGrid {
-    static constexpr uint32_t kAir = 4;
+    static constexpr double kAirSize = 4;          ///< of a cube of air, m, at least
+    static constexpr uint32_t kLeastAirCubes = 4;  ///< that one is as wide as
 
     glm::dvec3 origin{0};  ///< m, world
     double size = 1;       ///< of a cube, m
@@ -61,7 +62,8 @@ struct CellGrid {
     std::optional<uint32_t> air_cell(glm::dvec3 cube, uint32_t side) const;  ///< in cubes of air
     bool is_air(uint32_t cell) const { return cell >= air_begins(); }
     uint32_t air_begins() const { return count.x * count.y * count.z * kSides; }
-    glm::uvec3 air_count() const { return (count + kAir - 1u) / kAir; }
+    uint32_t air_cubes() const;  ///< along each axis of a cube of air
+    glm::uvec3 air_count() const { return (count + air_cubes() - 1u) / air_cubes(); }
     /// In cubes.
     glm::dvec3 place(glm::dvec3 point) const { return (point - origin) / size; }
     uint32_t side(uint32_t cell) const { return cell % kSides; }

@@ -16,15 +16,15 @@
 namespace vesper::transport {
 namespace {
 
-constexpr double kPlaceStep = 0.35;      // of a cube, between places that are looked for
-constexpr double kFew = CellGrid::kAir;  // places along each way, of which one is looked for in larger cells
-constexpr double kCovered = 0.06;        // a surface so near before another is taken to lie on it, m
-constexpr double kThinBody = 1.8;        // cubes: their diagonal, and a little more
-constexpr double kNearBy = 0.5;          // of a cube
-constexpr uint32_t kRaysToBacks = 4;     // from each place
-constexpr double kLevel = 0.7;           // cosine: ground and floors, with air over them
-constexpr double kAirHeight = 4;         // m, of that
-constexpr double kPlacesOfPart = 4'096;  // which one thread finds, roughly
+constexpr double kPlaceStep = 0.35;                // of a cube, between places that are looked for
+constexpr double kFew = CellGrid::kLeastAirCubes;  // places along each way, of which one is looked for in larger cells
+constexpr double kCovered = 0.06;                  // a surface so near before another is taken to lie on it, m
+constexpr double kThinBody = 1.8;                  // cubes: their diagonal, and a little more
+constexpr double kNearBy = 0.5;                    // of a cube
+constexpr uint32_t kRaysToBacks = 4;               // from each place
+constexpr double kLevel = 0.7;                     // cosine: ground and floors, with air over them
+constexpr double kAirHeight = 4;                   // m, of that
+constexpr double kPlacesOfPart = 4'096;            // which one thread finds, roughly
 constexpr double kPlacesAtATime =
     100'000;  // that wait to be put together, some 100 bytes each, seven times over floors
 

@@ -32,7 +32,8 @@ constexpr double kAtEmitter = 1e-3;    // m
 constexpr uint32_t kMostRounds = 4;
 constexpr double kRegion = 16;          // cubes: cells in one see about the same emitters
 constexpr uint32_t kFewer = 4;          // times fewer rays and looks of cells that only rays find
-constexpr double kMostOverfull = 1.5;   // times settings.most_cells
+constexpr double kMostOverfull = 1.5;   // times as many cells as settings say
+constexpr double kMostRays = 4;         // times as many as settings say
 constexpr double kKeptSources = 0.999;  // of the light of a cell
 constexpr uint32_t kUsedPlaces = 4;     // of a cell
 constexpr double kGuided = 0.5;         // of the rays of a cell, where lamps light others
@@ -66,7 +67,7 @@ void keep_strongest(Light& light, std::vector<Radiosity::Source>& to) {
 
 struct Gathering {
     const scene::Scene& scene;
-    const RadiositySettings& settings;
+    RadiositySettings settings;
     std::vector<glm::dmat4> world;
     rays::RayCaster rays;
     Surfaces surfaces;
@@ -333,16 +334,21 @@ struct Gathering {
         result.first_source.push_back(0), result.first_met.push_back(0);
         std::optional<PlacesByCell> places;
         // Where surfaces are small there are more cells than their area says.
-        const auto most = size_t(kMostOverfull * double(settings.most_cells));
+        size_t most = 0;
         for (RadiositySettings sized = settings; !places || places->size() > most;
-             sized.cell_size = grid.size * std::sqrt(double(places->size()) / double(settings.most_cells))) {
+             sized.cell_size = SurfaceCells::larger(grid.size)) {
             std::optional<SurfaceCells> found = SurfaceCells::of(scene, world, emitters, sized);
             if (!found) return result;
             surface_cells = std::move(*found), grid = surface_cells.grid;
+            most = size_t(kMostOverfull * double(surface_cells.most(settings)));
             places = find_places(scene, world, rays, surfaces, surface_cells, most,
                                  [&](double share) { return !progress || progress(kPlacesShare * share); });
             if (!places) return std::nullopt;
         }
+        // Where there are few cells there is time for more rays of each.
+        const double more = std::clamp(double(settings.fine_cells) / double(places->size()), 1.0, kMostRays);
+        for (uint32_t* count : {&settings.rays, &settings.looks, &settings.lamp_rays})
+            *count = uint32_t(more * double(*count));
         PlacesByCell wanted = std::move(*places);
         std::vector<Round> rounds;
         while (!wanted.empty() && rounds.size() < kMostRounds) {

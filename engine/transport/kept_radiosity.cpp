@@ -11,7 +11,7 @@ namespace vesper::transport {
 namespace {
 
 // To be raised whenever the same scene gives other cells.
-constexpr uint64_t kRadiosityVersion = 19;
+constexpr uint64_t kRadiosityVersion = 20;
 
 void add_use(Digest& digest, const scene::TextureUse& use) {
     digest.add_value(use.image), digest.add_value(use.wrap_u), digest.add_value(use.wrap_v);
@@ -104,7 +104,7 @@ Digest::Value radiosity_key(const scene::Scene& scene, std::span<const glm::dmat
     Digest digest;
     digest.add_value(kRadiosityVersion);
     digest.add_list(std::string_view(VESPER_VERSION));
-    digest.add_value(settings.cell_size), digest.add_value(settings.most_cells);
+    digest.add_value(settings.cell_size), digest.add_value(settings.fine_cells), digest.add_value(settings.most_cells);
     digest.add_value(settings.rays), digest.add_value(settings.looks), digest.add_value(settings.lamp_rays);
     add_materials(digest, scene), add_lamps(digest, scene), add_meshes(digest, scene);
     for (const scene::Node& node : scene.nodes) {

@@ -225,7 +225,7 @@ glm::dvec3 Radiosity::at(std::span<const glm::vec3> values, glm::dvec3 point, gl
 // Linear between eight cubes of air; in each the three sides that the normal goes to by the squares of its components.
 glm::dvec3 Radiosity::in_air(std::span<const glm::vec3> values, glm::dvec3 place, glm::dvec3 normal,
                              double& weights) const {
-    const glm::dvec3 air = place / double(CellGrid::kAir) - 0.5, corner = glm::floor(air), share = air - corner;
+    const glm::dvec3 air = place / double(grid.air_cubes()) - 0.5, corner = glm::floor(air), share = air - corner;
     const glm::dvec3 unit = normal / glm::length(normal);
     glm::dvec3 sum(0);
     for (uint32_t k = 0; k < 8; ++k) {

@@ -105,11 +105,13 @@ private:
 std::vector<glm::dmat4> without_moving(std::span<const glm::dmat4> world, const std::vector<bool>& moving);
 
 struct RadiositySettings {
-    double cell_size = 1;           ///< m, at least
+    double cell_size = 0.125;       ///< m, at least
     uint32_t rays = 32;             ///< from each cell
     uint32_t looks = 64;            ///< of each cell at emitters
     uint32_t lamp_rays = 16;        ///< shadow rays to lamps, from each of four places
-    uint64_t most_cells = 600'000;  ///< roughly: cells are larger where there would be more
+    uint64_t fine_cells = 100'000;  ///< roughly: cells are smaller than a metre only where there are no more; where
+                                    ///< there are fewer, up to four times as many rays and looks go out from each
+    uint64_t most_cells = 600'000;  ///< roughly: cells are larger than a metre where there would be more
 };
 
 /// For a scene with its nodes at `world`. Those that are `moving` (per node; empty: none) neither get light nor

@@ -48,6 +48,11 @@ void SurfaceCells::add_near(glm::dvec3 low, glm::dvec3 high) {
                 near_.insert(region_of(glm::min(glm::dvec3(x, y, z), high)));
 }
 
+double SurfaceCells::larger(double size) {
+    const double next = std::numbers::sqrt2 * size;
+    return size < kUsualSize ? std::min(next, kUsualSize) : next;
+}
+
 std::optional<SurfaceCells> SurfaceCells::of(const scene::Scene& scene, std::span<const glm::dmat4> world,
                                              const Emitters& emitters, const RadiositySettings& settings) {
     const std::vector<PlacedPrimitive> primitives = primitives_of(scene, world);
@@ -68,7 +73,10 @@ std::optional<SurfaceCells> SurfaceCells::of(const scene::Scene& scene, std::spa
     SurfaceCells cells;
     cells.regions_from_ = low;
     double area = all;
-    if (all > double(settings.most_cells) * settings.cell_size * settings.cell_size) {
+    double size = settings.cell_size;
+    const double usual = std::max(size, kUsualSize);
+    if (all > double(settings.most_cells) * usual * usual) {
+        size = usual;
         for (const uint32_t node : scene::nodes_with_lamps(scene)) {
             const glm::dvec3 at(world[node][3]);
             const bool directional = scene.lamps[scene.nodes[node].lamp].kind == scene::Lamp::Kind::Directional;
@@ -81,7 +89,7 @@ std::optional<SurfaceCells> SurfaceCells::of(const scene::Scene& scene, std::spa
             if (glm::distance(least, most) < kLargestEmitter) cells.add_near(least, most);
         }
         cells.all_fine_ = cells.near_.empty();
-        constexpr double kFewer = 1.0 / (CellGrid::kAir * CellGrid::kAir);
+        constexpr double kFewer = 1.0 / (CellGrid::kLeastAirCubes * CellGrid::kLeastAirCubes);
         if (!cells.all_fine_)
             area = area_of([&](const Corners& c) {
                 const double fine = part_of(c, [&](glm::dvec3 point) { return cells.is_fine(point); });
@@ -89,10 +97,8 @@ std::optional<SurfaceCells> SurfaceCells::of(const scene::Scene& scene, std::spa
             });
     }
     const glm::dvec3 extent = high - low;
-    const double least = std::max(std::sqrt(area / double(settings.most_cells)),
-                                  std::max({extent.x, extent.y, extent.z}) / kMostCubesAlong);
-    double size = settings.cell_size;
-    while (size < least) size *= std::numbers::sqrt2;
+    const double longest = std::max({extent.x, extent.y, extent.z});
+    while (area > double(most(settings, size)) * size * size || longest > kMostCubesAlong * size) size = larger(size);
     cells.grid = CellGrid::around(low, high, size);
     return cells;
 }

@@ -17,22 +17,29 @@ struct SurfaceCells {
     static constexpr double kRegion =
         32;  ///< cubes of space, m: those with a lamp or an emitter and all around them are near
 
+    static constexpr double kUsualSize = 1;  ///< of a cube, m: smaller ones are for small scenes
+
     CellGrid grid;
 
-    /// None if there is no surface. Cubes are larger than settings.cell_size where there would be more cells than
-    /// settings.most_cells.
+    /// None if there is no surface. Cubes are as small as settings.fine_cells and settings.most_cells allow.
     static std::optional<SurfaceCells> of(const scene::Scene& scene, std::span<const glm::dmat4> world,
                                           const Emitters& emitters, const RadiositySettings& settings);
 
+    static double larger(double size);  ///< the next size, m
+    /// How many cells of this grid's size there may be, roughly.
+    uint64_t most(const RadiositySettings& settings) const { return most(settings, grid.size); }
     bool is_fine(glm::dvec3 point) const { return all_fine_ || near_.contains(region_of(point)); }
     std::optional<uint32_t> number(glm::dvec3 point, glm::dvec3 normal) const {
         return is_fine(point) ? grid.cell_at(point, normal) : air(point, side_of(normal));
     }
     std::optional<uint32_t> air(glm::dvec3 point, uint32_t side) const {
-        return grid.air_cell(grid.place(point) / double(CellGrid::kAir), side);
+        return grid.air_cell(grid.place(point) / double(grid.air_cubes()), side);
     }
 
 private:
+    static uint64_t most(const RadiositySettings& settings, double size) {
+        return size < kUsualSize ? settings.fine_cells : settings.most_cells;
+    }
     uint64_t region_of(glm::dvec3 point) const;
     void add_near(glm::dvec3 low, glm::dvec3 high);
 

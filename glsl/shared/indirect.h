@@ -15,7 +15,6 @@ const float kCellUnit = 16.0f;       // lx
 const uint kCellSides = 6u;          // of a cube: +x, -x, +y, -y, +z, -z
 const uint kCutSteps = 32u;          // along the way of a cut: its place is one of them; above them the bit of what is below
 const float kDiagonal = 0.70710678f;  // of a way between two axes, along each
-const uint kAirCubes = 4u;           // along each axis of one of air
 
 // Times the components of a normal along each axis before they are compared, see transport::kSideFactors.
 const float kSideFactorX = 1.0002f, kSideFactorY = 1.0001f, kSideFactorZ = 1.0f;
@@ -32,12 +31,13 @@ struct IndirectPush {
     vec3 z_axis;
     vec3 eye;
     vec3 cubes;         // along each axis, at most 2^24
+    uint air_cubes;     // along each axis of a cube of air
     uint log2_places;   // of the table, at least 1
     float lambert;      // as in ShadePush
     vec3 sky_above;     // where no cell is near: on surfaces that face up, and down, lx; linear between them
     vec3 sky_below;
 };
-SHARED_SIZE(IndirectPush, 116)
+SHARED_SIZE(IndirectPush, 120)
 
 // Of illuminance that is known for each pixel.
 struct IlluminancePush {

@@ -56,7 +56,7 @@ TEST(IrradianceCells, EveryCellIsFoundWithItsLightAndPlane) {
             const dvec3 cube(random() % 90, random() % 40, random() % 70);
             const auto light = [&] { return std::exp2(float(random() % 2400) / 100 - 10); };
             if (random() % 9 == 0)
-                made.add_air(glm::floor(cube / 4.0), uint32_t(random() % 6), {light(), light(), light()});
+                made.add_air(glm::floor(cube / 8.0), uint32_t(random() % 6), {light(), light(), light()});
             else
                 made.add(cube, uint32_t(random() % 6), glm::normalize(vec3(light(), -light(), light())),
                          (double(random() % 1001) / 1000 - 0.5) * 0.5, {light(), light(), light()});

@@ -42,7 +42,7 @@ inline glm::ivec2 step_of(uint32_t bit) {
 
 constexpr double kSameSurface = 0.75;                     // cubes: so far off a cell's plane is another surface
 constexpr double kElsewhere = 1e-3, kLeastWeight = 1e-7;  // the weight of such, and of any cell
-constexpr double kAirCubes = 4;                           // side of a cube of air
+constexpr double kAirSize = 4, kLeastAirCubes = 4;        // side of a cube of air, at least: m, cubes
 
 /// What cells give, and how much they count.
 struct CellLight {
@@ -57,7 +57,10 @@ public:
     /// `above`, `below`: light on surfaces that face up and down where there are no cells, lx; linear between them.
     CellList(const transport::CellGrid& grid, const std::vector<LitCell>& cells, dvec3 above = dvec3(0),
              dvec3 below = dvec3(0))
-        : grid_(grid), above_(above), below_(below) {
+        : grid_(grid),
+          air_cubes_(std::max(kLeastAirCubes, std::ceil(kAirSize / grid.size))),
+          above_(above),
+          below_(below) {
         for (const LitCell& cell : cells) {
             const bool air = grid.is_air(cell.number);
             const dvec3 in_grid = (grid.middle(cell.number) - grid.origin) / grid.size,
@@ -113,7 +116,7 @@ public:
             const double component = normal[int(side / 2)];
             if ((side % 2 == 1) != (component < 0)) continue;
             for (const Lit& cell : air_[side]) {
-                const dvec3 off = (place - cell.middle) / kAirCubes;
+                const dvec3 off = (place - cell.middle) / air_cubes_;
                 if (glm::any(glm::lessThan(off, dvec3(-1))) || glm::any(glm::greaterThanEqual(off, dvec3(1)))) continue;
                 const dvec3 tent = 1.0 - glm::abs(off);
                 sum.add(component * component * (tent.x * tent.y * tent.z + kLeastWeight), cell.light);
@@ -137,6 +140,7 @@ private:
         }
     };
     transport::CellGrid grid_;
+    double air_cubes_;
     dvec3 above_, below_;
     std::vector<Lit> surfaces_[6], air_[6];
 };

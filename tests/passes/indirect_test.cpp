@@ -67,8 +67,8 @@ MadeCells cells_around(dvec3 middle, uint32_t seed, double part) {
                                                          random.unit() < 0.5f);
                     if (there) made.add({x, y, z}, side, normal, height, light(), walls, cut);
                 }
-    for (int z = 0; z < 7; ++z)
-        for (int y = 0; y < 4; ++y)
+    for (int z = 0; z < 5; ++z)  // of five cubes each
+        for (int y = 0; y < 3; ++y)
             for (int x = 0; x < 3; ++x)
                 for (uint32_t side = 0; side < 6; ++side)
                     if (random.unit() < 0.8f) made.add_air({x, y, z}, side, light());

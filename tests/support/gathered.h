@@ -11,7 +11,11 @@
 
 namespace vesper::test {
 
-inline transport::Radiosity gathered(const scene::Scene& scene, const transport::RadiositySettings& settings = {},
+/// Of cells as large as large scenes have, and with as few rays: for tests that need no less.
+constexpr transport::RadiositySettings kMetreCells{.cell_size = 1, .fine_cells = 0};
+
+inline transport::Radiosity gathered(const scene::Scene& scene,
+                                     const transport::RadiositySettings& settings = kMetreCells,
                                      const std::vector<bool>& moving = {}) {
     return transport::gather_radiosity(scene, scene::world_transforms(scene, 0), moving, settings).value();
 }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -37,7 +38,7 @@ TEST(CellGrid, EveryCellHasANumberOfItsOwnAndThoseOfAirComeLast) {
     std::set<uint32_t> numbers;
     uint32_t expected = 0;
     const glm::uvec3 air = kGrid.air_count();
-    EXPECT_EQ(air, glm::uvec3(2, 2, 3)) << "in cubes four times as large, that cover all";
+    EXPECT_EQ(air, glm::uvec3(1, 1, 2)) << "in cubes of 4 m, that cover all";
     for (const bool of_air : {false, true}) {
         const glm::uvec3 count = of_air ? air : kGrid.count;
         for (uint32_t z = 0; z < count.z; ++z)
@@ -67,27 +68,35 @@ TEST(CellGrid, MiddleAndHeightAreThoseOfTheCellAtAPoint) {
         const dvec3 over = middle + 0.2 * normal + dvec3(0.1) * (1.0 - glm::abs(normal));
         EXPECT_NEAR(transport::along(over - kGrid.middle(number), kGrid.side(number)), 0.2, 1e-12);
     }
-    const auto air_at = [](dvec3 point, uint32_t side) { return kGrid.air_cell(kGrid.place(point) / 4.0, side); };
+    const auto air_at = [](dvec3 point, uint32_t side) { return kGrid.air_cell(kGrid.place(point) / 8.0, side); };
     const glm::uvec3 air = kGrid.air_count();
     for (uint32_t number = kGrid.air_begins(); number < kGrid.air_begins() + air.x * air.y * air.z * kSides; ++number) {
         const dvec3 middle = kGrid.middle(number);
         EXPECT_EQ(air_at(middle, kGrid.side(number)), number);
-        EXPECT_EQ(air_at(middle + dvec3(0.99, -0.99, 0.99), kGrid.side(number)), number);
+        EXPECT_EQ(air_at(middle + dvec3(1.99, -1.99, 1.99), kGrid.side(number)), number);
     }
     EXPECT_EQ(kGrid.place({-3.0, 101, 10}), dvec3(1, 2, 6));
+}
+
+TEST(CellGrid, CubesOfAirAreOfFourMetresAndFourCubesAtLeast) {
+    constexpr double kSizesAndCubes[][2]{{0.125, 32}, {0.3, 14}, {0.5, 8}, {1 / std::numbers::sqrt2, 6},
+                                         {1, 4},      {3, 4}};
+    for (const auto& [size, cubes] : kSizesAndCubes)
+        EXPECT_EQ((CellGrid{.size = size, .count = {100, 100, 100}}.air_cubes()), cubes) << size;
 }
 
 TEST(CellGrid, BeyondItNothingHasANumber) {
     const dvec3 inside = kGrid.middle(0), up(0, 1, 0);
     const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
-        const double begin = kGrid.origin[axis], end = begin + 0.5 * kGrid.count[axis];
+        const double begin = kGrid.origin[axis], end = begin + 0.5 * kGrid.count[axis],
+                     air_end = begin + 4.0 * kGrid.air_count()[axis];
         for (const double to : {begin - 1e-9, end + 1e-9, 1e30, -1e30, nan, inf, -inf}) {
             dvec3 point = inside;
             point[axis] = to;
             EXPECT_FALSE(kGrid.cell_at(point, up)) << axis << " at " << to;
-            if (to > begin && to < end + 2) continue;  // cubes of air may go on to there
-            EXPECT_FALSE(kGrid.air_cell(kGrid.place(point) / 4.0, 0)) << axis << " at " << to;
+            if (to > begin && to < air_end) continue;
+            EXPECT_FALSE(kGrid.air_cell(kGrid.place(point) / 8.0, 0)) << axis << " at " << to;
         }
     }
     EXPECT_FALSE(CellGrid{}.cell_at({0, 0, 0}, up));

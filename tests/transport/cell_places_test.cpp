@@ -152,7 +152,8 @@ TEST(CellPlaces, TheNumberOfCellsOfScatteredTrianglesIsBounded) {
             p.bounds.add(vertex.position);
             p.indices.push_back(uint32_t(p.vertices.size())), p.vertices.push_back(vertex);
         }
-    const transport::RadiositySettings settings{.rays = 4, .looks = 1, .most_cells = 2'000};
+    const transport::RadiositySettings settings{
+        .cell_size = 1, .rays = 4, .looks = 1, .fine_cells = 0, .most_cells = 2'000};
     const auto world = scene::world_transforms(scene, 0);
     const rays::RayCaster rays(scene, world);
     const transport::Surfaces surfaces(scene, world);

@@ -17,7 +17,7 @@ constexpr uint32_t kReflections = 32;
 
 transport::FluxBalance balance_of(const scene::Scene& scene, const std::vector<bool>& moving = {}) {
     const std::vector<glm::dmat4> world = scene::world_transforms(scene, 0);
-    return transport::flux_balance(scene, world, moving, gathered(scene, {}, moving), kReflections);
+    return transport::flux_balance(scene, world, moving, gathered(scene, kMetreCells, moving), kReflections);
 }
 
 // 2 %: noise of 150 cells of a cube of 5 m.

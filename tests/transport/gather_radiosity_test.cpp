@@ -130,7 +130,7 @@ TEST(GatherRadiosity, WhatMovesGivesGetsAndHidesNothing) {
     add_box(scene, 0, {3, 0.2f, 3}, {0, 2.5f, 0});
     std::vector<bool> moving(scene.nodes.size(), false);
     std::fill(moving.begin() + std::ptrdiff_t(still), moving.end(), true);
-    expect_same(without, gathered(scene, {}, moving));
+    expect_same(without, gathered(scene, kMetreCells, moving));
     EXPECT_NE(without.numbers, gathered(scene).numbers);
 }
 
@@ -141,7 +141,7 @@ TEST(GatherRadiosity, AMovingLampTakesNoLooksFromOthers) {
     add_lamp(scene, 1e5, {0, 2, 0});
     std::vector<bool> moving(scene.nodes.size(), false);
     moving.back() = true;
-    expect_same(without, gathered(scene, {}, moving));
+    expect_same(without, gathered(scene, kMetreCells, moving));
 }
 
 // And gives no light, for one.
@@ -151,7 +151,7 @@ TEST(GatherRadiosity, AMovingLampGivesNothing) {
     std::vector<bool> moving(scene.nodes.size(), false);
     moving.back() = true;
     const auto last = uint32_t(scene.nodes.size() - 1);
-    for (const Radiosity::Source& source : gathered(scene, {}, moving).sources)
+    for (const Radiosity::Source& source : gathered(scene, kMetreCells, moving).sources)
         EXPECT_NE(source.node & ~Radiosity::kLamp, last);
 }
 
@@ -166,7 +166,7 @@ TEST(GatherRadiosity, WhatASpotLightsIsReflectedEvenly) {
     add_lamp(scene, 2000, {0, 6, 2});
     scene.nodes.back().rotation = glm::angleAxis(-kPi / 2, dvec3(1, 0, 0));
     scene.lamps.back().kind = scene::Lamp::Kind::Spot, scene.lamps.back().outer_cone = float(kPi / 6);
-    const Radiosity few = gathered(scene), many = gathered(scene, {.rays = 3200});
+    const Radiosity few = gathered(scene), many = gathered(scene, {.cell_size = 1, .rays = 3200, .fine_cells = 0});
     const std::vector<vec3> light = few.solve({.reflections = 1}).other, wanted = many.solve({.reflections = 1}).other;
     std::vector<double> ratios;
     for (size_t i = 0; i < light.size(); ++i)
@@ -186,7 +186,7 @@ TEST(GatherRadiosity, WhatASpotLightsIsReflectedEvenly) {
 TEST(GatherRadiosity, TheAirOverAFloorLightsWhatMovesThere) {
     scene::Scene scene;
     add_floor(scene, add_material(scene, 0), 200);  // beyond it are 0.5 % of a side's light
-    const Radiosity radiosity = gathered(scene, {.cell_size = 5, .rays = 512});
+    const Radiosity radiosity = gathered(scene, {.cell_size = 5, .rays = 512, .fine_cells = 0});
     const std::vector<vec3> light = radiosity.solve({.sky = dvec3(1 / kPi)}).other;
     for (const dvec3 point : {dvec3(0.3, 1, 2), dvec3(-3, 2, 5.5), dvec3(7, 2.5, -9)}) {
         const auto at = [&](dvec3 normal) { return radiosity.at(light, point, glm::normalize(normal)).g; };
@@ -240,7 +240,7 @@ TEST(GatherRadiosity, ABeamThatGivesNextToNothingEnds) {
     add_rectangle(scene, add_material(scene, 0.5f), {-40, 0, 40}, {80, 0, 0}, {0, 0, -80});
     add_lamp(scene, 1000, {0, 4, 0});
     scene.lamps[0].kind = scene::Lamp::Kind::CosinePower, scene.lamps[0].exponent = 1000;
-    const transport::Radiosity radiosity = gathered(scene, {.cell_size = 4});
+    const transport::Radiosity radiosity = gathered(scene, {.cell_size = 4, .fine_cells = 0});
     EXPECT_GT(radiosity.cells(), 300u);
 }
 
@@ -284,7 +284,7 @@ TEST(GatherRadiosity, BrokenTrianglesChangeNothing) {
 TEST(GatherRadiosity, TheNumberOfCellsIsBounded) {
     scene::Scene scene;
     add_floor(scene, add_material(scene, 0.5f), 5000);
-    const Radiosity wide = gathered(scene, {.most_cells = 5'000});
+    const Radiosity wide = gathered(scene, {.cell_size = 1, .most_cells = 5'000});
     size_t floors = 0;
     double area = 0;
     for (const uint32_t number : wide.numbers) floors += !wide.grid.is_air(number);

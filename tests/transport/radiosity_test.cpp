@@ -266,7 +266,7 @@ TEST(Radiosity, KnowsTheNodesWhoseLightAnyCellGets) {
     add_rectangle(scene, add_material(scene, 0, 10), {-1, 1, 1}, {2, 0, 0}, {0, 0, -2});
     std::vector<bool> moving(scene.nodes.size());
     moving[7] = true;
-    EXPECT_EQ(gathered(scene, {}, moving).source_nodes(), (std::vector<uint32_t>{6, 8}));
+    EXPECT_EQ(gathered(scene, kMetreCells, moving).source_nodes(), (std::vector<uint32_t>{6, 8}));
     EXPECT_TRUE(Radiosity().source_nodes().empty());
 }
 

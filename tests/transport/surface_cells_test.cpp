@@ -29,10 +29,11 @@ scene::Scene terrain(bool emits = false) {
     return scene;
 }
 
-std::optional<SurfaceCells> cells_of(const scene::Scene& scene, uint64_t most) {
+std::optional<SurfaceCells> cells_of(const scene::Scene& scene, uint64_t most, uint64_t fine = 0) {
     const std::vector<glm::dmat4> world = scene::world_transforms(scene, 0);
     const transport::Surfaces surfaces(scene, world);
-    return SurfaceCells::of(scene, world, transport::Emitters(scene, world, surfaces), {.most_cells = most});
+    return SurfaceCells::of(scene, world, transport::Emitters(scene, world, surfaces),
+                            {.fine_cells = fine, .most_cells = most});
 }
 
 TEST(SurfaceCells, AreAllSmallWhereThereIsRoom) {
@@ -40,6 +41,16 @@ TEST(SurfaceCells, AreAllSmallWhereThereIsRoom) {
     EXPECT_EQ(cells->grid.size, 1);
     EXPECT_TRUE(cells->is_fine({-150, 0, -150}));
     EXPECT_FALSE(cells_of({}, 1000).has_value());
+}
+
+// 160,000 m^2: cells of a metre are the largest of small ones, and the smallest of others.
+TEST(SurfaceCells, AreAsSmallAsTheirNumberAllows) {
+    const auto size = [](uint64_t fine) { return cells_of(terrain(), 200'000, fine)->grid.size; };
+    EXPECT_EQ(size(0), 1);
+    EXPECT_EQ(size(200'000), 1) << "with the 16 m^2 of the wall; at 0.7 m there would be 320,000";
+    EXPECT_NEAR(size(330'000), std::numbers::sqrt2 / 2, 1e-9);
+    EXPECT_NEAR(size(20'000'000), 0.125, 1e-9) << "none smaller than the settings say";
+    EXPECT_EQ(cells_of(terrain(), 20'000, 1'000'000)->grid.size, 1) << "a large scene has none";
 }
 
 TEST(SurfaceCells, AreSmallNearLightOnly) {
@@ -65,7 +76,8 @@ TEST(SurfaceCells, AreSmallNearLightOnly) {
 // lamp.
 TEST(SurfaceCells, HaveTheLightOfAllKinds) {
     const scene::Scene scene = terrain();
-    const transport::Radiosity large = gathered(scene, {.most_cells = 20'000}), whole = gathered(scene);
+    const transport::Radiosity large = gathered(scene, {.cell_size = 1, .fine_cells = 0, .most_cells = 20'000}),
+                               whole = gathered(scene);
     EXPECT_LT(large.cells(), whole.cells() / 4);
     EXPECT_EQ(large.grid.size, 1);
     const transport::RadiosityLight light{.sky = dvec3(10)};

@@ -452,6 +452,7 @@ struct Gathering {
             result.first_source.push_back(uint32_t(result.sources.size()));
         }
         connect(cells, result);
+        result.find_steps();
     }
 };
 

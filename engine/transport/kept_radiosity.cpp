@@ -70,7 +70,7 @@ template <class Radiosity, class Take>
 void each_list(Radiosity& r, Take take) {
     take(r.numbers), take(r.heights), take(r.areas), take(r.normals), take(r.reflectances), take(r.sky);
     take(r.first_source), take(r.sources), take(r.first_met), take(r.met), take(r.parts), take(r.beside), take(r.walls),
-        take(r.cuts);
+        take(r.steps), take(r.cuts);
     take(r.bodies.bodies), take(r.bodies.volumes), take(r.bodies.hidden);
 }
 
@@ -79,9 +79,9 @@ struct Header {
     double size = 0;
     glm::uvec3 count{0};
     uint32_t unused = 0;               // instead of padding
-    std::array<uint64_t, 17> sizes{};  // of the lists
+    std::array<uint64_t, 18> sizes{};  // of the lists
 };
-static_assert(sizeof(Header) == 184, "without padding");
+static_assert(sizeof(Header) == 192, "without padding");
 
 Digest::Value key_of_lists(const Digest::Value& key) {
     Digest digest;

@@ -25,10 +25,19 @@ struct Offset {
 };
 constexpr std::array<Offset, Radiosity::kBeside> kOffsets{
     {{-1, -1, 1}, {0, -1, 2}, {1, -1, 1}, {-1, 0, 2}, {1, 0, 2}, {-1, 1, 1}, {0, 1, 2}, {1, 1, 1}}};
-constexpr float kOwnWeight = 4, kAllWeights = 16;
+constexpr float kOwnWeight = 4;
+constexpr uint32_t kMeans = 4;       // over cells beside each other, each of the one before
+constexpr double kStep = 0.25;       // of the illuminance: cells that differ by more are apart from the second one on
 constexpr float kOneSurface = 0.9f;  // cosine between the normals of cells that are
 constexpr double kOnePlane = 0.25;   // cubes: how far off they may be
 constexpr size_t kAtATime = 4096;    // cells
+
+template <class Work>
+void each_of(size_t cells, const Work& work) {
+    in_parallel(cells, kAtATime, [&work](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) work(i);
+    });
+}
 
 struct Axes {
     int along, across, over;
@@ -61,7 +70,7 @@ std::optional<uint32_t> Radiosity::find(uint32_t number) const {
 uint64_t Radiosity::bytes() const {
     return bytes_of(numbers) + bytes_of(heights) + bytes_of(areas) + bytes_of(normals) + bytes_of(reflectances) +
            bytes_of(sky) + bytes_of(first_source) + bytes_of(sources) + bytes_of(first_met) + bytes_of(met) +
-           bytes_of(parts) + bytes_of(beside) + bytes_of(walls) + bytes_of(cuts);
+           bytes_of(parts) + bytes_of(beside) + bytes_of(walls) + bytes_of(steps) + bytes_of(cuts);
 }
 
 void Radiosity::connect(const std::function<bool(uint32_t, uint32_t)>& sees) {
@@ -105,14 +114,10 @@ std::vector<uint32_t> Radiosity::source_nodes() const {
     return nodes;
 }
 
-Radiosity::Solution Radiosity::solve(const RadiosityLight& light) const {
+Radiosity::Solution Radiosity::unsmoothed(const RadiosityLight& light) const {
     Solution result{std::vector<glm::vec3>(cells()), std::vector<glm::vec3>(cells())};
     std::vector<glm::vec3> unreflected(cells()), sent(cells());
-    const auto each_cell = [this](const auto& work) {
-        in_parallel(cells(), kAtATime, [&work](size_t begin, size_t end) {
-            for (size_t i = begin; i < end; ++i) work(i);
-        });
-    };
+    const auto each_cell = [this](const auto& work) { each_of(cells(), work); };
     each_cell([&](size_t i) {
         glm::dvec3 of_lamps(0), of_meshes(0);
         for (uint32_t s = first_source[i]; s < first_source[i + 1]; ++s) {
@@ -145,13 +150,66 @@ Radiosity::Solution Radiosity::solve(const RadiosityLight& light) const {
         if (reflection > 0 && factor < 1 && gain * factor / (1 - factor) <= light.reflection_error * all) break;
         before = all, gained = gain;
     }
-    // Of neighbours, for less noise.
-    each_cell([&](size_t i) {
-        glm::vec3 sum = kOwnWeight * other[i];
-        for (size_t k = 0; k < kBeside; ++k) sum += kOffsets[k].weight * other[beside[i * kBeside + k]];
-        result.other[i] = sum / kAllWeights;
-    });
+    result.other = std::move(other);
     return result;
+}
+
+// Of each cell and those beside it that `apart` (bits of each; empty: none) has no bit for; binomial weights.
+std::vector<glm::vec3> Radiosity::mean_of(const std::vector<glm::vec3>& lux, std::span<const uint8_t> apart) const {
+    std::vector<glm::vec3> means(cells());
+    each_of(cells(), [&](size_t i) {
+        glm::vec3 sum = kOwnWeight * lux[i];
+        float weights = kOwnWeight;
+        for (size_t k = 0; k < kBeside; ++k) {
+            if (!apart.empty() && apart[i] >> k & 1) continue;
+            sum += kOffsets[k].weight * lux[beside[i * kBeside + k]], weights += kOffsets[k].weight;
+        }
+        means[i] = sum / weights;
+    });
+    return means;
+}
+
+// Several means, each of the one before; then of what they took away, which is given back (twicing: Tukey 1977), so
+// that peaks and valleys of the light keep their heights.
+std::vector<glm::vec3> Radiosity::smoothed(const std::vector<glm::vec3>& lux, std::span<const uint8_t> apart) const {
+    const auto means = [&](std::vector<glm::vec3> of) {
+        for (uint32_t mean = 0; mean < kMeans; ++mean) of = mean_of(of, mean > 0 ? apart : std::span<const uint8_t>());
+        return of;
+    };
+    std::vector<glm::vec3> result = means(lux), rest(cells());
+    each_of(cells(), [&](size_t i) { rest[i] = lux[i] - result[i]; });
+    rest = means(std::move(rest));
+    each_of(cells(), [&](size_t i) { result[i] = glm::max(result[i] + rest[i], glm::vec3(0)); });
+    return result;
+}
+
+Radiosity::Solution Radiosity::solve(const RadiosityLight& light) const {
+    Solution solution = unsmoothed(light);
+    solution.other = smoothed(solution.other, steps);
+    return solution;
+}
+
+void Radiosity::find_steps() {
+    steps.assign(cells(), 0);
+    const std::vector<uint32_t> nodes = source_nodes();
+    const std::vector<float> dark(nodes.empty() ? 0 : nodes.back() + size_t{1}, 0.0f);
+    for (const RadiosityLight& light : {RadiosityLight{}, RadiosityLight{.factors = dark, .sky = glm::dvec3(1)}}) {
+        std::vector<glm::vec3> other = mean_of(unsmoothed(light).other, {});
+        std::vector<uint8_t> found(cells());
+        // With each mean there is less noise, and fewer of the steps are its.
+        for (uint32_t mean = 1; mean <= kMeans; ++mean) {
+            each_of(cells(), [&](size_t i) {
+                const double own = luminance(glm::dvec3(other[i]));
+                found[i] = 0;
+                for (size_t k = 0; k < kBeside; ++k) {
+                    const double there = luminance(glm::dvec3(other[beside[i * kBeside + k]]));
+                    if (std::abs(there - own) > kStep * 0.5 * (there + own)) found[i] |= uint8_t(1u << k);
+                }
+            });
+            other = mean_of(other, found);
+        }
+        each_of(cells(), [&](size_t i) { steps[i] |= found[i]; });
+    }
 }
 
 std::optional<uint32_t> Radiosity::cell_in(glm::dvec3 cube, uint32_t side) const {

@@ -64,11 +64,15 @@ struct Radiosity {
     std::vector<uint16_t> parts;      ///< of their exitance that it gets, in kPartUnit, halves; at most 1 for a cell
     std::vector<uint32_t> beside;     ///< of each the kBeside cells of the same surface around it, or itself
     std::vector<uint8_t> walls;       ///< of each bits of those around it that it does not see; empty: it sees all
+    std::vector<uint8_t> steps;       ///< of each bits of those around it whose light differs; empty: none
     std::vector<CellCut> cuts;        ///< of each; empty: none
     MovingBodies bodies;              ///< that hide light of the cells
 
     /// Finds `beside` and `walls`, from the rest and from what `sees` says of two cells, by several threads.
     void connect(const std::function<bool(uint32_t, uint32_t)>& sees);
+    /// Finds `steps`, from the light of all sources and from that of an even sky. They stay with any other light, so
+    /// that all that surfaces get is the sum of what each source gives them.
+    void find_steps();
 
     size_t cells() const { return numbers.size(); }
     std::vector<uint32_t> source_nodes() const;  ///< whose light any cell gets, ascending
@@ -92,6 +96,9 @@ private:
         uint32_t index;
         double off;  // in cubes
     };
+    Solution unsmoothed(const RadiosityLight& light) const;
+    std::vector<glm::vec3> mean_of(const std::vector<glm::vec3>& lux, std::span<const uint8_t> apart) const;
+    std::vector<glm::vec3> smoothed(const std::vector<glm::vec3>& lux, std::span<const uint8_t> apart) const;
     std::optional<uint32_t> cell_in(glm::dvec3 cube, uint32_t side) const;  // its index
     CellCut cut_of(uint32_t index) const;
     double off_plane(uint32_t index, glm::dvec3 from_middle) const;  // of a point, from its cube's middle, in cubes

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "support/gathered.h"
+#include "support/made_cells.h"
+#include "support/noise.h"
 #include "support/rooms.h"
 #include "transport/light_tracer.h"
 
@@ -180,6 +182,65 @@ TEST(Radiosity, LightGoesToAndFroBetweenPlates) {
         // 1 / (15^2 + 1) of the light leaves at most, at each turn; noise of 300 cells besides.
         EXPECT_NEAR(mean(2) / below, 1, 0.015) << reflections;
         EXPECT_NEAR(mean(3), above, 0.015 * above + 1e-9) << reflections;
+    }
+}
+
+// A floor of cells, half of it twice as bright, each with noise of a twentieth.
+struct TwoHalves {
+    static constexpr int kSide = 40;
+    Radiosity radiosity;
+
+    explicit TwoHalves(bool with_steps) {
+        MadeCells made{{.origin = {0, 0, 0}, .size = 1, .count = {kSide, 1, kSide}}, {}};
+        for (int x = 0; x < kSide; ++x)
+            for (int z = 0; z < kSide; ++z) made.add({x, 0, z}, 2, 0, vec3(1));
+        radiosity = made.radiosity();
+        radiosity.reflectances.resize(radiosity.cells(), vec3(0)), radiosity.areas.resize(radiosity.cells(), 1.0f);
+        radiosity.first_source.resize(radiosity.cells() + 1), radiosity.first_met.resize(radiosity.cells() + 1);
+        Noise random(3);
+        for (const uint32_t number : radiosity.numbers)
+            radiosity.sky.push_back(float((column(number) < kSide / 2 ? 0.4 : 0.8) * (1 + 0.05 * random.normal())));
+        radiosity.connect([](uint32_t, uint32_t) { return true; });
+        if (with_steps) radiosity.find_steps();
+    }
+    int column(uint32_t number) const { return int(radiosity.grid.middle(number).x); }
+
+    /// Of the cells of a column: the mean, and the standard deviation, in parts of it.
+    std::pair<double, double> spread(const std::vector<vec3>& light, int of) const {
+        double sum = 0, squares = 0, count = 0;
+        for (size_t i = 0; i < light.size(); ++i)
+            if (column(radiosity.numbers[i]) == of)
+                sum += double(light[i].g), squares += double(light[i].g) * double(light[i].g), ++count;
+        const double mean = sum / count;
+        return {mean, std::sqrt(squares / count - mean * mean) / mean};
+    }
+};
+
+// Means of means leave a quarter of the noise.
+TEST(Radiosity, MeansTakeNoiseAndLeaveEdges) {
+    const TwoHalves with(true), without(false);
+    const auto light = with.radiosity.solve({.sky = dvec3(1 / kPi)}).other,
+               blurred = without.radiosity.solve({.sky = dvec3(1 / kPi)}).other;
+    for (int column = 5; column < 35; ++column) {
+        const auto [mean, deviation] = with.spread(light, column);
+        EXPECT_NEAR(mean, column < 20 ? 0.4 : 0.8, 0.04) << column;
+        EXPECT_LT(deviation, 0.02) << column;
+    }
+    EXPECT_GT(without.spread(blurred, 19).first, 0.5);
+    EXPECT_LT(without.spread(blurred, 20).first, 0.7);
+}
+
+// A wave of 12 cells: means take a quarter of its height away, and give back all but a twentieth.
+TEST(Radiosity, MeansLeavePeaksTheirHeights) {
+    TwoHalves floor(true);
+    Radiosity& radiosity = floor.radiosity;
+    for (size_t i = 0; i < radiosity.cells(); ++i)
+        radiosity.sky[i] = float(1 + 0.1 * std::cos(kPi * floor.column(radiosity.numbers[i]) / 6.0));
+    radiosity.find_steps();
+    const auto light = radiosity.solve({.sky = dvec3(1 / kPi)}).other;
+    for (const int column : {12, 18, 24}) {
+        const double want = column == 18 ? 0.9 : 1.1;
+        EXPECT_NEAR(floor.spread(light, column).first, want, 0.015) << column;
     }
 }
 

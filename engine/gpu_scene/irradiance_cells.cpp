@@ -22,7 +22,7 @@ IrradianceCells irradiance_cells(const transport::Radiosity& radiosity, std::spa
         while (table.texels[place].x != shared::kNoCell) place = (place + 1) & mask;
         const uint32_t walls = radiosity.walls.empty() ? 0 : radiosity.walls[i],
                        cut = radiosity.cuts.empty() ? 0 : radiosity.cuts[i].bits;
-        const glm::vec3 light = glm::min(illuminance[i], glm::vec3(most)) / shared::kCellUnit;
+        const glm::vec3 light = glm::clamp(illuminance[i], glm::vec3(0), glm::vec3(most)) / shared::kCellUnit;
         table.texels[place] = {
             number, glm::packHalf2x16({light.r, light.g}), glm::packHalf2x16({light.b, 0}) | walls << 16u | cut << 24u,
             glm::packHalf2x16({radiosity.heights[i] / float(radiosity.grid.size), 0}) |

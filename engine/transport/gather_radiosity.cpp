@@ -31,6 +31,7 @@ constexpr double kLampsShare = 0.3;    // of that of a round
 constexpr double kAtEmitter = 1e-3;    // m
 constexpr uint32_t kMostRounds = 4;
 constexpr double kRegion = 16;          // cubes: cells in one see about the same emitters
+constexpr double kRegionOfAir = 4;      // cubes of air
 constexpr uint32_t kFewer = 4;          // times fewer rays and looks of cells that only rays find
 constexpr double kMostOverfull = 1.5;   // times as many cells as settings say
 constexpr double kMostRays = 4;         // times as many as settings say
@@ -112,7 +113,8 @@ struct Gathering {
         std::map<std::array<uint32_t, 4>, std::vector<uint32_t>> found;
         for (uint32_t i = 0; i < round.numbers.size(); ++i) {
             const bool air = grid.is_air(round.numbers[i]);
-            const glm::uvec3 at(grid.place(grid.middle(round.numbers[i])) / kRegion);
+            const double wide = air ? kRegionOfAir * grid.air_cubes() : kRegion;
+            const glm::uvec3 at(grid.place(grid.middle(round.numbers[i])) / wide);
             found[{at.z, at.y, at.x, grid.side(round.numbers[i]) + (air ? kSides : 0)}].push_back(i);
         }
         for (auto& [key, cells] : found) round.regions.push_back({.cells = std::move(cells)});
@@ -333,22 +335,32 @@ struct Gathering {
         Radiosity result;
         result.first_source.push_back(0), result.first_met.push_back(0);
         std::optional<PlacesByCell> places;
-        // Where surfaces are small there are more cells than their area says.
-        size_t most = 0;
-        for (RadiositySettings sized = settings; !places || places->size() > most;
-             sized.cell_size = SurfaceCells::larger(grid.size)) {
+        // Where surfaces are small there are more cells than their area says. Small cubes have two tries.
+        RadiositySettings sized = settings;
+        for (int tries = 1;; ++tries) {
             std::optional<SurfaceCells> found = SurfaceCells::of(scene, world, emitters, sized);
             if (!found) return result;
             surface_cells = std::move(*found), grid = surface_cells.grid;
-            most = size_t(kMostOverfull * double(surface_cells.most(settings)));
-            places = find_places(scene, world, rays, surfaces, surface_cells, most,
-                                 [&](double share) { return !progress || progress(kPlacesShare * share); });
+            const double most = kMostOverfull * double(surface_cells.most(settings));
+            double done = 1;
+            places = find_places(scene, world, rays, surfaces, surface_cells, size_t(most), [&](double share) {
+                done = share;
+                return !progress || progress(kPlacesShare * share);
+            });
             if (!places) return std::nullopt;
+            if (double(places->size()) <= most) break;
+            const bool small = grid.size < SurfaceCells::kUsualSize;
+            const double next = SurfaceCells::larger(grid.size),
+                         fits = grid.size * std::sqrt(double(places->size()) / std::max(done, 1e-3) / most);
+            sized.cell_size = small && (tries > 1 || fits > SurfaceCells::kUsualSize) ? SurfaceCells::kUsualSize
+                              : small                                                 ? std::max(next, fits)
+                                                                                      : next;
         }
         // Where there are few cells there is time for more rays of each.
-        const double more = std::clamp(double(settings.fine_cells) / double(places->size()), 1.0, kMostRays);
+        const double cells_now = double(std::max<size_t>(places->size(), 1)),
+                     more = std::clamp(double(settings.fine_cells) / cells_now, 1.0, kMostRays);
         for (uint32_t* count : {&settings.rays, &settings.looks, &settings.lamp_rays})
-            *count = uint32_t(more * double(*count));
+            *count = uint32_t(std::min(more * double(*count), double(uint32_t(-1))));
         PlacesByCell wanted = std::move(*places);
         std::vector<Round> rounds;
         while (!wanted.empty() && rounds.size() < kMostRounds) {

@@ -26,8 +26,8 @@ struct Offset {
 constexpr std::array<Offset, Radiosity::kBeside> kOffsets{
     {{-1, -1, 1}, {0, -1, 2}, {1, -1, 1}, {-1, 0, 2}, {1, 0, 2}, {-1, 1, 1}, {0, 1, 2}, {1, 1, 1}}};
 constexpr float kOwnWeight = 4;
-constexpr uint32_t kMeans = 4;       // over cells beside each other, each of the one before
-constexpr double kStep = 0.25;       // of the illuminance: cells that differ by more are apart from the second one on
+constexpr uint32_t kMeans = 3;       // after the first, each of the one before
+constexpr float kStep = 0.25f;       // of the illuminance: these leave out cells that differ by more
 constexpr float kOneSurface = 0.9f;  // cosine between the normals of cells that are
 constexpr double kOnePlane = 0.25;   // cubes: how far off they may be
 constexpr size_t kAtATime = 4096;    // cells
@@ -38,6 +38,8 @@ void each_of(size_t cells, const Work& work) {
         for (size_t i = begin; i < end; ++i) work(i);
     });
 }
+
+float largest(glm::vec3 rgb) { return std::max({rgb.r, rgb.g, rgb.b}); }
 
 struct Axes {
     int along, across, over;
@@ -169,23 +171,25 @@ std::vector<glm::vec3> Radiosity::mean_of(const std::vector<glm::vec3>& lux, std
     return means;
 }
 
-// Several means, each of the one before; then of what they took away, which is given back (twicing: Tukey 1977), so
-// that peaks and valleys of the light keep their heights.
-std::vector<glm::vec3> Radiosity::smoothed(const std::vector<glm::vec3>& lux, std::span<const uint8_t> apart) const {
+// A mean; of it others, which leave out `steps`; and of what these took away, which is given back (twicing: Tukey
+// 1977), so that peaks and valleys of the light keep their heights. Linear: where `steps` are those of other light
+// there may be a little less than 0.
+std::vector<glm::vec3> Radiosity::smoothed(const std::vector<glm::vec3>& lux) const {
     const auto means = [&](std::vector<glm::vec3> of) {
-        for (uint32_t mean = 0; mean < kMeans; ++mean) of = mean_of(of, mean > 0 ? apart : std::span<const uint8_t>());
+        for (uint32_t mean = 0; mean < kMeans; ++mean) of = mean_of(of, steps);
         return of;
     };
-    std::vector<glm::vec3> result = means(lux), rest(cells());
-    each_of(cells(), [&](size_t i) { rest[i] = lux[i] - result[i]; });
+    const std::vector<glm::vec3> first = mean_of(lux, {});
+    std::vector<glm::vec3> result = means(first), rest(cells());
+    each_of(cells(), [&](size_t i) { rest[i] = first[i] - result[i]; });
     rest = means(std::move(rest));
-    each_of(cells(), [&](size_t i) { result[i] = glm::max(result[i] + rest[i], glm::vec3(0)); });
+    each_of(cells(), [&](size_t i) { result[i] += rest[i]; });
     return result;
 }
 
 Radiosity::Solution Radiosity::solve(const RadiosityLight& light) const {
     Solution solution = unsmoothed(light);
-    solution.other = smoothed(solution.other, steps);
+    solution.other = smoothed(solution.other);
     return solution;
 }
 
@@ -197,13 +201,13 @@ void Radiosity::find_steps() {
         std::vector<glm::vec3> other = mean_of(unsmoothed(light).other, {});
         std::vector<uint8_t> found(cells());
         // With each mean there is less noise, and fewer of the steps are its.
-        for (uint32_t mean = 1; mean <= kMeans; ++mean) {
+        for (uint32_t mean = 0; mean <= kMeans; ++mean) {
             each_of(cells(), [&](size_t i) {
-                const double own = luminance(glm::dvec3(other[i]));
                 found[i] = 0;
                 for (size_t k = 0; k < kBeside; ++k) {
-                    const double there = luminance(glm::dvec3(other[beside[i * kBeside + k]]));
-                    if (std::abs(there - own) > kStep * 0.5 * (there + own)) found[i] |= uint8_t(1u << k);
+                    const glm::vec3 there = other[beside[i * kBeside + k]];
+                    if (largest(glm::abs(there - other[i])) > kStep * 0.5f * largest(there + other[i]))
+                        found[i] |= uint8_t(1u << k);
                 }
             });
             other = mean_of(other, found);

@@ -98,7 +98,7 @@ private:
     };
     Solution unsmoothed(const RadiosityLight& light) const;
     std::vector<glm::vec3> mean_of(const std::vector<glm::vec3>& lux, std::span<const uint8_t> apart) const;
-    std::vector<glm::vec3> smoothed(const std::vector<glm::vec3>& lux, std::span<const uint8_t> apart) const;
+    std::vector<glm::vec3> smoothed(const std::vector<glm::vec3>& lux) const;
     std::optional<uint32_t> cell_in(glm::dvec3 cube, uint32_t side) const;  // its index
     CellCut cut_of(uint32_t index) const;
     double off_plane(uint32_t index, glm::dvec3 from_middle) const;  // of a point, from its cube's middle, in cubes

@@ -10,6 +10,7 @@
 namespace vesper::transport {
 namespace {
 
+constexpr double kLeastSize = 1e-2;          // of cubes, m
 constexpr double kMostCubesAlong = 1 << 17;  // an axis: so a strip of a triangle has places that memory holds
 constexpr double kLargestEmitter = 8 * SurfaceCells::kRegion;  // m: larger ones, such as domes, are near to nothing
 constexpr double kSampled = SurfaceCells::kRegion / 4;         // m, between places that areas are estimated by
@@ -73,7 +74,7 @@ std::optional<SurfaceCells> SurfaceCells::of(const scene::Scene& scene, std::spa
     SurfaceCells cells;
     cells.regions_from_ = low;
     double area = all;
-    double size = settings.cell_size;
+    double size = settings.cell_size > kLeastSize ? settings.cell_size : kLeastSize;
     const double usual = std::max(size, kUsualSize);
     if (all > double(settings.most_cells) * usual * usual) {
         size = usual;
@@ -99,7 +100,10 @@ std::optional<SurfaceCells> SurfaceCells::of(const scene::Scene& scene, std::spa
     const glm::dvec3 extent = high - low;
     const double longest = std::max({extent.x, extent.y, extent.z});
     while (area > double(most(settings, size)) * size * size || longest > kMostCubesAlong * size) size = larger(size);
-    cells.grid = CellGrid::around(low, high, size);
+    // Cubes that are larger because numbers would not fit are no small ones.
+    for (cells.grid = CellGrid::around(low, high, size); cells.grid.size > size && size < kUsualSize;
+         cells.grid = CellGrid::around(low, high, size))
+        size = larger(size);
     return cells;
 }
 

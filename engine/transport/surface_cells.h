@@ -1,6 +1,7 @@
 // Which cells the surfaces of a scene have. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <unordered_set>
@@ -38,7 +39,7 @@ struct SurfaceCells {
 
 private:
     static uint64_t most(const RadiositySettings& settings, double size) {
-        return size < kUsualSize ? settings.fine_cells : settings.most_cells;
+        return std::max<uint64_t>(size < kUsualSize ? settings.fine_cells : settings.most_cells, 1);
     }
     uint64_t region_of(glm::dvec3 point) const;
     void add_near(glm::dvec3 low, glm::dvec3 high);

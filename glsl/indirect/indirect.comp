@@ -134,7 +134,7 @@ vec4 on_surfaces(Corners corners, vec3 at) {
 // The same over eight cubes of air, of each the sides that the normal goes to by the squares of its components.
 vec4 in_air(vec3 at, vec3 normal) {
     const vec3 air = at / float(push.air_cubes) - 0.5, corner = floor(air), share = air - corner;
-    const vec3 parts = normal * normal / dot(normal, normal), cubes = ceil(push.cubes / float(push.air_cubes));
+    const vec3 parts = normal * normal / dot(normal, normal), cubes = vec3((uvec3(push.cubes) + push.air_cubes - 1u) / push.air_cubes);
     const uint begins = uint(push.cubes.x) * uint(push.cubes.y) * uint(push.cubes.z) * kCellSides;
     vec4 sum = vec4(0.0);
     for (uint k = 0u; k < 24u; ++k) {

@@ -75,7 +75,7 @@ TEST(LightGatherer, NeedsNoCache) {
         wait_for(gatherer);
         const auto whole = gatherer.take();
         ASSERT_TRUE(whole);
-        EXPECT_EQ(whole->grid.size, 1);
+        EXPECT_EQ(whole->grid.size, 0.125);
         EXPECT_GT(gatherer.share(), 0.5);
     }
 }

@@ -18,7 +18,7 @@ TEST(SteadyFrames, AreOneSubmissionAndMakeNothing) {
     drive::Session session(device, {.scene = std::string(VESPER_SOURCE_DIR) + "/data/rivoli/rivoli.world.json"});
     session.set("glare", "cie");
     const gpu_scene::SceneFrame rest = session.moment();
-    const transport::RadiositySettings coarse{.cell_size = 4, .rays = 4, .looks = 2, .lamp_rays = 2};
+    const transport::RadiositySettings coarse{.cell_size = 4, .rays = 4, .looks = 2, .lamp_rays = 2, .fine_cells = 0};
     auto radiosity = transport::gather_radiosity(session.scenery().scene(), rest.world, rest.moving, coarse);
     ASSERT_TRUE(radiosity);
     session.set_radiosity(std::make_shared<const transport::Radiosity>(std::move(*radiosity)));

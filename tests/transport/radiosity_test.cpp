@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/gtc/packing.hpp>
+
 #include "support/gathered.h"
 #include "support/made_cells.h"
 #include "support/noise.h"
@@ -216,18 +218,39 @@ struct TwoHalves {
     }
 };
 
-// Means of means leave a quarter of the noise.
+// Means of means leave a quarter of the noise, one mean three eighths. One alone blurs the edge by 0.1.
 TEST(Radiosity, MeansTakeNoiseAndLeaveEdges) {
     const TwoHalves with(true), without(false);
     const auto light = with.radiosity.solve({.sky = dvec3(1 / kPi)}).other,
                blurred = without.radiosity.solve({.sky = dvec3(1 / kPi)}).other;
     for (int column = 5; column < 35; ++column) {
         const auto [mean, deviation] = with.spread(light, column);
-        EXPECT_NEAR(mean, column < 20 ? 0.4 : 0.8, 0.04) << column;
-        EXPECT_LT(deviation, 0.02) << column;
+        EXPECT_NEAR(mean, column < 20 ? 0.4 : 0.8, std::abs(column - 19.5) < 2 ? 0.07 : 0.02) << column;
+        EXPECT_LT(deviation, 0.018) << column;
     }
     EXPECT_GT(without.spread(blurred, 19).first, 0.5);
     EXPECT_LT(without.spread(blurred, 20).first, 0.7);
+}
+
+// Two sources, each of which lights one half: beside an edge of 1 to 100 nothing is darker than the dark half, and with
+// either of them the light is that of both without the other.
+TEST(Radiosity, MeansOfTwoSourcesAreTheirSum) {
+    Radiosity radiosity = TwoHalves(false).radiosity;
+    for (size_t i = 0; i < radiosity.cells(); ++i) {
+        const bool dark = radiosity.grid.middle(radiosity.numbers[i]).x < 20;
+        radiosity.sources.push_back({dark ? 0u : 1u, glm::packF3x9_E1x5(vec3(dark ? 0.0625f : 6.25f))});
+        radiosity.first_source[i + 1] = uint32_t(i + 1), radiosity.sky[i] = 0;
+    }
+    radiosity.find_steps();
+    const auto with = [&](float first, float second) {
+        return radiosity.solve({.factors = std::vector<float>{first, second}}).other;
+    };
+    const std::vector<vec3> both = with(1, 1), one = with(1, 0), other = with(0, 1);
+    for (size_t i = 0; i < both.size(); ++i) {
+        EXPECT_NEAR(both[i].g, one[i].g + other[i].g, 1e-5 * 100) << i;
+        EXPECT_GT(both[i].g, 0.999f) << i;
+        EXPECT_LT(both[i].g, 101) << i;
+    }
 }
 
 // A wave of 12 cells: means take a quarter of its height away, and give back all but a twentieth.

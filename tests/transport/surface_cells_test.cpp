@@ -51,6 +51,11 @@ TEST(SurfaceCells, AreAsSmallAsTheirNumberAllows) {
     EXPECT_NEAR(size(330'000), std::numbers::sqrt2 / 2, 1e-9);
     EXPECT_NEAR(size(20'000'000), 0.125, 1e-9) << "none smaller than the settings say";
     EXPECT_EQ(cells_of(terrain(), 20'000, 1'000'000)->grid.size, 1) << "a large scene has none";
+    // Little surface in much space: numbers of cubes of 0.7 m do not fit, those of 1 m do.
+    scene::Scene wide;
+    add_rectangle(wide, add_material(wide, 0.5f), {0, 0, 0}, {30, 0, 0}, {0, 0, 30});
+    add_rectangle(wide, 0, {700, 300, 700}, {1, 0, 0}, {0, 0, 1});
+    EXPECT_EQ(cells_of(wide, 600'000, 100'000)->grid.size, 1);
 }
 
 TEST(SurfaceCells, AreSmallNearLightOnly) {

@@ -10,7 +10,7 @@ namespace vesper::drive {
 namespace {
 
 constexpr transport::RadiositySettings kWhole;  // as pictures have it
-constexpr transport::RadiositySettings kRough{.cell_size = 2, .rays = 8, .looks = 16, .lamp_rays = 8};
+constexpr transport::RadiositySettings kRough{.cell_size = 2, .rays = 8, .looks = 16, .lamp_rays = 8, .fine_cells = 0};
 constexpr double kRoughShare = 0.05;  // of the work
 
 }  // namespace

@@ -112,7 +112,10 @@ void look_up(uint index, vec3 position_of_lamp, uint entry, uint block, bool eve
     if (kLookups == 0u) return;
     if (every_lamp) {
         const FetchedMap map = fetch_map(index);
-        [[unroll]] for (uint r = 0u; r < kRows; ++r) seen[r] = visibility(map, position[r] - position_of_lamp, normal[r]);
+        [[unroll]] for (uint r = 0u; r < kRows; ++r) {
+            const vec3 from = position[r] - position_of_lamp;
+            seen[r] = visibility(map, from, normal[r], texels_per_pixel(map, from, position[r], normal[r], push.grid.ray_scale));
+        }
     }
 }
 

@@ -3,6 +3,8 @@
 
 #include "shared/shadow_map.h"
 
+const float kLeastCosine = 0.02;  // between a surface's normal and the way to the eye
+
 struct FetchedMap {
     mat3 rotation;     // from the view frame to that of the map
     int first, side;
@@ -70,15 +72,38 @@ bool sees(FetchedMap map, MapPoint p, ivec2 texel) {
     return result;
 }
 
-// Share of the lamp that the point sees, 0 to 1.
-float visibility(FetchedMap map, vec3 from, vec3 normal) {
+// How the texels of the map change with a step of a pixel to the right and down, on the plane of a surface at a position in the
+// view frame. `pixel`: of a pixel at a depth of 1 m, m.
+mat2 texels_per_pixel(FetchedMap map, vec3 from, vec3 position, vec3 normal, vec2 pixel) {
+    // Where the plane meets the way to the eye at a grazing angle it goes on for at most 1 / kLeastCosine pixels.
+    const float away = dot(normal, position), least = max(kLeastCosine * -position.z, 1e-6);
+    const vec2 tilt = normal.xy / (abs(away) > least ? away : away < 0.0 ? -least : least);
+    const vec2 size = -position.z * pixel;
+    const vec3 right = size.x * (vec3(1.0, 0.0, 0.0) - tilt.x * position), down = size.y * (vec3(0.0, 1.0, 0.0) - tilt.y * position);
+    vec3 q = map.rotation * from, x = map.rotation * right, y = map.rotation * down;
+    const float front = q.z < 0.0 ? -1.0 : 1.0;
+    q.z *= front, x.z *= front, y.z *= front;
+    const vec3 signs = vec3(q.x < 0.0 ? -map.fold : map.fold, q.y < 0.0 ? -map.fold : map.fold, 1.0);
+    const float inverse = 1.0 / max(dot(signs, q), 1e-6);
+    const vec2 square = inverse * vec2(q.x + q.y, q.x - q.y);
+    const float texels = 0.5 * float(map.side) * map.zoom * inverse;
+    return mat2(texels * (vec2(x.x + x.y, x.x - x.y) - square * dot(signs, x)), texels * (vec2(y.x + y.y, y.x - y.y) - square * dot(signs, y)));
+}
+
+// Share of the lamp that a pixel sees, 0 to 1, in fifteenths. An edge is where half of the weight of the four nearest texels sees
+// the lamp, and the pixel gets what lies on the lit side of it. `per_pixel`: as texels_per_pixel().
+float visibility(FetchedMap map, vec3 from, vec3 normal, mat2 per_pixel) {
     const MapPoint p = map_point(map, from, normal);
     const vec2 at = p.texel - 0.5, share = fract(at);
     const ivec2 corner = ivec2(floor(at));
     const vec2 low = vec2(sees(map, p, corner) ? 1.0 : 0.0, sees(map, p, corner + ivec2(1, 0)) ? 1.0 : 0.0);
     const vec2 high = vec2(sees(map, p, corner + ivec2(0, 1)) ? 1.0 : 0.0, sees(map, p, corner + ivec2(1, 1)) ? 1.0 : 0.0);
-    const vec2 column = mix(low, high, share.y);
-    return !p.inside || mix(column.x, column.y, share.x) >= 0.5 ? 1.0 : 0.0;
+    const vec2 column = mix(low, high, share.y), row = mix(vec2(low.x, high.x), vec2(low.y, high.y), share.x);
+    const float lit = mix(column.x, column.y, share.x);
+    // What is not finite is seen by no texel, and has a sharp edge.
+    const float change = length(vec2(column.y - column.x, row.y - row.x) * per_pixel), width = change > 1e-3 ? min(change, 1.0) : 1e-3;
+    const float seen = lit >= 0.0 ? clamp(0.5 + (lit - 0.5) / width, 0.0, 1.0) : 0.0;
+    return p.inside ? floor(15.0 * seen + 0.5) / 15.0 : 1.0;
 }
 
 // The same by one texel. `way`: 1, or less where something stops the light: how much of the way it gets.

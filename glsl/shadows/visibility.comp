@@ -191,9 +191,12 @@ float penumbra(FetchedMap map, vec3 lamp, float stops) {
 uint look_up_edges(uint index) {
     const FetchedMap map = fetch_map(index);
     const vec3 lamp = texel_at(lamps, int(index * kTexelsPerLamp)).xyz;
+    // Within a column about the same.
+    const uint middle = kBlockSize / 2u;
+    const mat2 per_pixel = texels_per_pixel(map, position[middle] - lamp, position[middle], normal[middle], push.grid.ray_scale);
     uint word = 0u;
     [[unroll]] for (uint r = 0u; r < kBlockSize; ++r)
-        word |= uint(visibility(map, position[r] - lamp, normal[r]) * 15.0) << 4u * r;
+        word |= uint(visibility(map, position[r] - lamp, normal[r], per_pixel) * 15.0 + 0.5) << 4u * r;
     return word;
 }
 

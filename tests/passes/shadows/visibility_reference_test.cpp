@@ -35,7 +35,7 @@ TEST(VisibilityReference, APlaneNeverHidesItself) {
                     const glm::dvec3 way = reference::map_direction({x, y}, 64, zoom);
                     if (glm::dot(normal, way) < 0.02) continue;
                     const glm::dvec3 point = way * (4 / glm::dot(normal, way));
-                    EXPECT_TRUE(reference::lookup(map, zoom, point, normal).seen) << x << " " << y;
+                    EXPECT_EQ(reference::lookup(map, zoom, point, normal).share, 1) << x << " " << y;
                 }
         }
     }
@@ -46,10 +46,10 @@ TEST(VisibilityReference, WhatIsBehindAPlaneIsDark) {
     const reference::HemisphereMap map = map_of({{normal, 4}}, 128, 1);
     // Behind by more than the bias: 0.016 m, half a texel of 1/128 and a thousandth, of 4 m.
     const glm::dvec3 behind = normal * 4.1, before = normal * 3.9, just_behind = normal * 4.01;
-    EXPECT_FALSE(reference::lookup(map, 1, behind, normal).seen);
-    EXPECT_TRUE(reference::lookup(map, 1, before, normal).seen);
-    EXPECT_TRUE(reference::lookup(map, 1, just_behind, normal).seen);
-    EXPECT_TRUE(reference::lookup(map, 1, -behind, normal).seen) << "the map does not reach there";
+    EXPECT_EQ(reference::lookup(map, 1, behind, normal).share, 0);
+    EXPECT_EQ(reference::lookup(map, 1, before, normal).share, 1);
+    EXPECT_EQ(reference::lookup(map, 1, just_behind, normal).share, 1);
+    EXPECT_EQ(reference::lookup(map, 1, -behind, normal).share, 1) << "the map does not reach there";
 }
 
 // A half plane before a wall: the shadow's edge is straight and within half a texel of where it should be.
@@ -72,8 +72,31 @@ TEST(VisibilityReference, EdgesAreWithinHalfATexel) {
             for (const glm::dvec2 d : {glm::dvec2(0.55, 0), {-0.55, 0}, {0, 0.55}, {0, -0.55}})
                 sides |= hides(reference::map_direction(texel + d, kSide, 1)) ? 1 : 2;
             if (sides == 3) continue;
-            EXPECT_EQ(reference::lookup(map, 1, point, {0, 0, 1}).seen, sides == 2) << x << " " << y;
+            EXPECT_EQ(reference::lookup(map, 1, point, {0, 0, 1}).share, sides == 2 ? 1 : 0) << x << " " << y;
         }
+}
+
+// The same with the edge along a column of texels, and pixels of a third of a texel: a pixel has the share of its own
+// square that is lit; pixels wider than a texel have that of a texel.
+TEST(VisibilityReference, PixelsAtAnEdgeHaveTheirShare) {
+    constexpr uint32_t kSide = 128;
+    reference::HemisphereMap map{kSide, {}};
+    for (uint32_t y = 0; y < kSide; ++y)
+        for (uint32_t x = 0; x < kSide; ++x) {
+            const glm::dvec3 way = reference::map_direction({x + 0.5, y + 0.5}, kSide, 1);
+            map.norms.push_back((x < 70 ? 2.0 : 5.0) / way.z);
+        }
+    const auto at = [&](double x) {
+        const glm::dvec3 way = reference::map_direction({x, 60.3}, kSide, 1);
+        return way * (5 / way.z);
+    };
+    for (const double pixel : {1 / 3.0, 0.8, 1.0, 4.0}) {
+        const glm::dvec3 right = 1e3 * (at(70 + 1e-3 * pixel) - at(70)), down(-right.y, right.x, 0);
+        for (double x = 68; x < 72; x += 0.0613) {
+            const double want = std::clamp((x - 70) / std::min(pixel, 1.0) + 0.5, 0.0, 1.0);
+            EXPECT_NEAR(reference::lookup(map, 1, at(x), {0, 0, 1}, false, right, 0.0 * down).share, want, 0.02) << x;
+        }
+    }
 }
 
 }  // namespace

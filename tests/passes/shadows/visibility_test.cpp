@@ -1,5 +1,6 @@
 // Visibility of lamps from pixels, on the device: closed forms, and rays through the whole night street.
 // SPDX-License-Identifier: MIT
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -46,9 +47,9 @@ TEST(Visibility, AShadowEndsWhereTheRayByTheEdgeDoes) {
             const glm::dvec3 at = p.place(i, 500);
             const double x = at.x, z = -at.y, away = std::hypot(x, 6.0, z);
             if (at.z > -19) continue;  // the plate
-            // 10 mm: half a texel and rounding.
+            // Half a pixel of 20 mm, half a texel and rounding.
             const double inside = std::min(1.5 - std::abs(x), 0.9 - std::abs(z));
-            if (std::abs(inside) < 0.01) continue;
+            if (std::abs(inside) < 0.02) continue;
             const double bright = double(p.pixels[i].x + p.pixels[i].y + p.pixels[i].z);
             dark += bright == 0 ? 1 : 0;
             if (inside > 0) {
@@ -63,10 +64,12 @@ TEST(Visibility, AShadowEndsWhereTheRayByTheEdgeDoes) {
         EXPECT_GT(p.pairs.dark, 2u);
         EXPECT_GT(p.pairs.mixed, 10u);
         EXPECT_GT(p.pairs.lit, 3000u);
-        // Pixel by pixel, without blocks, it is the same.
+        // Pixel by pixel, without blocks, it is the same; shares of pixels at edges are rounded to fifteenths of it.
         const Lit::Picture slow = all.render(view, true);
-        for (size_t i = 0; i < p.pixels.size(); ++i)
-            ASSERT_NEAR(p.pixels[i].y, slow.pixels[i].y, 2e-3 * slow.pixels[i].y) << i % 500 << " " << i / 500;
+        for (size_t i = 0; i < p.pixels.size(); ++i) {
+            const double most = 1000 / (6 * 6 * kPi) / 15;
+            ASSERT_NEAR(p.pixels[i].y, slow.pixels[i].y, 2e-3 * slow.pixels[i].y + most) << i % 500 << " " << i / 500;
+        }
     }
     EXPECT_EQ(rig.complaints(), "");
 }
@@ -156,24 +159,41 @@ TEST(Visibility, PixelsLookAtTheTexelsOfTheReference) {
         const graph::Resource picture = keep<glm::vec4>(graph, shaded.scene);
         rig.run(graph);
         const std::vector<glm::vec4> pixels = rig.got<glm::vec4>(picture);
-        size_t dark = 0, lit = 0;
+        graph::FrameGraph without;
+        const graph::Resource unshadowed = keep<glm::vec4>(
+            without,
+            light(rig.frame(without, view), upload(without, s), list, no_tables(without), {}, {.all_lamps = true})
+                .scene);
+        rig.run(without);
+        const std::vector<glm::vec4> whole = rig.got<glm::vec4>(unshadowed);
+        size_t dark = 0, lit = 0, between = 0;
         for (size_t i = 0; i < pixels.size(); ++i) {
             const glm::dvec3 point = reference::view_position(shaded.clusters.push.grid, glm::dvec2(s.pixel(i)) + 0.5,
                                                               double(s.surface[i].z));
             const glm::dvec3 normal = reference::octahedral_decode(glm::dvec2(s.surface[i]));
             if (glm::dot(normal, glm::dvec3(lamp.position) - point) < 0.01) continue;
+            const double away = glm::dot(normal, point);
+            if (std::abs(away) < 0.03 * -point.z) continue;  // seen from its edge
+            const auto step = [&](glm::dvec2 pixel) {        // along the surface, m
+                constexpr double kPart = 1e-5;
+                const glm::dvec3 ray = point / -point.z + kPart * glm::dvec3(glm::dvec2(view.ray_scale()) * pixel, 0);
+                return (ray * (away / glm::dot(normal, ray)) - point) / kPart;
+            };
             glm::dvec3 in_map = turned.rotation * (point - glm::dvec3(lamp.position)),
                        facing = turned.rotation * normal;
             const bool second = in_map.z < 0;
-            if (second && hemispheres == 2) in_map.z = -in_map.z, facing.z = -facing.z;
+            glm::dvec3 right = turned.rotation * step({1, 0}), down = turned.rotation * step({0, 1});
+            if (second && hemispheres == 2) in_map.z *= -1, facing.z *= -1, right.z *= -1, down.z *= -1;
             const reference::MapLookup found =
-                reference::lookup(maps[second && hemispheres == 2 ? 1 : 0], zoom, in_map, facing, flat);
+                reference::lookup(maps[second && hemispheres == 2 ? 1 : 0], zoom, in_map, facing, flat, right, down);
             if (!found.certain) continue;
-            (found.seen ? lit : dark) += 1;
-            EXPECT_EQ(pixels[i].x > 0, found.seen) << i % view.extent.width << " " << i / view.extent.width;
+            (found.share == 1 ? lit : found.share == 0 ? dark : between) += 1;
+            EXPECT_NEAR(double(pixels[i].x / whole[i].x), found.share, 1.0 / 30 + 0.01)
+                << i % view.extent.width << " " << i / view.extent.width;
         }
-        EXPECT_GT(dark, 300u);
-        EXPECT_GT(lit, 500u);
+        EXPECT_GT(dark, 30u);
+        EXPECT_GT(lit, 300u);
+        EXPECT_GT(between, 300u);
 
         // Block by block it is the same; but a lamp that gives little counts with a mean.
         const auto by_blocks = [&](float faint, shared::VisibilityReport& pairs, float radius = 0) {
@@ -193,12 +213,30 @@ TEST(Visibility, PixelsLookAtTheTexelsOfTheReference) {
         shared::VisibilityReport pairs{};
         const std::vector<glm::vec4> exact = by_blocks(0, pairs);
         size_t other = 0;
-        for (size_t i = 0; i < pixels.size(); ++i) other += exact[i] == pixels[i] ? 0 : 1;
+        for (size_t i = 0; i < pixels.size(); ++i)
+            other += std::abs(exact[i].x - pixels[i].x) > 0.2f * whole[i].x ? 1 : 0;
         EXPECT_LE(other, pixels.size() / 200) << "blocks whose probes agree and other pixels do not";
         EXPECT_GT(pairs.mixed, 30u);
         EXPECT_EQ(pairs.faint, 0u);
+        // What is not finite in the middle of a column, whose edges are as wide as there, is seen by its pixel alone.
+        const Surfaces finite = s;
+        const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+        for (uint32_t y = 4; y < view.extent.height; y += 8)
+            for (uint32_t x = y % 3; x < view.extent.width; x += 3)
+                s.surface[size_t(y) * view.extent.width + x].z = x % 2 ? nan : inf;
+        const std::vector<glm::vec4> broken = by_blocks(0, pairs);
+        size_t changed = 0;
+        for (size_t i = 0; i < pixels.size(); ++i) {
+            const bool drawn = std::isfinite(s.surface[i].z);
+            changed += drawn && std::abs(broken[i].x - exact[i].x) > 0.5f * whole[i].x ? 1 : 0;
+            if (drawn) {
+                ASSERT_TRUE(broken[i].x >= 0 && broken[i].x <= 1.001f * whole[i].x) << i;
+            }
+        }
+        EXPECT_LE(changed, pixels.size() / 100) << "blocks whose probes are others";
+        s = finite;
         const std::vector<glm::vec4> mean = by_blocks(100, pairs);
-        EXPECT_LT(pairs.mixed, 20u) << "blocks of which no probe sees anything";
+        EXPECT_LT(pairs.mixed, 30u) << "blocks of which no probe sees anything";
         EXPECT_GT(pairs.faint, 20u);
         double sum = 0, truth = 0;
         for (size_t i = 0; i < pixels.size(); ++i) sum += double(mean[i].x), truth += double(exact[i].x);
@@ -209,10 +247,8 @@ TEST(Visibility, PixelsLookAtTheTexelsOfTheReference) {
         size_t parts = 0;
         for (size_t i = 0; i < pixels.size(); ++i) {
             ASSERT_TRUE(soft[i].x >= 0 && soft[i].x < 1e6f) << i;
-            if (pixels[i].x > 0) {
-                EXPECT_LE(soft[i].x, pixels[i].x * 1.001f) << i;
-                parts += soft[i].x < 0.99f * pixels[i].x ? 1 : 0;
-            }
+            EXPECT_LE(soft[i].x, whole[i].x * 1.001f) << i;
+            parts += soft[i].x < 0.99f * whole[i].x ? 1 : 0;
         }
         EXPECT_GT(parts, 300u);
     }
@@ -375,7 +411,15 @@ void compare_with_rays(Lit& street, const RayCaster& rays, const gpu_scene::View
         const glm::dvec3 point = reference::view_position(
             p.grid, glm::dvec2(i % view.extent.width, i / view.extent.width) + 0.5, double(surface.z));
         const glm::dvec3 normal = reference::octahedral_decode(glm::dvec2(surface));
-        const glm::dvec3 in_world(to_world * glm::dvec4(point + 2e-3 * normal, 1));
+        // Four places of the pixel, on the plane of its surface.
+        std::array<glm::dvec3, 4> places;
+        for (size_t k = 0; k < places.size(); ++k) {
+            const glm::dvec2 aside(k % 2 ? 0.25 : -0.25, k / 2 ? 0.25 : -0.25);
+            const glm::dvec3 ray = point / -point.z + glm::dvec3(glm::dvec2(view.ray_scale()) * aside, 0);
+            const double share = glm::dot(normal, point) / glm::dot(normal, ray) / -point.z;
+            const glm::dvec3 place = share > 0.5 && share < 2 ? ray * (share * -point.z) : point;
+            places[k] = glm::dvec3(to_world * glm::dvec4(place + 2e-3 * normal, 1));
+        }
         double expected = 0;  // lx, times reflectance over pi
         for (uint32_t l = 0; l < p.list.placed(); ++l) {
             reference::Shaded sum;
@@ -384,11 +428,13 @@ void compare_with_rays(Lit& street, const RayCaster& rays, const gpu_scene::View
             if (!(sum.luminance.y > 0)) continue;
             const std::vector<uint32_t>& fixture = street.plan.fixtures[p.list.indices[l]];
             const glm::dvec3 lamp(street.poses.world[street.lamps[p.list.indices[l]].node][3]);
-            const double hit = rays.hit(lamp, in_world, 0, 1, [&](uint32_t node) {
-                return std::ranges::none_of(fixture,
-                                            [&](uint32_t f) { return street.resident.placements()[f].node == node; });
-            });
-            if (!(hit < 1)) expected += sum.luminance.y;
+            for (const glm::dvec3 place : places) {
+                const double hit = rays.hit(lamp, place, 0, 1, [&](uint32_t node) {
+                    return std::ranges::none_of(
+                        fixture, [&](uint32_t f) { return street.resident.placements()[f].node == node; });
+                });
+                if (!(hit < 1)) expected += 0.25 * sum.luminance.y;
+            }
         }
         const double got = double(p.pixels[i].y);
         light.got += got, light.truth += expected;
@@ -416,11 +462,12 @@ TEST(Visibility, NightStreetAgreesWithRays) {
         for (const double x : {0.1, 0.45, 0.8})
             for (const double y : {0.35, 0.55, 0.75})
                 compare_with_rays(street, rays, part_of(whole, {1680 * x, 1050 * y}, {32, 24}), light);
-        // Without maps the light is 1.4 to 1.9 times as much. What differs are edges of shadows, by less than a texel.
+        // Without maps the light is 1.4 to 1.9 times as much. What differs are edges of shadows, by less than a texel:
+        // of their pixels the rays know quarters.
         EXPECT_NEAR(light.got, light.truth, 0.01 * light.truth) << camera;
-        EXPECT_LT(light.leaked, 0.006 * light.truth) << camera;
+        EXPECT_LT(light.leaked, 0.0075 * light.truth) << camera;
         EXPECT_LT(light.lost, 0.008 * light.truth) << camera;
-        EXPECT_GT(double(light.within), 0.935 * double(light.pixels)) << camera;
+        EXPECT_GT(double(light.within), 0.90 * double(light.pixels)) << camera;
         EXPECT_GT(light.pixels, 2000u);
     }
     EXPECT_EQ(rig.complaints(), "");

@@ -17,7 +17,7 @@ namespace vesper::transport {
 namespace {
 
 constexpr double kPlaceStep = 0.35;                // of a cube, between places that are looked for
-constexpr double kFew = CellGrid::kLeastAirCubes;  // places along each way, of which one is looked for in larger cells
+constexpr double kFew = CellGrid::kLeastAirCubes;  // in larger cells one of so many places along each way is looked for
 constexpr double kCovered = 0.06;                  // a surface so near before another is taken to lie on it, m
 constexpr double kThinBody = 1.8;                  // cubes: their diagonal, and a little more
 constexpr double kNearBy = 0.5;                    // of a cube

@@ -331,31 +331,35 @@ struct Gathering {
         keep_strongest(meshes, region.sources);
     }
 
-    std::optional<Radiosity> run(const std::function<bool(double)>& progress) {
-        Radiosity result;
-        result.first_source.push_back(0), result.first_met.push_back(0);
-        std::optional<PlacesByCell> places;
-        // Where surfaces are small there are more cells than their area says. Small cubes have two tries.
+    // Finds cubes, and the places in them; none where `progress` ends it. Where surfaces are small there are more cells
+    // than their area says; small cubes have two tries.
+    std::optional<PlacesByCell> size_cells(const std::function<bool(double)>& progress) {
         RadiositySettings sized = settings;
         for (int tries = 1;; ++tries) {
             std::optional<SurfaceCells> found = SurfaceCells::of(scene, world, emitters, sized);
-            if (!found) return result;
+            if (!found) return PlacesByCell();
             surface_cells = std::move(*found), grid = surface_cells.grid;
-            const double most = kMostOverfull * double(surface_cells.most(settings));
+            const double most = kMostOverfull * double(SurfaceCells::most(settings, grid.size));
             double done = 1;
-            places = find_places(scene, world, rays, surfaces, surface_cells, size_t(most), [&](double share) {
-                done = share;
-                return !progress || progress(kPlacesShare * share);
-            });
-            if (!places) return std::nullopt;
-            if (double(places->size()) <= most) break;
-            const bool small = grid.size < SurfaceCells::kUsualSize;
-            const double next = SurfaceCells::larger(grid.size),
-                         fits = grid.size * std::sqrt(double(places->size()) / std::max(done, 1e-3) / most);
-            sized.cell_size = small && (tries > 1 || fits > SurfaceCells::kUsualSize) ? SurfaceCells::kUsualSize
-                              : small                                                 ? std::max(next, fits)
-                                                                                      : next;
+            std::optional<PlacesByCell> places =
+                find_places(scene, world, rays, surfaces, surface_cells, size_t(most), [&](double share) {
+                    done = share;
+                    return !progress || progress(kPlacesShare * share);
+                });
+            if (!places || double(places->size()) <= most) return places;
+            sized.cell_size = SurfaceCells::larger(grid.size);
+            if (!(grid.size < SurfaceCells::kUsualSize)) continue;
+            const double fits = grid.size * std::sqrt(double(places->size()) / std::max(done, 1e-3) / most);
+            sized.cell_size = tries > 1 ? SurfaceCells::kUsualSize
+                                        : std::min(std::max(sized.cell_size, fits), SurfaceCells::kUsualSize);
         }
+    }
+
+    std::optional<Radiosity> run(const std::function<bool(double)>& progress) {
+        Radiosity result;
+        result.first_source.push_back(0), result.first_met.push_back(0);
+        std::optional<PlacesByCell> places = size_cells(progress);
+        if (!places) return std::nullopt;
         // Where there are few cells there is time for more rays of each.
         const double cells_now = double(std::max<size_t>(places->size(), 1)),
                      more = std::clamp(double(settings.fine_cells) / cells_now, 1.0, kMostRays);

@@ -77,28 +77,26 @@ uint64_t Radiosity::bytes() const {
 
 void Radiosity::connect(const std::function<bool(uint32_t, uint32_t)>& sees) {
     beside.assign(cells() * kBeside, 0), walls.assign(cells(), 0);
-    in_parallel(cells(), kAtATime, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) {
-            const uint32_t side = grid.side(numbers[i]);
-            const Axes axes = axes_of(side);
-            const glm::dvec3 cube = grid.place(grid.middle(numbers[i])), normal(normals[i]);
-            const glm::dvec3 middle = cube + double(heights[i]) / grid.size * normal;
-            for (size_t k = 0; k < kBeside; ++k) {
-                uint32_t& other = beside[i * kBeside + k] = uint32_t(i);
-                if (grid.is_air(numbers[i])) continue;
-                glm::dvec3 place = middle, column = cube;
-                place[axes.across] += kOffsets[k].across, place[axes.over] += kOffsets[k].over;
-                place[axes.along] -= (normal[axes.across] * kOffsets[k].across + normal[axes.over] * kOffsets[k].over) /
-                                     normal[axes.along];
-                column[axes.across] += kOffsets[k].across, column[axes.over] += kOffsets[k].over;
-                column[axes.along] = place[axes.along];
-                const std::optional<Nearest> cell = nearest(glm::floor(column), place, side);
-                if (!cell) continue;
-                if (!sees(uint32_t(i), cell->index))
-                    walls[i] |= uint8_t(1u << k);
-                else if (cell->off <= kOnePlane && glm::dot(normals[cell->index], normals[i]) >= kOneSurface)
-                    other = cell->index;
-            }
+    each_of(cells(), [&](size_t i) {
+        const uint32_t side = grid.side(numbers[i]);
+        const Axes axes = axes_of(side);
+        const glm::dvec3 cube = grid.place(grid.middle(numbers[i])), normal(normals[i]);
+        const glm::dvec3 middle = cube + double(heights[i]) / grid.size * normal;
+        for (size_t k = 0; k < kBeside; ++k) {
+            uint32_t& other = beside[i * kBeside + k] = uint32_t(i);
+            if (grid.is_air(numbers[i])) continue;
+            glm::dvec3 place = middle, column = cube;
+            place[axes.across] += kOffsets[k].across, place[axes.over] += kOffsets[k].over;
+            place[axes.along] -=
+                (normal[axes.across] * kOffsets[k].across + normal[axes.over] * kOffsets[k].over) / normal[axes.along];
+            column[axes.across] += kOffsets[k].across, column[axes.over] += kOffsets[k].over;
+            column[axes.along] = place[axes.along];
+            const std::optional<Nearest> cell = nearest(glm::floor(column), place, side);
+            if (!cell) continue;
+            if (!sees(uint32_t(i), cell->index))
+                walls[i] |= uint8_t(1u << k);
+            else if (cell->off <= kOnePlane && glm::dot(normals[cell->index], normals[i]) >= kOneSurface)
+                other = cell->index;
         }
     });
 }
@@ -117,10 +115,9 @@ std::vector<uint32_t> Radiosity::source_nodes() const {
 }
 
 Radiosity::Solution Radiosity::unsmoothed(const RadiosityLight& light) const {
-    Solution result{std::vector<glm::vec3>(cells()), std::vector<glm::vec3>(cells())};
+    Solution result{std::vector<glm::vec3>(cells()), {}};
     std::vector<glm::vec3> unreflected(cells()), sent(cells());
-    const auto each_cell = [this](const auto& work) { each_of(cells(), work); };
-    each_cell([&](size_t i) {
+    each_of(cells(), [&](size_t i) {
         glm::dvec3 of_lamps(0), of_meshes(0);
         for (uint32_t s = first_source[i]; s < first_source[i + 1]; ++s) {
             const uint32_t node = sources[s].node & ~kLamp;
@@ -130,7 +127,7 @@ Radiosity::Solution Radiosity::unsmoothed(const RadiosityLight& light) const {
         result.lamps[i] = glm::vec3(of_lamps);
         unreflected[i] = glm::vec3(of_meshes + double(sky[i]) * full_sky_on(light, glm::dvec3(normals[i])));
     });
-    std::vector<glm::vec3> other = unreflected;
+    std::vector<glm::vec3>& other = result.other = unreflected;
     const auto sum_of = [](const std::vector<glm::vec3>& lux_of_cells) {
         double sum = 0;
         for (const glm::vec3& lux : lux_of_cells) sum += luminance(glm::dvec3(lux));
@@ -138,8 +135,8 @@ Radiosity::Solution Radiosity::unsmoothed(const RadiosityLight& light) const {
     };
     double before = sum_of(other), gained = 0;  // all other light; what the last reflection added
     for (uint32_t reflection = 0; reflection < light.reflections; ++reflection) {
-        each_cell([&](size_t i) { sent[i] = reflectances[i] * (result.lamps[i] + other[i]); });
-        each_cell([&](size_t i) {
+        each_of(cells(), [&](size_t i) { sent[i] = reflectances[i] * (result.lamps[i] + other[i]); });
+        each_of(cells(), [&](size_t i) {
             glm::vec3 sum(0);
             for (uint32_t k = first_met[i]; k < first_met[i + 1]; ++k)
                 sum += glm::unpackHalf1x16(parts[k]) * sent[met[k]];
@@ -152,7 +149,6 @@ Radiosity::Solution Radiosity::unsmoothed(const RadiosityLight& light) const {
         if (reflection > 0 && factor < 1 && gain * factor / (1 - factor) <= light.reflection_error * all) break;
         before = all, gained = gain;
     }
-    result.other = std::move(other);
     return result;
 }
 
@@ -210,7 +206,7 @@ void Radiosity::find_steps() {
                         found[i] |= uint8_t(1u << k);
                 }
             });
-            other = mean_of(other, found);
+            if (mean < kMeans) other = mean_of(other, found);
         }
         each_of(cells(), [&](size_t i) { steps[i] |= found[i]; });
     }

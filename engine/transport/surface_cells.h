@@ -17,7 +17,6 @@ namespace vesper::transport {
 struct SurfaceCells {
     static constexpr double kRegion =
         32;  ///< cubes of space, m: those with a lamp or an emitter and all around them are near
-
     static constexpr double kUsualSize = 1;  ///< of a cube, m: smaller ones are for small scenes
 
     CellGrid grid;
@@ -27,8 +26,10 @@ struct SurfaceCells {
                                           const Emitters& emitters, const RadiositySettings& settings);
 
     static double larger(double size);  ///< the next size, m
-    /// How many cells of this grid's size there may be, roughly.
-    uint64_t most(const RadiositySettings& settings) const { return most(settings, grid.size); }
+    /// How many cells of a size there may be, roughly.
+    static uint64_t most(const RadiositySettings& settings, double size) {
+        return std::max<uint64_t>(size < kUsualSize ? settings.fine_cells : settings.most_cells, 1);
+    }
     bool is_fine(glm::dvec3 point) const { return all_fine_ || near_.contains(region_of(point)); }
     std::optional<uint32_t> number(glm::dvec3 point, glm::dvec3 normal) const {
         return is_fine(point) ? grid.cell_at(point, normal) : air(point, side_of(normal));
@@ -38,9 +39,6 @@ struct SurfaceCells {
     }
 
 private:
-    static uint64_t most(const RadiositySettings& settings, double size) {
-        return std::max<uint64_t>(size < kUsualSize ? settings.fine_cells : settings.most_cells, 1);
-    }
     uint64_t region_of(glm::dvec3 point) const;
     void add_near(glm::dvec3 low, glm::dvec3 high);
 

@@ -72,6 +72,15 @@ bool sees(FetchedMap map, MapPoint p, ivec2 texel) {
     return result;
 }
 
+// How texels change with two steps from a point, m; all in the frame of the map, the point in its own hemisphere turned to z > 0.
+mat2 texels_along(FetchedMap map, vec3 q, vec3 a, vec3 b) {
+    const vec3 signs = vec3(q.x < 0.0 ? -map.fold : map.fold, q.y < 0.0 ? -map.fold : map.fold, 1.0);
+    const float inverse = 1.0 / max(dot(signs, q), 1e-6);
+    const vec2 square = inverse * vec2(q.x + q.y, q.x - q.y);
+    const float texels = 0.5 * float(map.side) * map.zoom * inverse;
+    return mat2(texels * (vec2(a.x + a.y, a.x - a.y) - square * dot(signs, a)), texels * (vec2(b.x + b.y, b.x - b.y) - square * dot(signs, b)));
+}
+
 // How the texels of the map change with a step of a pixel to the right and down, on the plane of a surface at a position in the
 // view frame. `pixel`: of a pixel at a depth of 1 m, m.
 mat2 texels_per_pixel(FetchedMap map, vec3 from, vec3 position, vec3 normal, vec2 pixel) {
@@ -83,11 +92,7 @@ mat2 texels_per_pixel(FetchedMap map, vec3 from, vec3 position, vec3 normal, vec
     vec3 q = map.rotation * from, x = map.rotation * right, y = map.rotation * down;
     const float front = q.z < 0.0 ? -1.0 : 1.0;
     q.z *= front, x.z *= front, y.z *= front;
-    const vec3 signs = vec3(q.x < 0.0 ? -map.fold : map.fold, q.y < 0.0 ? -map.fold : map.fold, 1.0);
-    const float inverse = 1.0 / max(dot(signs, q), 1e-6);
-    const vec2 square = inverse * vec2(q.x + q.y, q.x - q.y);
-    const float texels = 0.5 * float(map.side) * map.zoom * inverse;
-    return mat2(texels * (vec2(x.x + x.y, x.x - x.y) - square * dot(signs, x)), texels * (vec2(y.x + y.y, y.x - y.y) - square * dot(signs, y)));
+    return texels_along(map, q, x, y);
 }
 
 // Share of the lamp that a pixel sees, 0 to 1, in fifteenths. An edge is where half of the weight of the four nearest texels sees
@@ -100,7 +105,7 @@ float visibility(FetchedMap map, vec3 from, vec3 normal, mat2 per_pixel) {
     const vec2 high = vec2(sees(map, p, corner + ivec2(0, 1)) ? 1.0 : 0.0, sees(map, p, corner + ivec2(1, 1)) ? 1.0 : 0.0);
     const vec2 column = mix(low, high, share.y), row = mix(vec2(low.x, high.x), vec2(low.y, high.y), share.x);
     const float lit = mix(column.x, column.y, share.x);
-    // What is not finite is seen by no texel, and has a sharp edge.
+    // Surfaces that are not finite see nothing, and edges whose width is not finite are sharp.
     const float change = length(vec2(column.y - column.x, row.y - row.x) * per_pixel), width = change > 1e-3 ? min(change, 1.0) : 1e-3;
     const float seen = lit >= 0.0 ? clamp(0.5 + (lit - 0.5) / width, 0.0, 1.0) : 0.0;
     return p.inside ? floor(15.0 * seen + 0.5) / 15.0 : 1.0;
@@ -123,12 +128,8 @@ vec3 across(vec3 way) { return normalize(abs(way.x) < abs(way.z) ? vec3(0.0, way
 mat2 texels_across(FetchedMap map, vec3 from) {
     vec3 q = map.rotation * from;
     q.z = abs(q.z);
-    const vec3 signs = vec3(q.x < 0.0 ? -map.fold : map.fold, q.y < 0.0 ? -map.fold : map.fold, 1.0);
-    const float inverse = 1.0 / max(dot(signs, q), 1e-6);
     const vec3 a = across(q), b = cross(q, a) * inversesqrt(max(dot(q, q), 1e-12));
-    const vec2 square = inverse * vec2(q.x + q.y, q.x - q.y);
-    const float texels = 0.5 * float(map.side) * map.zoom * inverse;
-    return mat2(texels * (vec2(a.x + a.y, a.x - a.y) - square * dot(signs, a)), texels * (vec2(b.x + b.y, b.x - b.y) - square * dot(signs, b)));
+    return texels_along(map, q, a, b);
 }
 
 // A disc of radius 1 as kDisc points, evenly: one of them.

@@ -218,7 +218,7 @@ TEST(Visibility, PixelsLookAtTheTexelsOfTheReference) {
         EXPECT_LE(other, pixels.size() / 200) << "blocks whose probes agree and other pixels do not";
         EXPECT_GT(pairs.mixed, 30u);
         EXPECT_EQ(pairs.faint, 0u);
-        // What is not finite in the middle of a column, whose edges are as wide as there, is seen by its pixel alone.
+        // The middle of a column says how wide its edges are: where it is not finite, other pixels stay as they are.
         const Surfaces finite = s;
         const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
         for (uint32_t y = 4; y < view.extent.height; y += 8)

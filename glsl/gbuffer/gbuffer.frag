@@ -9,6 +9,8 @@ layout(constant_id = 0) const uint kBaseTexture = 1u;
 layout(constant_id = 1) const uint kMetallicRoughnessTexture = 1u;
 layout(constant_id = 2) const uint kEmissionTexture = 1u;
 layout(constant_id = 3) const uint kMask = 0u;
+// Textures that are magnified without interpolation, a bit each in their order.
+layout(constant_id = 4) const uint kNearest = 0u;
 
 layout(location = 0) in vec3 view_normal;
 layout(location = 1) in vec2 texture_uv;
@@ -29,15 +31,30 @@ layout(location = 3) out uvec2 out_triangle;
 // The nearest halves: a device may cut off instead when it writes them, which takes 0.03 % of every reflectance.
 vec3 halves(vec3 v) { return vec3(unpackHalf2x16(packHalf2x16(v.rg)), unpackHalf2x16(packHalf2x16(v.bb)).x); }
 
+// Of texels larger than a pixel the mean over a box about as wide as the pixel: borders between them are no stairs.
+vec4 texture_at(sampler2D image, uint number) {
+    if ((kNearest >> number & 1u) == 0u) return texture(image, texture_uv);
+    const vec2 size = vec2(textureSize(image, 0)), place = texture_uv * size, right = dFdx(place), down = dFdy(place);
+    const vec2 width = sqrt(right * right + down * down);  // of the pixel, texels
+    // A texel within 1/256 px of a border of the pixel is not in it: its luminance may be a million times the others'.
+    const vec2 border = round(place), share = clamp(258.0 / 256.0 * (place - border) / max(width, 1e-6) + 0.5, 0.0, 1.0);
+    const vec2 beyond = mix(share, step(border, place), lessThan(width, vec2(1e-4)));
+    const vec2 low = (border - 0.5) / size, high = (border + 0.5) / size;
+    const vec4 above = mix(textureLod(image, low, 0.0), textureLod(image, vec2(high.x, low.y), 0.0), beyond.x);
+    const vec4 below = mix(textureLod(image, vec2(low.x, high.y), 0.0), textureLod(image, high, 0.0), beyond.x);
+    const vec4 farther = texture(image, texture_uv);
+    return max(width.x, width.y) < 1.0 ? mix(above, below, beyond.y) : farther;
+}
+
 void main() {
     vec4 base = base_colour;
-    if (kBaseTexture != 0u) base *= texture(base_texture, texture_uv);
+    if (kBaseTexture != 0u) base *= texture_at(base_texture, 0u);
     if (kMask != 0u && base.a < emission_cutoff.a) discard;
 
     vec2 m = metallic_roughness;
-    if (kMetallicRoughnessTexture != 0u) m *= texture(metallic_roughness_texture, texture_uv).bg;
+    if (kMetallicRoughnessTexture != 0u) m *= texture_at(metallic_roughness_texture, 1u).bg;
     vec3 emission = emission_cutoff.rgb;
-    if (kEmissionTexture != 0u) emission *= texture(emission_texture, texture_uv).rgb;
+    if (kEmissionTexture != 0u) emission *= texture_at(emission_texture, 2u).rgb;
 
     const vec3 normal = normalize(gl_FrontFacing ? view_normal : -view_normal);
     out_reflectance = vec4(halves(base.rgb), m.x);

@@ -304,6 +304,29 @@ TEST(Gbuffer, TexturesWrapRepeatAndMirror) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+// Of texels larger than a pixel: the part of it that each covers.
+TEST(Gbuffer, BordersOfTexelsAreNoStairs) {
+    PassRig rig;
+    for (const Wrap wrap : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp}) {
+        Material m = plain({1, 1, 1});
+        m.base_colour_texture = {0, wrap, wrap, true}, m.metallic_roughness_texture = {1, wrap, wrap, true};
+        m.metallic = 1;
+        const Scene scene = wall(m, {noise(9, 7, 5), noise(3, 11, 6)});
+        // The reference looks at 16 x 16 points of a pixel: within 1/32 of a border across.
+        expect_scene(rig, scene, view_of({64, 64}), {.reflectance = 0.07, .filter = reference::Filter::Area});
+    }
+    // One colour for all of a surface stays the texel's.
+    Material m = plain({1, 1, 1});
+    m.base_colour_texture = {0, Wrap::Repeat, Wrap::Repeat, true};
+    Scene palette = wall(m, {Image{"", 2, 1, {255, 255, 255, 255, 0, 0, 0, 255}}});
+    for (const float u : {0.0f, 0.25f, 0.49f, 0.5f, 0.75f}) {
+        for (Vertex& v : palette.meshes[0].primitives[0].vertices) v.uv = {u, 0.5f};
+        for (const glm::vec4& seen : draw(rig, palette, view_of({8, 8})).reflectance)
+            EXPECT_EQ(seen.r, u < 0.5f ? 1.0f : 0.0f) << u;
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
 /// Values of these decades around 1, evenly in their logarithms.
 photometry::LuminancePicture lamps(uint32_t side, uint32_t seed, float decades) {
     std::mt19937 random(seed);

@@ -43,28 +43,31 @@ enum Variant : uint32_t {
     kMetallicRoughnessTexture = 2,
     kEmissionTexture = 4,
     kMask = 8,
-    kEmits = 16
+    kNearest = 16,  // times 1, 2 and 4 for the textures above
+    kEmits = 128
 };
 
 uint32_t variant_of(const scene::Material& m) {
     uint32_t variant = 0;
-    if (m.base_colour_texture.image != scene::kNone) variant |= kBaseTexture;
-    if (m.metallic_roughness_texture.image != scene::kNone) variant |= kMetallicRoughnessTexture;
     if (m.alpha == scene::Material::Alpha::Mask) variant |= kMask;
+    const auto add = [&](const scene::TextureUse& use, uint32_t texture) {
+        if (use.image != scene::kNone) variant |= texture | (use.nearest ? kNearest * texture : 0);
+    };
+    add(m.base_colour_texture, kBaseTexture), add(m.metallic_roughness_texture, kMetallicRoughnessTexture);
     if (m.emission == glm::vec3(0)) return variant;
-    if (m.emission_picture.image != scene::kNone || m.emission_texture.image != scene::kNone)
-        variant |= kEmissionTexture;
+    add(m.emission_picture.image != scene::kNone ? m.emission_picture : m.emission_texture, kEmissionTexture);
     return variant | kEmits;
 }
 
 const gpu::GraphicsPipeline& pipeline_of(const gpu::GraphicsPipelineCache& pipelines, uint32_t variant) {
-    return pipelines.get(kShaders, {.targets = {{kReflectanceFormat},
-                                                {kSurfaceFormat},
-                                                {kEmissionFormat, (variant & kEmits) != 0},
-                                                {kTriangleFormat}},
-                                    .depth = kDepthFormat,
-                                    .constants = {variant & kBaseTexture, variant & kMetallicRoughnessTexture,
-                                                  variant & kEmissionTexture, variant & kMask}});
+    return pipelines.get(kShaders,
+                         {.targets = {{kReflectanceFormat},
+                                      {kSurfaceFormat},
+                                      {kEmissionFormat, (variant & kEmits) != 0},
+                                      {kTriangleFormat}},
+                          .depth = kDepthFormat,
+                          .constants = {variant & kBaseTexture, variant & kMetallicRoughnessTexture,
+                                        variant & kEmissionTexture, variant & kMask, variant / kNearest & 7}});
 }
 
 // How the surfaces of one material are drawn.

@@ -33,8 +33,10 @@ struct SeenFacet {
     vec3 sides[4];       // distances of a place (px, 1) from the lines along its edges, px, positive inside
     vec3 inverse_depth;  // of a place (px, 1) of its plane, 1/m
     bool narrow;         // narrower than a pixel
-    bool has_holes;
+    float mask;          // Instance::mask
     float placement;     // number of its mesh
+    vec3 corners[3];     // see corner()
+    uvec3 vertices;
 };
 
 // The facet of the triangle (of GBuffer::triangle) that the middle `there` px away sees.
@@ -51,7 +53,7 @@ SeenFacet facet_of(uvec2 triangle, vec2 there) {
     const vec3 p = vec3(there, 1.0);
     const float width = triangular ? kTriangleWidth * min(min(height(ab, c), height(bc, a)), height(da, b)) : min(dot(ab + cd, p), dot(bc + da, p));
     const vec3 inverse_depth = (cross(a, b) + cross(b, c) + cross(c, a)) / dot(c, cross(a, b));
-    return SeenFacet(vec3[](ab, bc, cd, da), inverse_depth, width < 1.0, kind.y != 0.0, kind.z);
+    return SeenFacet(vec3[](ab, bc, cd, da), inverse_depth, width < 1.0, kind.y, kind.z, vec3[](a, b, c), uvec3(triangle.g, others.xy));
 }
 
 // Of a place (px, 1): how far it is from the nearest line along an edge, px; negative outside.

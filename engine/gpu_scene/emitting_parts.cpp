@@ -120,10 +120,10 @@ struct BoxedFacet {
 };
 
 // The facets of a primitive, each once.
-std::vector<BoxedFacet> boxed_facets(const scene::Primitive& primitive) {
+std::vector<BoxedFacet> boxed_facets(const scene::Primitive& primitive, const scene::Material& material) {
     std::vector<BoxedFacet> list;
     std::set<std::array<uint32_t, 4>> known;
-    for (const Facet& facet : facets(primitive)) {
+    for (const Facet& facet : facets(primitive, material)) {
         std::array<uint32_t, 4> sorted = facet.corners;
         std::sort(sorted.begin(), sorted.begin() + facet.count);
         if (!known.insert(sorted).second) continue;
@@ -160,7 +160,7 @@ void add_frames(const scene::Scene& scene, const scene::Mesh& mesh, std::span<Em
             if (p == i || scene.materials[other.material].alpha == scene::Material::Alpha::Mask ||
                 !meet(other.bounds, box))
                 continue;
-            if (!known[p]) known[p] = boxed_facets(other);
+            if (!known[p]) known[p] = boxed_facets(other, scene.materials[other.material]);
             for (const BoxedFacet& facet : *known[p])
                 if (meet(facet.box, box)) {
                     spend(sizeof(std::vector<glm::vec3>) + facet.corners.size() * sizeof(glm::vec3));

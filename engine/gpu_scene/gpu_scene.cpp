@@ -62,17 +62,23 @@ scene::Material as_sheet(scene::Material m) {
 
 // The facets of all triangles of a primitive, at the vertices that lead them. The primitive's first vertex has the
 // number `first`.
-void add_facets(const scene::Primitive& primitive, const ProvokingVertices& triangles, uint32_t first,
-                std::vector<shared::Facet>& to) {
+void add_facets(const scene::Primitive& primitive, const scene::Material& material, const ProvokingVertices& triangles,
+                uint32_t first, std::vector<shared::Facet>& to) {
     to.resize(first + triangles.vertices().size());
-    const std::vector<Facet> found = facets(primitive);
+    const std::vector<Facet> found = facets(primitive, material);
     for (size_t i = 0; i < found.size(); ++i) {
-        const auto& [corners, count] = found[i];
+        const auto& [corners, count, region] = found[i];
         const uint32_t leader = triangles.indices()[3 * i];
         const auto place = uint32_t(std::ranges::find(corners, triangles.vertices()[leader]) - corners.begin());
         for (uint32_t k = 1; k < 4; ++k)
             to[first + leader].others[k - 1] = first + corners[(place + std::min(k, count - 1)) % count];
+        to[first + leader].region = region;
     }
+}
+
+bool fades(const scene::Primitive& primitive) {
+    return std::ranges::any_of(primitive.vertices,
+                               [](const scene::Vertex& vertex) { return vertex.colour[3] < 65535; });
 }
 
 // A bound of the largest stretch of a linear map, exact where its axes stay at right angles: the square is the largest
@@ -112,7 +118,7 @@ GpuScene::GpuScene(const gpu::Device& device, const scene::Scene& scene, Picture
     const Budget budget("preparing " + (scene.name.empty() ? "the scene" : one_line(scene.name)));
     upload_geometry(device, scene, cache);
     place(scene);
-    make_surfaces(scene);
+    make_surfaces(device, scene);
 }
 
 void GpuScene::upload_geometry(const gpu::Device& device, const scene::Scene& scene, Cache* cache) {
@@ -127,11 +133,12 @@ void GpuScene::upload_geometry(const gpu::Device& device, const scene::Scene& sc
                 primitive.bounds.empty() ? glm::vec3(0) : (primitive.bounds.low + primitive.bounds.high) * 0.5f;
             const float radius = primitive.bounds.empty() ? 0 : glm::length(primitive.bounds.high - centre);
             parts_.push_back({primitive.material, uint32_t(indices.size()), uint32_t(primitive.indices.size()),
-                              int32_t(vertices.size()), centre, radius});
+                              int32_t(vertices.size()), centre, radius, fades(primitive)});
             // On the device, and on the way there.
             spend(2 * (leading.vertices().size() * (sizeof(scene::Vertex) + sizeof(shared::Facet)) +
                        leading.indices().size() * sizeof(uint32_t)));
-            add_facets(primitive, leading, uint32_t(vertices.size()), of_triangles);
+            add_facets(primitive, scene.materials[primitive.material], leading, uint32_t(vertices.size()),
+                       of_triangles);
             for (const uint32_t vertex : leading.vertices()) vertices.push_back(primitive.vertices[vertex]);
             indices.insert(indices.end(), leading.indices().begin(), leading.indices().end());
         }
@@ -155,7 +162,7 @@ void GpuScene::add_cells(std::vector<CasterCell> made, std::vector<scene::Vertex
         for (const CasterCell::Level& level : of.levels)
             cell.levels.push_back({level.error,
                                    {scene::kNone, uint32_t(indices.size()) + level.first_index, level.index_count,
-                                    int32_t(vertices.size()), glm::vec3(0), float(of.radius)}});
+                                    int32_t(vertices.size()), glm::vec3(0), float(of.radius), false}});
         for (const glm::vec3 position : of.vertices) vertices.push_back({.position = position});
         indices.insert(indices.end(), of.indices.begin(), of.indices.end());
     }
@@ -171,7 +178,8 @@ void GpuScene::place(const scene::Scene& scene) {
     }
 }
 
-void GpuScene::make_surfaces(const scene::Scene& scene) {
+void GpuScene::make_surfaces(const gpu::Device& device, const scene::Scene& scene) {
+    Masks masks(device.most_texels(sizeof(uint32_t)));
     const std::vector<InDiffuse> roads = in_diffuse(scene);
     const std::vector<scene::MaterialUse> uses =
         roads.empty() ? std::vector<scene::MaterialUse>{} : scene::material_uses(scene);
@@ -183,8 +191,8 @@ void GpuScene::make_surfaces(const scene::Scene& scene) {
                                                                     : stated;
         // Opacity passes through half floats, which may be half a step (2^-11 of the value) less than the code said.
         m.alpha_cutoff *= 1 - 0x1p-11f;
-        const bool masks = m.alpha == scene::Material::Alpha::Mask && m.alpha_cutoff > 0 && m.base_colour.a > 0;
-        const float cutoff = masks ? m.alpha_cutoff / m.base_colour.a : 0;  // of the texture
+        const bool is_masked = m.alpha == scene::Material::Alpha::Mask && m.alpha_cutoff > 0 && m.base_colour.a > 0;
+        const float cutoff = is_masked ? m.alpha_cutoff / m.base_colour.a : 0;  // of the texture
         float unit = 1;
         const VkDescriptorImageInfo emission = m.emission_picture.image != scene::kNone
                                                    ? textures_.get_picture(scene, m.emission_picture, unit)
@@ -192,8 +200,15 @@ void GpuScene::make_surfaces(const scene::Scene& scene) {
         m.emission *= unit;
         surfaces_.push_back({m,
                              {textures_.get(scene, m.base_colour_texture, Decode::Colour, cutoff),
-                              textures_.get(scene, m.metallic_roughness_texture, Decode::Data), emission}});
+                              textures_.get(scene, m.metallic_roughness_texture, Decode::Data), emission},
+                             0});
+        if (cutoff > 0 && m.base_colour_texture.image != scene::kNone)
+            surfaces_.back().mask =
+                masks.add(m.base_colour_texture, cutoff, textures_.opacities(m.base_colour_texture, cutoff));
     }
+    const std::vector<uint32_t> words = masks.words();
+    mask_words_ = words.size();
+    masks_ = gpu::upload_buffer(device, arena_, bytes_of(words), gpu::kTexelUsage);
 }
 
 float GpuScene::farthest_depth(const SceneFrame& frame, const View& view) const {

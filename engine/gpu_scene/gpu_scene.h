@@ -48,6 +48,7 @@ public:
         int32_t first_vertex;
         glm::vec3 centre;  ///< of the bounding sphere, m, mesh frame
         float radius;      ///< m
+        bool fades;        ///< the opacity of its vertices is less than 1
     };
     /// A mesh drawn at a node.
     struct Placement {
@@ -69,6 +70,7 @@ public:
     struct Surface {
         scene::Material material;
         VkDescriptorImageInfo textures[3];  ///< base colour, metallic-roughness, emission
+        int32_t mask;                       ///< as shared::Instance::mask
     };
 
     /// `cache`: keeps cells of casters from run to run; null: nothing does.
@@ -83,6 +85,14 @@ public:
     const gpu::OwnedBuffer& indices() const { return indices_; }
     /// shared::Facet for each vertex, of the triangle that it is the first of (ProvokingVertices).
     const gpu::OwnedBuffer& facets() const { return facets_; }
+    /// shared::Mask of all masked surfaces, and their opacities.
+    const gpu::OwnedBuffer& masks() const { return masks_; }
+    uint64_t mask_words() const { return mask_words_; }
+    /// As shared::Instance::mask.
+    float mask_of(const Part& part) const {
+        const int32_t mask = surfaces_[part.material].mask;
+        return mask != 0 && part.fades ? -1 : float(mask);
+    }
     uint64_t vertex_count() const { return vertex_count_; }                ///< of parts
     uint64_t caster_vertex_count() const { return caster_vertex_count_; }  ///< and, after these, of cells
     uint64_t index_count() const { return index_count_; }                  ///< of both
@@ -96,10 +106,10 @@ private:
     void upload_geometry(const gpu::Device& device, const scene::Scene& scene, Cache* cache);
     void add_cells(std::vector<CasterCell> made, std::vector<scene::Vertex>& vertices, std::vector<uint32_t>& indices);
     void place(const scene::Scene& scene);
-    void make_surfaces(const scene::Scene& scene);
+    void make_surfaces(const gpu::Device& device, const scene::Scene& scene);
 
     gpu::Arena arena_;
-    gpu::OwnedBuffer vertices_, indices_, facets_;
+    gpu::OwnedBuffer vertices_, indices_, facets_, masks_;
     uint64_t vertex_count_ = 0, caster_vertex_count_ = 0, index_count_ = 0;
     TextureStore textures_;
     std::vector<Part> parts_;
@@ -107,7 +117,7 @@ private:
     std::vector<Placement> placements_;
     std::vector<Cell> cells_;
     std::vector<Surface> surfaces_;
-    uint64_t triangles_ = 0;
+    uint64_t triangles_ = 0, mask_words_ = 0;
     Digest::Value occluders_;
 };
 

@@ -65,6 +65,14 @@ Rows rows_of(const Level& level) {
             }};
 }
 
+OpacityLevel opacities_of(const Level& level) {
+    OpacityLevel opacities{level.width, level.height, {}};
+    opacities.opacities.reserve(level.rgba.size() / 4);
+    for (size_t i = 3; i < level.rgba.size(); i += 4)
+        opacities.opacities.push_back(uint8_t(std::lround(std::clamp(level.rgba[i], 0.0f, 1.0f) * 255)));
+    return opacities;
+}
+
 /// Codes of an image through a table.
 Rows decoded_rows(const Image& image, std::vector<float> table, bool linear_alpha) {
     std::vector<float> alphas = linear_alpha ? decode_table(Decode::Data, {}) : table;
@@ -259,7 +267,10 @@ VkDescriptorImageInfo TextureStore::get(const scene::Scene& scene, const scene::
         const Rows base = decoded_rows(image, decode_table(std::get<Decode>(key), scene.transfer), !data);
         const VkFormat format = data ? VK_FORMAT_R8G8B8A8_UNORM : VK_FORMAT_R16G16B16A16_SFLOAT;
         const float mask = std::get<float>(key);
-        found = textures_.emplace(key, mask > 0 ? upload_masked(base, mask, format) : upload(base, format)).first;
+        found = textures_
+                    .emplace(key, mask > 0 ? upload_masked(base, mask, format, opacities_[{use.image, mask}])
+                                           : upload(base, format))
+                    .first;
     }
     return {sampler(use), found->second.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 }
@@ -287,11 +298,12 @@ TextureStore::Texture TextureStore::upload(const Rows& base, VkFormat format) {
     return upload(levels, format);
 }
 
-TextureStore::Texture TextureStore::upload_masked(const Rows& base, float cutoff, VkFormat format) {
+TextureStore::Texture TextureStore::upload_masked(const Rows& base, float cutoff, VkFormat format,
+                                                  std::vector<OpacityLevel>& opacities) {
     const TemporaryMemory of_levels(float_bytes(base) * 4 / 3);
     const std::vector<Level> masked = masked_levels(whole(base), cutoff);
     std::vector<Rows> levels;
-    for (const Level& level : masked) levels.push_back(rows_of(level));
+    for (const Level& level : masked) levels.push_back(rows_of(level)), opacities.push_back(opacities_of(level));
     return upload(levels, format);
 }
 

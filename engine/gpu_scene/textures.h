@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gpu/memory.h"
+#include "gpu_scene/masks.h"
 #include "scene/material.h"
 
 namespace vesper::scene {
@@ -56,6 +57,11 @@ public:
     /// The same for a luminance picture. `unit`: the luminance that a value of 1 in the texture is of the picture's.
     VkDescriptorImageInfo get_picture(const scene::Scene& scene, const scene::TextureUse& use, float& unit);
 
+    /// Opacities of a colour texture that get() was asked for with this cutoff, above 0.
+    std::span<const OpacityLevel> opacities(const scene::TextureUse& use, float cutoff) const {
+        return opacities_.at({use.image, cutoff});
+    }
+
 private:
     struct Texture {
         gpu::OwnedImage image;
@@ -63,7 +69,7 @@ private:
     };
     /// With smaller levels; masked_levels() where there is a cutoff.
     Texture upload(const Rows& base, VkFormat format);
-    Texture upload_masked(const Rows& base, float cutoff, VkFormat format);
+    Texture upload_masked(const Rows& base, float cutoff, VkFormat format, std::vector<OpacityLevel>& opacities);
     Texture upload(const std::vector<Rows>& levels, VkFormat format);
     VkSampler sampler(const scene::TextureUse& use);
 
@@ -72,6 +78,7 @@ private:
     PictureFormat picture_format_;
     std::map<uint32_t, std::pair<Texture, float>> pictures_;  // and the unit
     std::map<std::tuple<uint32_t, Decode, float>, Texture> textures_;
+    std::map<std::pair<uint32_t, float>, std::vector<OpacityLevel>> opacities_;  // of masked ones
     std::map<std::tuple<scene::Wrap, scene::Wrap, bool>, gpu::OwnedSampler> samplers_;
 };
 

@@ -13,6 +13,7 @@
 #include "texels.glsl"
 #include "shared/edges.h"
 #include "shared/gbuffer.h"
+#include "shared/masks.h"
 
 layout(local_size_x = kEdgesPerGroup) in;
 layout(constant_id = 0) const uint kPoints = kEdgeSamples;
@@ -25,7 +26,8 @@ TEXELS(4, uint, edges);
 TEXELS(5, vec4, instances);
 TEXELS(6, vec2, vertices);
 TEXELS(7, uvec4, facets);
-writeonly WRITTEN_TEXELS(8, vec4, means);
+TEXELS(8, uint, masks);
+writeonly WRITTEN_TEXELS(9, vec4, means);
 layout(push_constant, scalar) uniform Push { EdgesPush push; };
 
 const uint kAllPoints = (1u << kPoints) - 1u;
@@ -33,6 +35,7 @@ const uint kAllPoints = (1u << kPoints) - 1u;
 #include "edges.glsl"
 #include "edges_list.glsl"
 #include "facets.glsl"
+#include "masks.glsl"
 
 // For each point of the pixel which middle saw what is there: word b has bit b of the middles' numbers, a bit for each point.
 uint which[4];
@@ -83,13 +86,14 @@ void main() {
         seen_first &= seen_first - 1u;
         const ivec2 there = neighbour(k);
         const SeenFacet facet = facet_of(imageLoad(triangles, pixel + there).rg, vec2(there));
-        const bool fills = facet.narrow || facet.has_holes;
+        const bool fills = facet.narrow || facet.mask < 0.0;
+        const uint holes = fills ? 0u : holes_of(facet, vec2(there));
         // Of those that fill their pixels only the pixel's own counts.
         const float filled = k == 0u ? 0.0 : -1e30;
         uint taken = 0u;
         [[unroll]] for (uint i = 0u; i < kPoints; ++i) {
             const vec3 p = vec3(place_of(i), 1.0);
-            const float least = fills ? filled : inside(facet, p);
+            const float least = fills ? filled : (holes >> i & 1u) != 0u ? -1e30 : inside(facet, p);
             const float depth = fills ? -1.0 / here.position.z : dot(facet.inverse_depth, p);
             const bool covers = least >= 0.0 && depth > nearest[i];
             const bool closer = nearest[i] < 0.0 && least < 0.0 && least > closest[i] && depth > 0.0;

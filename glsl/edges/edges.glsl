@@ -1,16 +1,18 @@
-// What pixels see. Wants `triangles`, `surface_image` and `push` of EdgesPush.
+// What pixels see. Wants `triangles`, `surface_image`, `facets` and `push` of EdgesPush.
 
 #include "neighbours.glsl"
 
 struct Seen {
     uint instance;  // 0: nothing
+    uint region;
     vec3 normal, position;
 };
 
 Seen seen_at(ivec2 pixel) {
     const vec4 surface = imageLoad(surface_image, pixel);
     const vec3 ray = vec3(push.ray_scale * (vec2(pixel) + 0.5) + push.ray_offset, -1.0);
-    return Seen(imageLoad(triangles, pixel).r, decode_normal(surface.xy), ray * surface.z);
+    const uvec2 triangle = imageLoad(triangles, pixel).rg;
+    return Seen(triangle.r, texel_at(facets, int(triangle.g)).w, decode_normal(surface.xy), ray * surface.z);
 }
 
 bool is_same(Seen a, Seen b) {
@@ -18,5 +20,5 @@ bool is_same(Seen a, Seen b) {
     // As far as a bend between the two normals takes one from the other's plane, and rounding of depths.
     const float most = distance(a.normal, b.normal) * length(between) + kSamePlane * -min(a.position.z, b.position.z);
     const bool smooth_ = dot(a.normal, b.normal) >= kSameNormal && abs(dot(a.normal, between)) <= most && abs(dot(b.normal, between)) <= most;
-    return a.instance == b.instance && (a.instance == 0u || smooth_);
+    return a.instance == b.instance && (a.instance == 0u || (a.region == b.region && smooth_));
 }

@@ -16,8 +16,9 @@ layout(binding = 1, rgba32f) readonly uniform image2D surface_image;
 layout(binding = 2, rgba32f) readonly uniform image2D scene_image;
 TEXELS(3, uint, seam_counts);
 TEXELS(4, uint, seams);
-layout(binding = 5, scalar) buffer Counts { uint counts[]; };
-layout(binding = 6, scalar) writeonly buffer Edges { uint edges[]; };
+TEXELS(5, uvec4, facets);
+layout(binding = 6, scalar) buffer Counts { uint counts[]; };
+layout(binding = 7, scalar) writeonly buffer Edges { uint edges[]; };
 layout(push_constant, scalar) uniform Push { EdgesPush push; };
 
 #include "edges.glsl"

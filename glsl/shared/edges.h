@@ -10,7 +10,7 @@ const uint kEdgeSamples = 16u;
 const uint kEdgesPerGroup = 256u;    // pixels that a workgroup does
 const uint kMostEdgeGroups = 65535u; // of which every device can run as many; further pixels stay as they are
 
-// Two pixels see one surface if they see one instance, whose normal turns by less between them,
+// Two pixels see one surface if they see one region of one instance, whose normal turns by less between them,
 const float kSameNormal = 0.9f;      // cosine
 const float kSamePlane = 2e-4f;      // and are by no more off each other's plane than that bend, and so much of their depth
 
@@ -22,10 +22,10 @@ const uint kEdgeCounts = 4u;
 
 const uint kTexelsPerVertex = 5u;   // of rg32f, in which a vertex lies
 
-// The facet of the triangle that a vertex is the first of: its other corners, in turn. Of a triangle the third twice.
+// The facet of the triangle that a vertex is the first of.
 struct Facet {
-    uint others[3];
-    uint unused;
+    uint others[3];  // its other corners, in turn; of a triangle the third twice
+    uint region;     // a number that triangles of its part share over whose common edges colours go on
 };
 SHARED_SIZE(Facet, 16)
 

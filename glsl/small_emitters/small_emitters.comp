@@ -48,8 +48,8 @@ void find_nearest(ivec2 pixel) {
         const uvec2 triangle = imageLoad(triangles, at).rg;
         if (triangle.r == 0u) continue;
         const SeenFacet facet = facet_of(triangle, vec2(neighbour(k)));
-        if (facet.has_holes || facet.narrow) {
-            if (k == 0u) filling = 1.0 / imageLoad(surface_image, pixel).z, filling_placement = facet.has_holes ? 0.0 : facet.placement;
+        if (facet.mask != 0.0 || facet.narrow) {
+            if (k == 0u) filling = 1.0 / imageLoad(surface_image, pixel).z, filling_placement = facet.mask != 0.0 ? 0.0 : facet.placement;
             continue;
         }
         [[unroll]] for (uint i = 0u; i < kEdgeSamples; ++i) {

@@ -8,16 +8,26 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "passes/gbuffer_reference.h"
+
 namespace vesper::reference {
 
-using glm::dvec2, glm::dvec3, glm::ivec2;
+using glm::ivec2;
 
 /// Points of a pixel, at most.
 constexpr uint32_t kPixelPoints = 16;
+
+/// Where a surface has holes: where the opacity of its texture, in the last component, is less than this.
+struct Mask {
+    std::vector<Texture> levels;  ///< each half as wide and as high as the one before
+    double cutoff = 0.5;
+    bool nearest = false;  ///< magnified without interpolation
+};
 
 /// What the middle of a pixel sees.
 struct SeenFacet {
@@ -26,6 +36,9 @@ struct SeenFacet {
     dvec3 normal{0, 0, 1}, position{0};   ///< unit; m
     bool masked = false;                  ///< it may have holes
     double placement = 0;                 ///< number of its mesh
+    uint32_t region = 0;                  ///< of its mesh, over which colours go on
+    std::shared_ptr<const Mask> mask;     ///< where its holes are, if that is known
+    std::vector<dvec2> uv;                ///< of its corners, for the mask
 };
 
 /// A picture of such pixels: pixel (x, y), y down, sees along (scale (pixel + 1/2) + offset, -1).
@@ -48,11 +61,12 @@ inline std::array<ivec2, 9> neighbourhood(ivec2 p) {
     return places;
 }
 
-/// One surface turns by less than 26 degrees between two pixels; each is on the other's plane but for that bend and for
-/// 1/5000 of the depth.
+/// One surface is one region of one mesh, turns by less than 26 degrees between two pixels; each is on the other's
+/// plane but for that bend and for 1/5000 of the depth.
 inline bool is_one_surface(const SeenFacet& a, const SeenFacet& b) {
     if (a.instance != b.instance) return false;
     if (a.instance == 0) return true;
+    if (a.region != b.region) return false;
     const dvec3 way = b.position - a.position;
     const double bend = glm::length(a.normal - b.normal) * glm::length(way),
                  rounding = 2e-4 * std::max(-a.position.z, -b.position.z);
@@ -94,6 +108,42 @@ inline Passing pass(const std::vector<dvec3>& corners, dvec3 ray, dvec2 scale) {
     return passing;
 }
 
+/// Whether a ray through a facet's plane meets a hole, and how far its opacity is from the one at which that changes.
+struct Opening {
+    bool is_hole = false;
+    double doubt = std::numeric_limits<double>::infinity();  ///< of an opacity of 1, or of a level of the texture
+};
+
+/// `there`: px, the middle that sees the facet. The texture is that of the level whose texels are as large as a pixel
+/// there.
+inline Opening open(const SeenFacet& facet, const SeenPicture& picture, dvec2 there, dvec2 pixel) {
+    const auto uv_at = [&](dvec2 at) {
+        const dvec3 ray(picture.scale * at + picture.offset, -1);
+        const dvec3 ab = facet.corners[1] - facet.corners[0], ac = facet.corners[2] - facet.corners[0],
+                    normal = glm::cross(ab, ac);
+        const dvec3 from_a = ray * (glm::dot(normal, facet.corners[0]) / glm::dot(normal, ray)) - facet.corners[0];
+        const double b = glm::dot(glm::cross(from_a, ac), normal) / glm::dot(normal, normal),
+                     c = glm::dot(glm::cross(ab, from_a), normal) / glm::dot(normal, normal);
+        return facet.uv[0] + b * (facet.uv[1] - facet.uv[0]) + c * (facet.uv[2] - facet.uv[0]);
+    };
+    const Mask& mask = *facet.mask;
+    constexpr double kStep = 1e-5;  // px
+    const dvec2 size(mask.levels[0].width, mask.levels[0].height);
+    const auto texels = [&](dvec2 way) {
+        return glm::length(size * (uv_at(there + kStep * way) - uv_at(there - kStep * way))) / (2 * kStep);
+    };
+    const double wanted = std::log2(std::max(texels({1, 0}), texels({0, 1}))), most = double(mask.levels.size()) - 1,
+                 level = std::clamp(std::floor(wanted + 0.5), 0.0, most);
+    const Texture& texture = mask.levels[size_t(level)];
+    const dvec2 uv = uv_at(pixel);
+    const double opacity = (mask.nearest && wanted <= 0 ? texture.nearest(uv) : texture.bilinear(uv)).w;
+    Opening opening{opacity < mask.cutoff, std::abs(opacity - mask.cutoff)};
+    for (double border = 0.5; border < most; ++border)
+        opening.doubt = std::min(opening.doubt, std::abs(wanted - border));
+    if (mask.nearest) opening.doubt = std::min(opening.doubt, std::abs(wanted));
+    return opening;
+}
+
 /// The least width of a facet where a ray meets it, px: between opposite sides, or half of the least height.
 inline double width_of(const std::vector<dvec3>& corners, dvec3 ray, dvec2 scale) {
     // px from the image of a line to the ray, or to the image of a place.
@@ -130,6 +180,16 @@ struct EdgeMean {
     double doubt = std::numeric_limits<double>::infinity();  ///< px: how near some point was to another choice
 };
 
+/// Whether another pixel of this neighbourhood sees its facet, before this one is asked.
+inline bool is_known(const SeenPicture& picture, const std::array<ivec2, 9>& around, size_t which) {
+    const SeenFacet& facet = picture.facet(around[which]);
+    for (size_t k = 0; k < which; ++k)
+        if (picture.has(around[k]) && picture.facet(around[k]).instance == facet.instance &&
+            picture.facet(around[k]).triangle == facet.triangle)
+            return true;
+    return false;
+}
+
 /// The mean over the points of a pixel beside an edge.
 inline EdgeMean edge_mean(const SeenPicture& picture, ivec2 p) {
     EdgeMean mean;
@@ -141,8 +201,9 @@ inline EdgeMean edge_mean(const SeenPicture& picture, ivec2 p) {
         bool covered = false, nothing_near = false;
         ivec2 nothing = p;
         double nearest = 0, second = 0, closest = -1e30, next = -1e30;
-        for (const ivec2 q : around) {
-            if (!picture.has(q)) continue;
+        for (size_t k = 0; k < around.size(); ++k) {
+            const ivec2 q = around[k];
+            if (!picture.has(q) || is_known(picture, around, k)) continue;
             const SeenFacet& facet = picture.facet(q);
             if (facet.instance == 0) {
                 if (!nothing_near) nothing = q;
@@ -151,10 +212,16 @@ inline EdgeMean edge_mean(const SeenPicture& picture, ivec2 p) {
             }
             const dvec3 middle(picture.scale * (dvec2(q) + 0.5) + picture.offset, -1);
             const double width = width_of(facet.corners, middle, picture.scale);
-            mean.doubt = std::min(mean.doubt, facet.masked ? 1 : std::abs(width - 1));
-            const bool fills = facet.masked || width < 1;
+            const bool unknown = facet.masked && !facet.mask, fills = unknown || width < 1;
+            mean.doubt = std::min(mean.doubt, unknown ? 1 : std::abs(width - 1));
             if (fills && q != p) continue;
             const Passing passing = fills ? Passing{1, -1 / facet.position.z} : pass(facet.corners, ray, picture.scale);
+            if (!fills && facet.masked) {
+                const Opening opening = open(facet, picture, dvec2(q) + 0.5, dvec2(p) + 0.5 + way);
+                // In steps of 1/255, of which two may be off by half.
+                if (opening.doubt < 0.005) mean.doubt = 0;
+                if (opening.is_hole) continue;
+            }
             const ivec2 as = is_one_surface(picture.facet(p), facet) ? p : q;
             mean.doubt = std::min(mean.doubt, std::abs(passing.inside));
             if (!(passing.inverse_depth > 0)) continue;

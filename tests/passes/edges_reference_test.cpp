@@ -148,6 +148,38 @@ TEST(EdgesReference, HolesAndNarrowThingsFillTheirPixels) {
     }
 }
 
+// A board of 5 px whose right half has holes, from 0.3 px right of the middle of the middle pixel.
+TEST(EdgesReference, HolesShowWhatIsBehind) {
+    SeenFacet board = rectangle(1, {-0.44, -9}, {0.56, 9}, 1);
+    board.uv = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    SeenPicture picture = picture_of({board, rectangle(2, {-9, -9}, {9, 9}, 3)}, {10, 2, 0});
+    auto mask = std::make_shared<reference::Mask>();
+    mask->levels = {{2, 1, {{1, 1, 1, 1}, {1, 1, 1, 0}}, reference::Wrapping::Clamp, reference::Wrapping::Clamp}};
+    for (const bool nearest : {false, true}) {
+        mask->nearest = nearest;
+        for (int y = 0; y < 5; ++y)
+            for (int x = 0; x < 5; ++x) {
+                SeenFacet& facet = picture.facets[size_t(5 * y + x)];
+                if (x <= 2)
+                    facet.masked = true, facet.mask = mask;
+                else
+                    facet = rectangle(2, {-9, -9}, {9, 9}, 3), picture.luminance[size_t(5 * y + x)] = dvec3(2);
+            }
+        const double covered = 13 / 16.0;
+        EXPECT_NEAR(reference::edge_mean(picture, {2, 2}).luminance.g, 10 * covered + 2 * (1 - covered), 1e-12);
+        EXPECT_NEAR(reference::edge_mean(picture, {1, 2}).luminance.g, 10, 1e-12);
+        EXPECT_NEAR(reference::edge_mean(picture, {3, 2}).luminance.g, 2, 1e-12);
+    }
+}
+
+TEST(EdgesReference, ARegionIsOneSurface) {
+    SeenFacet one = rectangle(1, {-1, -1}, {0, 1}, 1), other = rectangle(1, {0, -1}, {1, 1}, 1);
+    one.position = {-0.1, 0, -1}, other.position = {0.1, 0, -1};
+    EXPECT_TRUE(reference::is_one_surface(one, other));
+    other.region = 1;
+    EXPECT_FALSE(reference::is_one_surface(one, other));
+}
+
 TEST(EdgesReference, DistancesArePixels) {
     const auto [inside, inverse_depth] =
         reference::pass(rectangle(1, {-1, -1}, {0.1, 1}, 2).corners, {0, 0, -1}, {0.01, -0.01});

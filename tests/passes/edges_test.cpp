@@ -149,6 +149,59 @@ TEST(Edges, WhatIsNotFiniteStaysWhereItIsSeen) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+/// Boards with holes, near and far, at all turns and in all ways that textures wrap, before a wall.
+Scene boards(uint32_t seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    Scene scene;
+    add_material(scene, 0.5f);
+    scene.images = {{"", 32, 16, {}}};
+    for (uint32_t i = 0; i < 32 * 16; ++i) {
+        const bool solid = (i % 32 / 4 + i / 32 / 4 * 3) % 4 != 0;
+        scene.images[0].rgba.insert(scene.images[0].rgba.end(),
+                                    {200, 200, 200, uint8_t(solid ? 255 - random() % 90 : random() % 60)});
+    }
+    add_rectangle(scene, 0, {-30, -30, -40}, {60, 0, 0}, {0, 60, 0});
+    for (const scene::Wrap wrap : {scene::Wrap::Repeat, scene::Wrap::Mirror, scene::Wrap::Clamp})
+        for (const bool nearest : {false, true}) {
+            const uint32_t material = add_material(scene, 0.5f);
+            scene::Material& m = scene.materials[material];
+            m.alpha = scene::Material::Alpha::Mask, m.alpha_cutoff = 0.45f, m.base_colour.a = 0.9f,
+            m.double_sided = true;
+            m.base_colour_texture = {0, wrap, wrap, nearest};
+            for (int i = 0; i < 4; ++i) {
+                const float size = 3 * std::pow(4.0f, unit(random)), scale = 1.5f + unit(random);
+                const glm::vec3 along(unit(random), unit(random), unit(random)),
+                    up(unit(random), unit(random), unit(random));
+                add_rectangle(scene, material, {5 * unit(random), 3 * unit(random), -12 + 9 * unit(random)},
+                              size * along, size * up);
+                scene::Primitive& board = scene.meshes.back().primitives[0];
+                const std::vector<glm::vec2> corners{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+                for (size_t k = 0; k < 4; ++k) board.vertices[k].uv = scale * corners[k] - 0.3f;
+            }
+        }
+    return scene;
+}
+
+TEST(Edges, HolesMatchTheReference) {
+    PassRig rig;
+    const VkExtent2D extent{131, 67};
+    for (const uint32_t seed : {1u, 2u, 3u}) {
+        SCOPED_TRACE(seed);
+        const View view = View::symmetric(extent, 1.1f, glm::rotate(glm::dmat4(1), 0.1 * seed, {0, 1, 0}));
+        EXPECT_GT(expect_reference(draw(rig, boards(seed), view, lights(extent, seed))), 0.3);
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+/// The part of pixel 8 that shows the left half of a wall of two colours.
+double left_part(PassRig& rig, const Scene& wall) {
+    std::vector<glm::vec4> light;
+    for (uint32_t i = 0; i < 256; ++i) light.emplace_back(glm::vec3(i % 16 < 8 ? 1.0f : 3.0f), 1);
+    const Edged edged = draw(rig, wall, View::symmetric({16, 16}, 1, glm::dmat4(1)), light);
+    return (3 - double(edged.got[7 * 16 + 8].r)) / 2;
+}
+
 /// Two halves of a wall at 10 m that meet at a quarter of pixel 8: one mesh, of given normals, the right one farther by
 /// `step` and turned away by `bend`.
 Scene two_halves(glm::vec3 left, glm::vec3 right, float step, float bend = 0) {
@@ -252,6 +305,51 @@ TEST(Edges, ABendExplainsAStepAsHighAsItself) {
     EXPECT_TRUE(shows_an_edge(rig, two_halves(kAhead, turned(0.05f), 0.0367f)));
     EXPECT_FALSE(shows_an_edge(rig, two_halves(turned(0.05f), kAhead, 0.0357f)));
     EXPECT_TRUE(shows_an_edge(rig, two_halves(turned(0.05f), kAhead, 0.0367f)));
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// In one plane of one mesh, a border of colour a quarter into pixel 8.
+TEST(Edges, BordersOfColourAreSeen) {
+    PassRig rig;
+    Scene wall = two_halves(kAhead, kAhead, 0);
+    EXPECT_EQ(left_part(rig, wall), 0) << "one colour";
+    std::vector<scene::Vertex>& vertices = wall.meshes[0].primitives[0].vertices;
+    for (size_t k = 4; k < 8; ++k) vertices[k].colour = {65535, 0, 0, 65535};
+    EXPECT_NEAR(left_part(rig, wall), 0.25, 1e-6);
+    // A palette: each half at a texel of its own.
+    for (size_t k = 0; k < 8; ++k)
+        vertices[k].colour = vertices[0].colour, vertices[k].uv = {k < 4 ? 0.25f : 0.75f, 0.5f};
+    EXPECT_EQ(left_part(rig, wall), 0) << "no texture is there";
+    wall.images = {{"palette", 2, 1, {255, 0, 0, 255, 0, 0, 255, 255}}};
+    wall.materials[0].base_colour_texture.image = 0;
+    EXPECT_NEAR(left_part(rig, wall), 0.25, 1e-6);
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// A board whose left half is there, 0.17 m right of the middle, before a wall.
+TEST(Edges, BordersOfHolesAreSeen) {
+    PassRig rig;
+    for (const bool fades : {false, true}) {
+        Scene scene;
+        add_rectangle(scene, add_material(scene, 0.5f), {-18, -18, -20}, {36, 0, 0}, {0, 36, 0});
+        scene.images = {{"half", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}}};
+        const uint32_t board = add_material(scene, 0.5f);
+        scene.materials[board].alpha = scene::Material::Alpha::Mask;
+        scene.materials[board].base_colour_texture = {0, scene::Wrap::Clamp, scene::Wrap::Clamp, true};
+        add_rectangle(scene, board, {-8.83f, -9, -10}, {18, 0, 0}, {0, 18, 0});
+        const std::vector<glm::vec2> corners{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+        for (size_t k = 0; k < 4; ++k) {
+            scene::Vertex& vertex = scene.meshes[1].primitives[0].vertices[k];
+            vertex.uv = corners[k];
+            // By its vertices: where the holes are is then not known.
+            if (fades) vertex.colour[3] = 60000;
+        }
+        std::vector<glm::vec4> light;
+        for (uint32_t i = 0; i < 256; ++i) light.emplace_back(glm::vec3(i % 16 < 8 ? 1.0f : 3.0f), 1);
+        const Edged edged = draw(rig, scene, View::symmetric({16, 16}, 1, glm::dmat4(1)), light);
+        EXPECT_NEAR(edged.got[7 * 16 + 8].r, fades ? 3 : 2.5, 1e-6);
+        EXPECT_EQ(edged.got[7 * 16 + 7].r, 1);
+    }
     EXPECT_EQ(rig.complaints(), "");
 }
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
 #include <random>
 
 #include "gpu_scene/facets.h"
 #include "gpu_scene/provoking_vertices.h"
+#include "gpu_scene/textures.h"
 #include "gpu_scene/view.h"
 #include "passes/edges_reference.h"
 #include "passes/shade_reference.h"
@@ -14,21 +16,57 @@
 
 namespace vesper::test {
 
-/// What each vertex of the device leads, in its mesh's frame.
-inline std::vector<std::vector<glm::dvec3>> facets_on_the_device(const scene::Scene& scene) {
-    std::vector<std::vector<glm::dvec3>> all;
+/// What a vertex of the device leads, in its mesh's frame.
+struct LedFacet {
+    std::vector<glm::dvec3> corners;
+    std::vector<glm::dvec2> uv;
+    uint32_t region = 0, material = 0;
+};
+
+inline std::vector<LedFacet> facets_on_the_device(const scene::Scene& scene) {
+    std::vector<LedFacet> all;
     for (const scene::Mesh& mesh : scene.meshes)
         for (const scene::Primitive& primitive : mesh.primitives) {
             const gpu_scene::ProvokingVertices leading(primitive);
-            const std::vector<gpu_scene::Facet> facets = gpu_scene::facets(primitive);
+            const std::vector<gpu_scene::Facet> facets =
+                gpu_scene::facets(primitive, scene.materials[primitive.material]);
             const size_t first = all.size();
             all.resize(first + leading.vertices().size());
-            for (size_t i = 0; i < facets.size(); ++i)
-                for (uint32_t k = 0; k < facets[i].count; ++k)
-                    all[first + leading.indices()[3 * i]].emplace_back(
-                        primitive.vertices[facets[i].corners[k]].position);
+            for (size_t i = 0; i < facets.size(); ++i) {
+                LedFacet& led = all[first + leading.indices()[3 * i]];
+                led.region = facets[i].region, led.material = primitive.material;
+                for (uint32_t k = 0; k < facets[i].count; ++k) {
+                    const scene::Vertex& vertex = primitive.vertices[facets[i].corners[k]];
+                    led.corners.emplace_back(vertex.position), led.uv.emplace_back(vertex.uv);
+                }
+            }
         }
     return all;
+}
+
+/// The mask of a material, if it has one.
+inline std::shared_ptr<const reference::Mask> mask_of(const scene::Scene& scene, uint32_t material) {
+    const scene::Material& m = scene.materials[material];
+    if (m.alpha != scene::Material::Alpha::Mask || m.base_colour_texture.image == scene::kNone) return nullptr;
+    const Image& image = scene.images[m.base_colour_texture.image];
+    const auto cutoff = float(m.alpha_cutoff * (1 - 0x1p-11f) / m.base_colour.a);
+    gpu_scene::Level base{image.width, image.height, {}};
+    for (const uint8_t code : image.rgba) base.rgba.push_back(float(code) / 255);
+    auto mask = std::make_shared<reference::Mask>();
+    mask->cutoff = double(cutoff), mask->nearest = m.base_colour_texture.nearest;
+    for (const gpu_scene::Level& level : gpu_scene::masked_levels(base, cutoff)) {
+        reference::Texture& texture = mask->levels.emplace_back();
+        texture.width = level.width, texture.height = level.height;
+        for (size_t i = 0; i < level.rgba.size(); i += 4) texture.texels.emplace_back(1, 1, 1, level.rgba[i + 3]);
+        const auto wrapping = [](scene::Wrap wrap) {
+            return wrap == scene::Wrap::Repeat   ? reference::Wrapping::Repeat
+                   : wrap == scene::Wrap::Mirror ? reference::Wrapping::Mirror
+                                                 : reference::Wrapping::Clamp;
+        };
+        texture.wrap_u = wrapping(m.base_colour_texture.wrap_u),
+        texture.wrap_v = wrapping(m.base_colour_texture.wrap_v);
+    }
+    return mask;
 }
 
 /// What its pixels see, from the layers of its G-buffer; `luminance` of each.
@@ -42,7 +80,9 @@ inline reference::SeenPicture seen_picture(const scene::Scene& scene, const gpu_
                                    glm::dvec2(view.ray_offset()),
                                    {},
                                    {}};
-    const auto facets = facets_on_the_device(scene);
+    const std::vector<LedFacet> facets = facets_on_the_device(scene);
+    std::vector<std::shared_ptr<const reference::Mask>> masks;
+    for (uint32_t i = 0; i < scene.materials.size(); ++i) masks.push_back(mask_of(scene, i));
     for (size_t i = 0; i < triangles.size(); ++i) {
         reference::SeenFacet& facet = picture.facets.emplace_back();
         picture.luminance.emplace_back(glm::vec3(luminance[i]));
@@ -50,7 +90,8 @@ inline reference::SeenPicture seen_picture(const scene::Scene& scene, const gpu_
         if (triangles[i].x == 0) continue;
         facet.triangle = triangles[i].y;
         const shared::Instance& instance = instances[triangles[i].x - 1];
-        for (const glm::dvec3& corner : facets.at(triangles[i].y)) {
+        const LedFacet& led = facets.at(triangles[i].y);
+        for (const glm::dvec3& corner : led.corners) {
             const glm::dvec4 p(corner, 1);
             facet.corners.emplace_back(glm::dot(glm::dvec4(instance.row_x), p), glm::dot(glm::dvec4(instance.row_y), p),
                                        glm::dot(glm::dvec4(instance.row_z), p));
@@ -58,7 +99,9 @@ inline reference::SeenPicture seen_picture(const scene::Scene& scene, const gpu_
         const glm::dvec2 middle = glm::dvec2(i % view.extent.width, i / view.extent.width) + 0.5;
         facet.normal = reference::octahedral_decode({surfaces[i].x, surfaces[i].y});
         facet.position = double(surfaces[i].z) * glm::dvec3(picture.scale * middle + picture.offset, -1);
-        facet.masked = instance.masked != 0, facet.placement = double(instance.placement);
+        facet.masked = instance.mask != 0, facet.placement = double(instance.placement);
+        facet.region = led.region, facet.uv = led.uv;
+        if (instance.mask > 0) facet.mask = masks[led.material];
     }
     return picture;
 }

@@ -52,13 +52,13 @@ void add_edges(const FrameContext& frame, const GBuffer& surfaces, graph::Resour
                    cover(view.extent, groups));
     graph.dispatch("find edges", frame.kernels.get(kFindEdges),
                    {load(surfaces.triangle), load(surfaces.surface), load(luminance), sample(seams.counts),
-                    sample(seams.pixels), update(edges.counts), store(edges.pixels)},
+                    sample(seams.pixels), sample(surfaces.facets), update(edges.counts), store(edges.pixels)},
                    push, at_seams);
-    graph.dispatch(
-        "edge means", frame.kernels.get(kEdgeMeans, {points}),
-        {load(surfaces.triangle), load(surfaces.surface), load(luminance), sample(edges.counts), sample(edges.pixels),
-         sample(surfaces.instances), sample(surfaces.vertices), sample(surfaces.facets), store(means)},
-        push, at_edges);
+    graph.dispatch("edge means", frame.kernels.get(kEdgeMeans, {points}),
+                   {load(surfaces.triangle), load(surfaces.surface), load(luminance), sample(edges.counts),
+                    sample(edges.pixels), sample(surfaces.instances), sample(surfaces.vertices),
+                    sample(surfaces.facets), sample(surfaces.masks), store(means)},
+                   push, at_edges);
     graph.dispatch("show edges", frame.kernels.get(kShowEdges),
                    {sample(edges.counts), sample(edges.pixels), sample(means), update(luminance)}, push, at_edges);
 }

@@ -132,11 +132,10 @@ std::vector<DrawnPart> cull(const GpuScene& scene, const gpu_scene::SceneFrame& 
             if (apart) without_emission = without_emission.subspan(1);
             const gpu_scene::Sphere sphere = gpu_scene::sphere_of(part, m);
             if (part.index_count == 0 || !gpu_scene::is_seen(view, sphere)) continue;
-            const bool masked = scene.surfaces()[part.material].material.alpha == scene::Material::Alpha::Mask;
             drawn.push_back({i,
                              mirrored,
                              layer_of(sphere),
-                             {rows[0], rows[1], rows[2], apart ? 0 : dimming, masked ? 1.0f : 0.0f, float(mesh), 0}});
+                             {rows[0], rows[1], rows[2], apart ? 0 : dimming, scene.mask_of(part), float(mesh), 0}});
         }
     }
     return drawn;
@@ -226,7 +225,8 @@ GBuffer add_gbuffer(const FrameContext& frame, const GpuScene& scene, const gpu_
               graph.transient("triangle", graph::image_shape(kTriangleFormat, view.extent)),
               placed,
               {},
-              {}};
+              {},
+              graph.external("masks", scene.masks(), scene.mask_words() * sizeof(uint32_t), VK_FORMAT_R32_UINT)};
     if (has_facets(frame.kernels.device(), scene)) {
         const uint64_t count = scene.vertex_count();
         g.vertices =

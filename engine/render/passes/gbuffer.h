@@ -18,6 +18,7 @@ struct GBuffer {
         triangle;  ///< rg32ui: 1 + its instance, 0 where nothing is drawn; its first vertex, see ProvokingVertices
     graph::Resource instances;         ///< shared::Instance, as rgba32f texels
     graph::Resource vertices, facets;  ///< of the scene, as rg32f and rgba32ui texels; if has_facets()
+    graph::Resource masks;             ///< of the scene, as r32ui texels (shared/masks.h)
 };
 
 /// Whether the device has room for texel buffers of all vertices and facets, and of as many small emitters as there

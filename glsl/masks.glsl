@@ -1,4 +1,4 @@
-// Holes of masked surfaces. Wants `masks`, and what facets.glsl wants.
+// Holes of masked surfaces. Wants `masks`, kAnisotropy, and what facets.glsl wants.
 
 // A texture coordinate, in the texels of a level, from the middle of its first.
 float wrapped(float at, uint wrap, float size) {
@@ -10,7 +10,7 @@ float wrapped(float at, uint wrap, float size) {
 // The points of the pixel at which a facet has holes, a bit each. Its texture is that of the level whose texels are as large as a
 // pixel where the facet is seen.
 uint holes_of(SeenFacet facet, vec2 there) {
-    const int header = int(facet.mask - 1.0) * int(kWordsPerMask);
+    const int header = int(max(facet.mask, 1.0) - 1.0) * int(kWordsPerMask);  // of what has no mask the first is asked, for nothing
     const vec3 a = facet.corners[0], b = facet.corners[1], c = facet.corners[2];
     const vec2 uv_a = texel_at(vertices, int(facet.vertices.x * kTexelsPerVertex + 3u)).xy;
     const vec2 uv_b = texel_at(vertices, int(facet.vertices.y * kTexelsPerVertex + 3u)).xy;
@@ -26,8 +26,9 @@ uint holes_of(SeenFacet facet, vec2 there) {
     const vec2 middle_uv = vec2(dot(u, q), dot(v, q)) / dot(facet.inverse_depth, q);
     const vec2 step_x = (vec2(u.x, v.x) - middle_uv * facet.inverse_depth.x) / dot(facet.inverse_depth, q) * vec2(size);
     const vec2 step_y = (vec2(u.y, v.y) - middle_uv * facet.inverse_depth.y) / dot(facet.inverse_depth, q) * vec2(size);
-    const float level_at = 0.5 * log2(max(dot(step_x, step_x), dot(step_y, step_y)));
-    const int level = clamp(int(floor(level_at + 0.5)), 0, int(kind >> 8u) - 1);
+    const float longer = max(length(step_x), length(step_y)), shorter = min(length(step_x), length(step_y));
+    const float level_at = log2((kind & kMaskNearest) != 0u ? longer : max(shorter, longer / float(kAnisotropy)));
+    const int level = int(clamp(floor(level_at + 0.5), 0.0, max(float(kind >> 8u) - 1.0, 0.0)));
     const int first = int(texel_at(masks, header + 3 + level).r);
     const ivec2 texels = max(size >> level, 1);
     uint left = facet.mask > 0.0 ? kAllPoints : 0u, holes = 0u;

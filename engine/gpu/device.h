@@ -1,6 +1,7 @@
 // The Vulkan device: chosen, opened, and what owns things made from it. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -123,6 +124,8 @@ public:
     bool has_timestamps() const { return timestamp_mask_ != 0; }
     uint64_t timestamp_mask() const { return timestamp_mask_; }  ///< the bits that its queue counts with
     bool has_anisotropy() const { return has_anisotropy_; }
+    /// How many times longer than wide what a texel of a texture is taken for may be; 1 without anisotropy.
+    float anisotropy() const { return has_anisotropy_ ? std::min(8.0f, limits().maxSamplerAnisotropy) : 1; }
     bool has_hdr_metadata() const { return has_hdr_metadata_; }  ///< VK_EXT_hdr_metadata; only with a presentation
     std::string name() const { return properties_.deviceName; }
     std::string driver() const { return driver_; }  ///< name and version

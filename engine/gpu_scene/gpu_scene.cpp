@@ -202,10 +202,11 @@ void GpuScene::make_surfaces(const gpu::Device& device, const scene::Scene& scen
                              {textures_.get(scene, m.base_colour_texture, Decode::Colour, cutoff),
                               textures_.get(scene, m.metallic_roughness_texture, Decode::Data), emission},
                              0});
-        if (cutoff > 0 && m.base_colour_texture.image != scene::kNone)
+        if (cutoff > 0 && cutoff <= 1 && m.base_colour_texture.image != scene::kNone)
             surfaces_.back().mask =
                 masks.add(m.base_colour_texture, cutoff, textures_.opacities(m.base_colour_texture, cutoff));
     }
+    textures_.drop_opacities();
     const std::vector<uint32_t> words = masks.words();
     mask_words_ = words.size();
     masks_ = gpu::upload_buffer(device, arena_, bytes_of(words), gpu::kTexelUsage);

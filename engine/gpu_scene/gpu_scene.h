@@ -90,8 +90,9 @@ public:
     uint64_t mask_words() const { return mask_words_; }
     /// As shared::Instance::mask.
     float mask_of(const Part& part) const {
-        const int32_t mask = surfaces_[part.material].mask;
-        return mask != 0 && part.fades ? -1 : float(mask);
+        const Surface& surface = surfaces_[part.material];
+        const bool masked = surface.material.alpha == scene::Material::Alpha::Mask;
+        return masked && part.fades ? -1 : float(surface.mask);
     }
     uint64_t vertex_count() const { return vertex_count_; }                ///< of parts
     uint64_t caster_vertex_count() const { return caster_vertex_count_; }  ///< and, after these, of cells

@@ -19,6 +19,8 @@ uint32_t kind_of(scene::Wrap wrap) {
     }
 }
 
+constexpr uint64_t kCopies = 4;  // here, in words(), on the way to the device, and there
+
 uint32_t after(uint32_t i, uint32_t size, scene::Wrap wrap) {
     if (i + 1 < size) return i + 1;
     return wrap == scene::Wrap::Repeat ? 0 : size - 1;
@@ -26,19 +28,23 @@ uint32_t after(uint32_t i, uint32_t size, scene::Wrap wrap) {
 
 }  // namespace
 
-int32_t Masks::add(const scene::TextureUse& use, float cutoff, std::span<const OpacityLevel> levels) {
+int32_t Masks::add(const scene::TextureUse& use, float cutoff, std::span<const OpacityLevel> all) {
     const auto [known, is_new] = numbers_.try_emplace(Use(use.image, use.wrap_u, use.wrap_v, use.nearest, cutoff), -1);
     if (!is_new) return known->second;
+    std::span<const OpacityLevel> levels = all;
     while (levels.size() > 1 && std::max(levels[0].width, levels[0].height) > shared::kMostMaskSide)
         levels = levels.subspan(1);
+    const bool smaller = levels.size() < all.size();
+    if (std::max(levels[0].width, levels[0].height) > shared::kMostMaskSide) return -1;
     levels = levels.first(std::min<size_t>(levels.size(), shared::kMostMaskLevels));
-    uint64_t words = shared::kWordsPerMask * (masks_.size() + 1) + texels_.size();
-    for (const OpacityLevel& level : levels) words += level.opacities.size();
-    if (words > most_) return -1;
-    spend(2 * words * sizeof(uint32_t));  // on the device, and on the way there
+    uint64_t texels = 0;
+    for (const OpacityLevel& level : levels) texels += level.opacities.size();
+    const uint64_t words = shared::kWordsPerMask + texels;
+    if (shared::kWordsPerMask * masks_.size() + texels_.size() + words > most_) return -1;
+    spend(kCopies * words * sizeof(uint32_t));
     shared::Mask mask{levels[0].width | levels[0].height << 16,
-                      kind_of(use.wrap_u) | kind_of(use.wrap_v) << 2 | (use.nearest ? shared::kMaskNearest : 0) |
-                          uint32_t(levels.size()) << 8,
+                      kind_of(use.wrap_u) | kind_of(use.wrap_v) << 2 |
+                          (use.nearest && !smaller ? shared::kMaskNearest : 0) | uint32_t(levels.size()) << 8,
                       cutoff,
                       {}};
     for (size_t l = 0; l < levels.size(); ++l) {

@@ -23,9 +23,9 @@ public:
     /// Of no more words than `most`.
     explicit Masks(uint64_t most) : most_(most) {}
 
-    /// The number of the mask that a use of a texture with these levels makes, in which opacity below `cutoff`, (0, 1],
-    /// is a hole; -1 where there is no room for it.
-    int32_t add(const scene::TextureUse& use, float cutoff, std::span<const OpacityLevel> levels);
+    /// The number of the mask that a use of a texture with all these levels makes, in which opacity below `cutoff`,
+    /// above 0, is a hole; -1 where there is no room for it, or no level is small enough.
+    int32_t add(const scene::TextureUse& use, float cutoff, std::span<const OpacityLevel> all);
     /// The buffer; never empty.
     std::vector<uint32_t> words() const;
 

@@ -66,6 +66,7 @@ Rows rows_of(const Level& level) {
 }
 
 OpacityLevel opacities_of(const Level& level) {
+    spend(level.rgba.size() / 4);
     OpacityLevel opacities{level.width, level.height, {}};
     opacities.opacities.reserve(level.rgba.size() / 4);
     for (size_t i = 3; i < level.rgba.size(); i += 4)
@@ -375,7 +376,7 @@ VkSampler TextureStore::sampler(const scene::TextureUse& use) {
                                        .addressModeV = address_mode(use.wrap_v),
                                        .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                        .anisotropyEnable = device_->has_anisotropy() && !use.nearest,
-                                       .maxAnisotropy = std::min(8.0f, device_->limits().maxSamplerAnisotropy),
+                                       .maxAnisotropy = device_->anisotropy(),
                                        .maxLod = VK_LOD_CLAMP_NONE};
         VkSampler raw = VK_NULL_HANDLE;
         gpu::check(vkCreateSampler(device_->handle(), &info, nullptr, &raw), "making a sampler");

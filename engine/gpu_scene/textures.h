@@ -57,7 +57,9 @@ public:
     /// The same for a luminance picture. `unit`: the luminance that a value of 1 in the texture is of the picture's.
     VkDescriptorImageInfo get_picture(const scene::Scene& scene, const scene::TextureUse& use, float& unit);
 
-    /// Opacities of a colour texture that get() was asked for with this cutoff, above 0.
+    /// Forgets the opacities.
+    void drop_opacities() { opacities_.clear(); }
+    /// All levels of a colour texture that get() was asked for with this cutoff, above 0.
     std::span<const OpacityLevel> opacities(const scene::TextureUse& use, float cutoff) const {
         return opacities_.at({use.image, cutoff});
     }

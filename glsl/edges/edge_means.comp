@@ -6,8 +6,8 @@
 // The mean luminance of the surfaces that fill a pixel. Which of them a point of the pixel sees is found from the facets that
 // the pixel and its neighbours see in their middles: the nearest of those that cover it; where there is none, nothing if one of
 // them sees nothing, else the closest. Its luminance is that of the middle that saw it. A facet that is narrower than a pixel,
-// or has holes, fills the pixel whose middle sees it and no other: of such facets only some are seen, and so, in the mean over
-// many, they keep their area.
+// or has holes of which nobody knows where they are, fills the pixel whose middle sees it and no other: of such facets only some are
+// seen, and so, in the mean over many, they keep their area.
 
 #include "normal.glsl"
 #include "texels.glsl"
@@ -17,6 +17,7 @@
 
 layout(local_size_x = kEdgesPerGroup) in;
 layout(constant_id = 0) const uint kPoints = kEdgeSamples;
+layout(constant_id = 1) const uint kAnisotropy = 1u;  // of samplers of textures
 
 layout(binding = 0, rg32ui) readonly uniform uimage2D triangles;
 layout(binding = 1, rgba32f) readonly uniform image2D surface_image;

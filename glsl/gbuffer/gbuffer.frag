@@ -43,13 +43,16 @@ vec4 texture_at(sampler2D image, uint number) {
     const vec4 above = mix(textureLod(image, low, 0.0), textureLod(image, vec2(high.x, low.y), 0.0), beyond.x);
     const vec4 below = mix(textureLod(image, vec2(low.x, high.y), 0.0), textureLod(image, high, 0.0), beyond.x);
     const vec4 farther = texture(image, texture_uv);
-    return max(width.x, width.y) < 1.0 ? mix(above, below, beyond.y) : farther;
+    return all(lessThan(width, vec2(1.0))) ? mix(above, below, beyond.y) : farther;
 }
 
 void main() {
     vec4 base = base_colour;
     if (kBaseTexture != 0u) base *= texture_at(base_texture, 0u);
-    if (kMask != 0u && base.a < emission_cutoff.a) discard;
+    // Holes of a magnified texture begin at borders of texels, whatever part of a pixel these cover.
+    const bool sharp = kMask != 0u && kBaseTexture != 0u && (kNearest & 1u) != 0u;
+    const float opacity = sharp ? base_colour.a * texture(base_texture, texture_uv).a : base.a;
+    if (kMask != 0u && opacity < emission_cutoff.a) discard;
 
     vec2 m = metallic_roughness;
     if (kMetallicRoughnessTexture != 0u) m *= texture_at(metallic_roughness_texture, 1u).bg;

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/budget.h"
+
 namespace vesper::test::masks_test {
 namespace {
 
@@ -58,6 +60,17 @@ TEST(Masks, WhatHasNoRoomIsNotKnown) {
     EXPECT_EQ(masks.add({2}, 0.5f, kLevels), -1);
     EXPECT_EQ(masks.add({2}, 0.5f, kLevels), -1) << "nor a second time";
     EXPECT_EQ(masks.words().size(), 2 * shared::kWordsPerMask + 20);
+}
+
+// 40 of 512 x 512 take some 200 MiB of the 2 GiB that a scene may.
+TEST(Masks, ManyFitIntoABudget) {
+    const Budget budget("masks");
+    Masks masks(1u << 30u);
+    const std::vector<OpacityLevel> levels{{512, 512, std::vector<uint8_t>(512 * 512, 9)}};
+    for (uint32_t i = 0; i < 40; ++i) EXPECT_EQ(masks.add({i}, 0.5f, levels), int32_t(i + 1));
+    const std::vector<OpacityLevel> wide{
+        {shared::kMostMaskSide + 1, 1, std::vector<uint8_t>(shared::kMostMaskSide + 1)}};
+    EXPECT_EQ(masks.add({40}, 0.5f, wide), -1) << "no level is small enough";
 }
 
 TEST(Masks, NoneAreABufferAllTheSame) { EXPECT_FALSE(Masks(kPlenty).words().empty()); }

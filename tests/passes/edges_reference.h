@@ -27,6 +27,7 @@ struct Mask {
     std::vector<Texture> levels;  ///< each half as wide and as high as the one before
     double cutoff = 0.5;
     bool nearest = false;  ///< magnified without interpolation
+    double longest = 1;    ///< of what a texel stands for, over its width
 };
 
 /// What the middle of a pixel sees.
@@ -132,8 +133,9 @@ inline Opening open(const SeenFacet& facet, const SeenPicture& picture, dvec2 th
     const auto texels = [&](dvec2 way) {
         return glm::length(size * (uv_at(there + kStep * way) - uv_at(there - kStep * way))) / (2 * kStep);
     };
-    const double wanted = std::log2(std::max(texels({1, 0}), texels({0, 1}))), most = double(mask.levels.size()) - 1,
-                 level = std::clamp(std::floor(wanted + 0.5), 0.0, most);
+    const auto [shorter, longer] = std::minmax({texels({1, 0}), texels({0, 1})});
+    const double wanted = std::log2(mask.nearest ? longer : std::max(shorter, longer / mask.longest)),
+                 most = double(mask.levels.size()) - 1, level = std::clamp(std::floor(wanted + 0.5), 0.0, most);
     const Texture& texture = mask.levels[size_t(level)];
     const dvec2 uv = uv_at(pixel);
     const double opacity = (mask.nearest && wanted <= 0 ? texture.nearest(uv) : texture.bilinear(uv)).w;

@@ -35,7 +35,7 @@ Edged draw(PassRig& rig, const Scene& scene, const View& view, const std::vector
     rig.run(graph);
 
     Edged edged{seen_picture(scene, view, rig.got<glm::uvec2>(triangles), rig.got<glm::vec4>(surfaces),
-                             rig.got<shared::Instance>(instances), luminance),
+                             rig.got<shared::Instance>(instances), luminance, double(rig.device().anisotropy())),
                 rig.got<glm::vec4>(kept)};
     edged.seen.points = points;
     return edged;
@@ -155,21 +155,24 @@ Scene boards(uint32_t seed) {
     std::uniform_real_distribution<float> unit(-1, 1);
     Scene scene;
     add_material(scene, 0.5f);
-    scene.images = {{"", 32, 16, {}}};
-    for (uint32_t i = 0; i < 32 * 16; ++i) {
-        const bool solid = (i % 32 / 4 + i / 32 / 4 * 3) % 4 != 0;
+    scene.images = {{"", 37, 21, {}}, {"", 1, 16, {}}};
+    for (uint32_t i = 0; i < 37 * 21; ++i) {
+        const bool solid = (i % 37 / 4 + i / 37 / 4 * 3) % 4 != 0;
         scene.images[0].rgba.insert(scene.images[0].rgba.end(),
                                     {200, 200, 200, uint8_t(solid ? 255 - random() % 90 : random() % 60)});
     }
+    for (uint32_t i = 0; i < 16; ++i)
+        scene.images[1].rgba.insert(scene.images[1].rgba.end(), {200, 200, 200, uint8_t(i % 5 == 0 ? 0 : 255)});
     add_rectangle(scene, 0, {-30, -30, -40}, {60, 0, 0}, {0, 60, 0});
-    for (const scene::Wrap wrap : {scene::Wrap::Repeat, scene::Wrap::Mirror, scene::Wrap::Clamp})
+    constexpr scene::Wrap kWraps[]{scene::Wrap::Repeat, scene::Wrap::Mirror, scene::Wrap::Clamp, scene::Wrap::Repeat};
+    for (size_t wrap = 0; wrap < 3; ++wrap)
         for (const bool nearest : {false, true}) {
             const uint32_t material = add_material(scene, 0.5f);
             scene::Material& m = scene.materials[material];
             m.alpha = scene::Material::Alpha::Mask, m.alpha_cutoff = 0.45f, m.base_colour.a = 0.9f,
             m.double_sided = true;
-            m.base_colour_texture = {0, wrap, wrap, nearest};
-            for (int i = 0; i < 4; ++i) {
+            m.base_colour_texture = {uint32_t(wrap == 1 ? 1 : 0), kWraps[wrap], kWraps[wrap + 1], nearest};
+            for (int i = 0; i < 5; ++i) {
                 const float size = 3 * std::pow(4.0f, unit(random)), scale = 1.5f + unit(random);
                 const glm::vec3 along(unit(random), unit(random), unit(random)),
                     up(unit(random), unit(random), unit(random));
@@ -329,25 +332,27 @@ TEST(Edges, BordersOfColourAreSeen) {
 // A board whose left half is there, 0.17 m right of the middle, before a wall.
 TEST(Edges, BordersOfHolesAreSeen) {
     PassRig rig;
-    for (const bool fades : {false, true}) {
+    enum class Holes { Known, OfVerticesToo, OfVertices };
+    for (const Holes holes : {Holes::Known, Holes::OfVerticesToo, Holes::OfVertices}) {
         Scene scene;
         add_rectangle(scene, add_material(scene, 0.5f), {-18, -18, -20}, {36, 0, 0}, {0, 36, 0});
         scene.images = {{"half", 2, 1, {255, 255, 255, 255, 255, 255, 255, 0}}};
         const uint32_t board = add_material(scene, 0.5f);
         scene.materials[board].alpha = scene::Material::Alpha::Mask;
-        scene.materials[board].base_colour_texture = {0, scene::Wrap::Clamp, scene::Wrap::Clamp, true};
+        if (holes != Holes::OfVertices)
+            scene.materials[board].base_colour_texture = {0, scene::Wrap::Clamp, scene::Wrap::Clamp, true};
         add_rectangle(scene, board, {-8.83f, -9, -10}, {18, 0, 0}, {0, 18, 0});
         const std::vector<glm::vec2> corners{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
         for (size_t k = 0; k < 4; ++k) {
             scene::Vertex& vertex = scene.meshes[1].primitives[0].vertices[k];
             vertex.uv = corners[k];
-            // By its vertices: where the holes are is then not known.
-            if (fades) vertex.colour[3] = 60000;
+            // Where holes are by its vertices, too, is not known.
+            if (holes != Holes::Known) vertex.colour[3] = holes == Holes::OfVertices && k % 3 != 0 ? 0 : 60000;
         }
         std::vector<glm::vec4> light;
         for (uint32_t i = 0; i < 256; ++i) light.emplace_back(glm::vec3(i % 16 < 8 ? 1.0f : 3.0f), 1);
         const Edged edged = draw(rig, scene, View::symmetric({16, 16}, 1, glm::dmat4(1)), light);
-        EXPECT_NEAR(edged.got[7 * 16 + 8].r, fades ? 3 : 2.5, 1e-6);
+        EXPECT_NEAR(edged.got[7 * 16 + 8].r, holes == Holes::Known ? 2.5 : 3, 1e-6);
         EXPECT_EQ(edged.got[7 * 16 + 7].r, 1);
     }
     EXPECT_EQ(rig.complaints(), "");

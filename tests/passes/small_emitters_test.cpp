@@ -34,7 +34,7 @@ Drawn draw(PassRig& rig, const Scene& scene, const View& view, const std::vector
     rig.run(graph);
     drawn.got = rig.got<glm::vec4>(kept);
     drawn.seen = seen_picture(scene, view, rig.got<glm::uvec2>(triangles), rig.got<glm::vec4>(surfaces),
-                              rig.got<shared::Instance>(instances), before);
+                              rig.got<shared::Instance>(instances), before, double(rig.device().anisotropy()));
     return drawn;
 }
 

@@ -21,6 +21,7 @@ struct LedFacet {
     std::vector<glm::dvec3> corners;
     std::vector<glm::dvec2> uv;
     uint32_t region = 0, material = 0;
+    bool fades = false;  // opacities of its vertices
 };
 
 inline std::vector<LedFacet> facets_on_the_device(const scene::Scene& scene) {
@@ -32,9 +33,11 @@ inline std::vector<LedFacet> facets_on_the_device(const scene::Scene& scene) {
                 gpu_scene::facets(primitive, scene.materials[primitive.material]);
             const size_t first = all.size();
             all.resize(first + leading.vertices().size());
+            bool fades = false;
+            for (const scene::Vertex& vertex : primitive.vertices) fades = fades || vertex.colour[3] != 65535;
             for (size_t i = 0; i < facets.size(); ++i) {
                 LedFacet& led = all[first + leading.indices()[3 * i]];
-                led.region = facets[i].region, led.material = primitive.material;
+                led.region = facets[i].region, led.material = primitive.material, led.fades = fades;
                 for (uint32_t k = 0; k < facets[i].count; ++k) {
                     const scene::Vertex& vertex = primitive.vertices[facets[i].corners[k]];
                     led.corners.emplace_back(vertex.position), led.uv.emplace_back(vertex.uv);
@@ -44,8 +47,8 @@ inline std::vector<LedFacet> facets_on_the_device(const scene::Scene& scene) {
     return all;
 }
 
-/// The mask of a material, if it has one.
-inline std::shared_ptr<const reference::Mask> mask_of(const scene::Scene& scene, uint32_t material) {
+/// The mask of a material, if it has one. `longest`: gpu::Device::anisotropy().
+inline std::shared_ptr<const reference::Mask> mask_of(const scene::Scene& scene, uint32_t material, double longest) {
     const scene::Material& m = scene.materials[material];
     if (m.alpha != scene::Material::Alpha::Mask || m.base_colour_texture.image == scene::kNone) return nullptr;
     const Image& image = scene.images[m.base_colour_texture.image];
@@ -53,7 +56,7 @@ inline std::shared_ptr<const reference::Mask> mask_of(const scene::Scene& scene,
     gpu_scene::Level base{image.width, image.height, {}};
     for (const uint8_t code : image.rgba) base.rgba.push_back(float(code) / 255);
     auto mask = std::make_shared<reference::Mask>();
-    mask->cutoff = double(cutoff), mask->nearest = m.base_colour_texture.nearest;
+    mask->cutoff = double(cutoff), mask->nearest = m.base_colour_texture.nearest, mask->longest = longest;
     for (const gpu_scene::Level& level : gpu_scene::masked_levels(base, cutoff)) {
         reference::Texture& texture = mask->levels.emplace_back();
         texture.width = level.width, texture.height = level.height;
@@ -74,7 +77,7 @@ inline reference::SeenPicture seen_picture(const scene::Scene& scene, const gpu_
                                            const std::vector<glm::uvec2>& triangles,
                                            const std::vector<glm::vec4>& surfaces,
                                            const std::vector<shared::Instance>& instances,
-                                           const std::vector<glm::vec4>& luminance) {
+                                           const std::vector<glm::vec4>& luminance, double longest) {
     reference::SeenPicture picture{glm::ivec2(view.extent.width, view.extent.height),
                                    glm::dvec2(view.ray_scale()),
                                    glm::dvec2(view.ray_offset()),
@@ -82,7 +85,7 @@ inline reference::SeenPicture seen_picture(const scene::Scene& scene, const gpu_
                                    {}};
     const std::vector<LedFacet> facets = facets_on_the_device(scene);
     std::vector<std::shared_ptr<const reference::Mask>> masks;
-    for (uint32_t i = 0; i < scene.materials.size(); ++i) masks.push_back(mask_of(scene, i));
+    for (uint32_t i = 0; i < scene.materials.size(); ++i) masks.push_back(mask_of(scene, i, longest));
     for (size_t i = 0; i < triangles.size(); ++i) {
         reference::SeenFacet& facet = picture.facets.emplace_back();
         picture.luminance.emplace_back(glm::vec3(luminance[i]));
@@ -99,9 +102,10 @@ inline reference::SeenPicture seen_picture(const scene::Scene& scene, const gpu_
         const glm::dvec2 middle = glm::dvec2(i % view.extent.width, i / view.extent.width) + 0.5;
         facet.normal = reference::octahedral_decode({surfaces[i].x, surfaces[i].y});
         facet.position = double(surfaces[i].z) * glm::dvec3(picture.scale * middle + picture.offset, -1);
-        facet.masked = instance.mask != 0, facet.placement = double(instance.placement);
-        facet.region = led.region, facet.uv = led.uv;
-        if (instance.mask > 0) facet.mask = masks[led.material];
+        facet.placement = double(instance.placement), facet.region = led.region, facet.uv = led.uv;
+        const bool masked = scene.materials[led.material].alpha == scene::Material::Alpha::Mask;
+        if (masked && !led.fades) facet.mask = masks[led.material];
+        facet.masked = masked && (led.fades || facet.mask);
     }
     return picture;
 }

@@ -54,7 +54,7 @@ void add_edges(const FrameContext& frame, const GBuffer& surfaces, graph::Resour
                    {load(surfaces.triangle), load(surfaces.surface), load(luminance), sample(seams.counts),
                     sample(seams.pixels), sample(surfaces.facets), update(edges.counts), store(edges.pixels)},
                    push, at_seams);
-    graph.dispatch("edge means", frame.kernels.get(kEdgeMeans, {points}),
+    graph.dispatch("edge means", frame.kernels.get(kEdgeMeans, {points, uint32_t(frame.kernels.device().anisotropy())}),
                    {load(surfaces.triangle), load(surfaces.surface), load(luminance), sample(edges.counts),
                     sample(edges.pixels), sample(surfaces.instances), sample(surfaces.vertices),
                     sample(surfaces.facets), sample(surfaces.masks), store(means)},

@@ -7,7 +7,7 @@
 
 namespace vesper::gpu_scene {
 
-static_assert(shared::kCellSides == transport::kSides);
+static_assert(shared::kCellFacings == transport::kFacings && shared::kCellSides == transport::kSides);
 
 IrradianceCells irradiance_cells(const transport::Radiosity& radiosity, std::span<const glm::vec3> illuminance) {
     IrradianceCells table;

@@ -39,8 +39,9 @@ struct Plane {
 };
 
 // Across a side; from the middle of the cube, in cubes.
-bool is_in_cube(glm::dvec3 point, uint32_t side) {
-    return std::abs(point[int(side / 2 + 1) % 3]) < 0.5 && std::abs(point[int(side / 2 + 2) % 3]) < 0.5;
+bool is_in_cube(glm::dvec3 point, uint32_t facing) {
+    const int axis = axis_of(facing);
+    return std::abs(point[(axis + 1) % 3]) < 0.5 && std::abs(point[(axis + 2) % 3]) < 0.5;
 }
 
 // The one that probes meet best, in the middle between any two hits: of a wall its faces on both sides, of one that is
@@ -64,19 +65,19 @@ std::optional<Plane> plane_of(uint32_t way, std::span<const Probe> probes, std::
 }  // namespace
 
 glm::dvec3 before(const CellGrid& grid, uint32_t number, glm::dvec3 point) {
-    return point + 0.25 * grid.size * direction_of(grid.side(number));
+    return point + 0.25 * grid.size * direction_of(grid.facing(number));
 }
 
 void cut(CellPlaces& cell, uint32_t number, const CellGrid& grid, const rays::RayCaster& rays) {
     if (grid.is_air(number) || cell.count() < kLeastPlaces) return;
-    const uint32_t side = grid.side(number);
+    const uint32_t facing = grid.facing(number);
     const auto at = [&](uint32_t way, uint32_t i) {
-        return CellCut::along(way, glm::dvec3(cell.places[i].point) / grid.size + 0.5, side);
+        return CellCut::along(way, glm::dvec3(cell.places[i].point) / grid.size + 0.5, facing);
     };
     std::optional<Plane> best;
     for (uint32_t way = 0; way < CellCut::kWays; ++way) {
-        const glm::dvec3 direction = CellCut::direction(way, side), across = grid.size * direction;
-        const double end = CellCut::along(way, 0.5 + 0.5 * glm::sign(direction), side);  // of the cube
+        const glm::dvec3 direction = CellCut::direction(way, facing), across = grid.size * direction;
+        const double end = CellCut::along(way, 0.5 + 0.5 * glm::sign(direction), facing);  // of the cube
         std::array<Probe, CellPlaces::kMost> probes;
         std::vector<double> hits;
         for (uint32_t i = 0; i < cell.count(); ++i) {
@@ -85,7 +86,7 @@ void cut(CellPlaces& cell, uint32_t number, const CellGrid& grid, const rays::Ra
                          met(from, at(way, i), end, across, rays)};
             const glm::dvec3 place = glm::dvec3(cell.places[i].point) / grid.size;
             for (const std::optional<double>& hit : {probes[i].below, probes[i].above})
-                if (hit && is_in_cube(place + (*hit - probes[i].at) * direction, side)) hits.push_back(*hit);
+                if (hit && is_in_cube(place + (*hit - probes[i].at) * direction, facing)) hits.push_back(*hit);
         }
         const std::optional<Plane> plane = plane_of(way, std::span(probes).first(cell.count()), hits);
         if (plane && (!best || plane->off < best->off)) best = plane;

@@ -115,7 +115,7 @@ struct Gathering {
             const bool air = grid.is_air(round.numbers[i]);
             const double wide = air ? kRegionOfAir * grid.air_cubes() : kRegion;
             const glm::uvec3 at(grid.place(grid.middle(round.numbers[i])) / wide);
-            found[{at.z, at.y, at.x, grid.side(round.numbers[i]) + (air ? kSides : 0)}].push_back(i);
+            found[{at.z, at.y, at.x, grid.facing(round.numbers[i]) + (air ? kFacings : 0)}].push_back(i);
         }
         for (auto& [key, cells] : found) round.regions.push_back({.cells = std::move(cells)});
     }
@@ -198,10 +198,10 @@ struct Gathering {
         const std::optional<uint32_t> cell = surface_cells.number(point, normal);
         const auto cut = cell ? cuts.find(*cell) : cuts.end();
         if (cut == cuts.end()) return cell;
-        const uint32_t side = grid.side(*cell);
+        const uint32_t facing = grid.facing(*cell);
         const glm::dvec3 place = grid.place(point), in_cube = glm::fract(place);
-        if (cut->second.has(in_cube, side)) return cell;
-        const std::optional<uint32_t> other = grid.cell(place + cut->second.beyond(in_cube, side), side);
+        if (cut->second.has(in_cube, facing)) return cell;
+        const std::optional<uint32_t> other = grid.cell(place + cut->second.beyond(in_cube, facing), facing);
         return other && std::ranges::binary_search(known, *other) ? other : cell;
     }
 

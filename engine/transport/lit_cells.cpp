@@ -57,7 +57,9 @@ LitCells::LitCells(const CellGrid& grid, std::span<const Cell> cells) {
         const glm::dvec3 cube = glm::floor(grid.place(grid.middle(cell.number)));
         Keyed leaf{spread(uint64_t(cube.x)) | spread(uint64_t(cube.y)) << 1u | spread(uint64_t(cube.z)) << 2u,
                    {cell.place, kOfCell * grid.size, {}, 0, 0}};
-        leaf.node.fluxes[grid.side(cell.number)] = cell.flux;
+        const glm::dvec3 direction = direction_of(grid.facing(cell.number));
+        for (int axis = 0; axis < 3; ++axis)
+            leaf.node.fluxes[size_t(2 * axis + (direction[axis] < 0 ? 1 : 0))] = std::abs(direction[axis]) * cell.flux;
         level.push_back(leaf);
     }
     std::ranges::stable_sort(level, {}, &Keyed::key);
@@ -103,7 +105,7 @@ double LitCells::light_of(const Node& node, const Patch& patch) {
     if (cosine < -width) return 0;
     double leaving = 0;
     for (uint32_t side = 0; side < kSides; ++side)
-        leaving += node.fluxes[side] * std::max(-along(way, side) + kBent * width, 0.0);
+        leaving += node.fluxes[side] * std::max((side % 2 ? 1 : -1) * way[int(side / 2)] + kBent * width, 0.0);
     return leaving * (std::max(cosine, 0.0) + kBent * width) / (std::numbers::pi * away * away);
 }
 

@@ -47,7 +47,7 @@ private:
     struct Node {
         glm::dvec3 centre;                  // of a sphere around its cells, m
         double radius;                      // m
-        std::array<double, kSides> fluxes;  // of those that face each side, lm
+        std::array<double, kSides> fluxes;  // to each side, lm
         uint32_t first, count;              // below it; count 0: one cube
     };
     static double light_of(const Node& node, const Patch& patch);

@@ -44,8 +44,8 @@ float largest(glm::vec3 rgb) { return std::max({rgb.r, rgb.g, rgb.b}); }
 struct Axes {
     int along, across, over;
 };
-Axes axes_of(uint32_t side) {
-    const int axis = int(side / 2);
+Axes axes_of(uint32_t facing) {
+    const int axis = axis_of(facing);
     return {axis, (axis + 1) % 3, (axis + 2) % 3};
 }
 
@@ -78,8 +78,8 @@ uint64_t Radiosity::bytes() const {
 void Radiosity::connect(const std::function<bool(uint32_t, uint32_t)>& sees) {
     beside.assign(cells() * kBeside, 0), walls.assign(cells(), 0);
     each_of(cells(), [&](size_t i) {
-        const uint32_t side = grid.side(numbers[i]);
-        const Axes axes = axes_of(side);
+        const uint32_t facing = grid.facing(numbers[i]);
+        const Axes axes = axes_of(facing);
         const glm::dvec3 cube = grid.place(grid.middle(numbers[i])), normal(normals[i]);
         const glm::dvec3 middle = cube + double(heights[i]) / grid.size * normal;
         for (size_t k = 0; k < kBeside; ++k) {
@@ -91,7 +91,7 @@ void Radiosity::connect(const std::function<bool(uint32_t, uint32_t)>& sees) {
                 (normal[axes.across] * kOffsets[k].across + normal[axes.over] * kOffsets[k].over) / normal[axes.along];
             column[axes.across] += kOffsets[k].across, column[axes.over] += kOffsets[k].over;
             column[axes.along] = place[axes.along];
-            const std::optional<Nearest> cell = nearest(glm::floor(column), place, side);
+            const std::optional<Nearest> cell = nearest(glm::floor(column), place, facing);
             if (!cell) continue;
             if (!sees(uint32_t(i), cell->index))
                 walls[i] |= uint8_t(1u << k);
@@ -212,8 +212,8 @@ void Radiosity::find_steps() {
     }
 }
 
-std::optional<uint32_t> Radiosity::cell_in(glm::dvec3 cube, uint32_t side) const {
-    const std::optional<uint32_t> number = grid.cell(cube, side);
+std::optional<uint32_t> Radiosity::cell_in(glm::dvec3 cube, uint32_t facing) const {
+    const std::optional<uint32_t> number = grid.cell(cube, facing);
     return number ? find(*number) : std::nullopt;
 }
 
@@ -223,13 +223,13 @@ double Radiosity::off_plane(uint32_t index, glm::dvec3 from_middle) const {
 
 CellCut Radiosity::cut_of(uint32_t index) const { return cuts.empty() ? CellCut() : cuts[index]; }
 
-// In the cube of a point or one beside it along the side, that whose plane is nearest.
-std::optional<Radiosity::Nearest> Radiosity::nearest(glm::dvec3 cube, glm::dvec3 place, uint32_t side) const {
+// In the cube of a point or one beside it along the axis, that whose plane is nearest.
+std::optional<Radiosity::Nearest> Radiosity::nearest(glm::dvec3 cube, glm::dvec3 place, uint32_t facing) const {
     std::optional<Nearest> found;
     for (const double layer : {0.0, -1.0, 1.0}) {
         glm::dvec3 there = cube;
-        there[axes_of(side).along] += layer;
-        const std::optional<uint32_t> index = cell_in(there, side);
+        there[axes_of(facing).along] += layer;
+        const std::optional<uint32_t> index = cell_in(there, facing);
         if (!index) continue;
         const double off = off_plane(*index, place - there - 0.5);
         if (!found || off < found->off) found = Nearest{*index, off};
@@ -246,16 +246,16 @@ std::optional<uint32_t> Radiosity::number_beside(int across, int over) {
 }
 
 glm::dvec3 Radiosity::at(std::span<const glm::vec3> values, glm::dvec3 point, glm::dvec3 normal) const {
-    const uint32_t side = side_of(normal);
+    const uint32_t facing = facing_of(normal);
     const glm::dvec3 place = grid.place(point), corner = glm::floor(place - 0.5), share = place - 0.5 - corner;
-    const Axes axes = axes_of(side);
+    const Axes axes = axes_of(facing);
     // The cell of the point's cube says which of the others it sees; where it is cut off, that on the same side of the
     // cut.
     glm::dvec3 own = glm::floor(place);
-    std::optional<uint32_t> own_index = cell_in(own, side);
-    if (own_index && !cut_of(*own_index).has(place - own, side)) {
-        own += cut_of(*own_index).beyond(place - own, side);
-        own_index = cell_in(own, side);
+    std::optional<uint32_t> own_index = cell_in(own, facing);
+    if (own_index && !cut_of(*own_index).has(place - own, facing)) {
+        own += cut_of(*own_index).beyond(place - own, facing);
+        own_index = cell_in(own, facing);
     }
     const uint32_t hidden = own_index && !walls.empty() ? walls[*own_index] : 0;
     glm::dvec3 sum(0);
@@ -263,12 +263,12 @@ glm::dvec3 Radiosity::at(std::span<const glm::vec3> values, glm::dvec3 point, gl
     for (uint32_t k = 0; k < 8; ++k) {
         const glm::dvec3 offset(k & 1, k >> 1 & 1, k >> 2), cube = corner + offset, step = cube - own,
                                                             linear = glm::mix(1.0 - share, share, offset);
-        const std::optional<uint32_t> index = cell_in(cube, side);
+        const std::optional<uint32_t> index = cell_in(cube, facing);
         if (!index) continue;
         const std::optional<uint32_t> beside_own = number_beside(int(step[axes.across]), int(step[axes.over]));
         if (beside_own && hidden >> *beside_own & 1) continue;
         const double off = off_plane(*index, place - cube - 0.5);
-        const double same = cut_of(*index).has(place - cube, side) ? std::max(1 - off / kSameSurface, kElsewhere) : 0;
+        const double same = cut_of(*index).has(place - cube, facing) ? std::max(1 - off / kSameSurface, kElsewhere) : 0;
         const double weight = linear.x * linear.y * linear.z * same + kLeastWeight;
         sum += weight * glm::dvec3(values[*index]), weights += weight;
     }

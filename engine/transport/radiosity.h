@@ -86,8 +86,8 @@ struct Radiosity {
     };
     Solution solve(const RadiosityLight& light) const;
 
-    /// Of cells' values, the one at a point of a surface: linear between the eight cells around it that face the same
-    /// side, those in its plane that no cut parts from it; where there is none, between those of the air. 0 where there
+    /// Of cells' values, the one at a point of a surface: linear between the eight cells around it that face the same,
+    /// those in its plane that no cut parts from it; where there is none, between those of the air. 0 where there
     /// are none either.
     glm::dvec3 at(std::span<const glm::vec3> values, glm::dvec3 point, glm::dvec3 normal) const;
 
@@ -99,11 +99,11 @@ private:
     Solution unsmoothed(const RadiosityLight& light) const;
     std::vector<glm::vec3> mean_of(const std::vector<glm::vec3>& lux, std::span<const uint8_t> apart) const;
     std::vector<glm::vec3> smoothed(const std::vector<glm::vec3>& lux) const;
-    std::optional<uint32_t> cell_in(glm::dvec3 cube, uint32_t side) const;  // its index
+    std::optional<uint32_t> cell_in(glm::dvec3 cube, uint32_t facing) const;  // its index
     CellCut cut_of(uint32_t index) const;
     double off_plane(uint32_t index, glm::dvec3 from_middle) const;  // of a point, from its cube's middle, in cubes
     static std::optional<uint32_t> number_beside(int across, int over);
-    std::optional<Nearest> nearest(glm::dvec3 cube, glm::dvec3 place, uint32_t side) const;
+    std::optional<Nearest> nearest(glm::dvec3 cube, glm::dvec3 place, uint32_t facing) const;
     glm::dvec3 in_air(std::span<const glm::vec3> values, glm::dvec3 place, glm::dvec3 normal, double& weights) const;
 };
 
@@ -116,7 +116,7 @@ struct RadiositySettings {
     uint32_t rays = 32;             ///< from each cell
     uint32_t looks = 64;            ///< of each cell at emitters
     uint32_t lamp_rays = 16;        ///< shadow rays to lamps, from each of four places
-    uint64_t fine_cells = 100'000;  ///< roughly: cells are smaller than a metre only where there are no more; where
+    uint64_t fine_cells = 125'000;  ///< roughly: cells are smaller than a metre only where there are no more; where
                                     ///< there are fewer, up to four times as many rays and looks go out from each
     uint64_t most_cells = 600'000;  ///< roughly: cells are larger than a metre where there would be more
 };

@@ -3,8 +3,8 @@
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 
-// Light of emitting surfaces, of the sky, and reflected light: adds E rho lambert, E between the cells of surfaces that face the same
-// side.
+// Light of emitting surfaces, of the sky, and reflected light: adds E rho lambert, E between the cells of surfaces that face the
+// same.
 
 #include "normal.glsl"
 #include "sheen.glsl"
@@ -34,20 +34,37 @@ uvec4 find(uint number) {
     return cell;
 }
 
-// Of a cube, and a side of it; cells of air begin after those of surfaces.
-uint number_of(vec3 cube, vec3 cubes, uint side) {
+// Of a cube, and what a surface in it faces, of so many; cells of air begin after those of surfaces.
+uint number_of(vec3 cube, vec3 cubes, uint facing, uint facings) {
     const bool there = all(greaterThanEqual(cube, vec3(0.0))) && all(lessThan(cube, cubes));
     const uvec3 c = uvec3(cube), count = uvec3(cubes);
-    return there ? ((c.z * count.y + c.y) * count.x + c.x) * kCellSides + side : kNoCell;
+    return there ? ((c.z * count.y + c.y) * count.x + c.x) * facings + facing : kNoCell;
+}
+
+// The axis of a side; between two sides the first after the missing one.
+uint axis_of(uint facing) {
+    const uint after = (facing - kCellSides) / 4u + 1u;
+    return facing < kCellSides ? facing >> 1u : after == 3u ? 0u : after;
+}
+
+uint facing_of(vec3 direction) {
+    const vec3 a = vec3(kSideFactorX, kSideFactorY, kSideFactorZ) * abs(direction);
+    const bvec3 backwards = lessThan(direction, vec3(0.0));
+    const uint least = a.z <= a.x && a.z <= a.y ? 2u : a.y <= a.x ? 1u : 0u, most = a.x >= a.y && a.x >= a.z ? 0u : a.y >= a.z ? 1u : 2u;
+    const vec2 others = least == 0u ? a.yz : least == 1u ? a.zx : a.xy;
+    const bvec2 signs = least == 0u ? backwards.yz : least == 1u ? backwards.zx : backwards.xy;
+    const uint between = kCellSides + 4u * least + (signs.x ? 2u : 0u) + (signs.y ? 1u : 0u);
+    const bool is_backwards = most == 0u ? backwards.x : most == 1u ? backwards.y : backwards.z;
+    return min(others.x, others.y) > kBetween * max(others.x, others.y) ? between : 2u * most + (is_backwards ? 1u : 0u);
 }
 
 vec3 light_of(uvec4 cell) { return kCellUnit * vec3(unpackHalf2x16(cell.y), unpackHalf2x16(cell.z).x); }
 
-// The cells of the eight cubes whose middles are around a point, on the side that its surface faces. They are the same for all points
+// The cells of the eight cubes whose middles are around a point, of what its surface faces. They are the same for all points
 // between these middles. Cells 2 k and 2 k + 1 are the lower and the upper of a column; columns 0 and 1, 2 and 3 follow each other across
 // the side.
 struct Corners {
-    ivec4 of;       // the cube lowest along each axis, and the side
+    ivec4 of;       // the cube lowest along each axis, and what they face
     vec4 light[8];  // lx, and 1; nothing where there is no cell
     vec4 plane[8];  // of their surfaces: the normal, and its product with points on it, from the corner of the lowest cube, in cubes
     uint seen;      // 4 bits of each: the columns that it sees
@@ -62,11 +79,11 @@ vec3 turned_back(uint axis, vec3 v) { return axis == 0u ? v.xyz : axis == 1u ? v
 Corners corners_of(ivec4 of) {
     Corners corners;
     corners.of = of, corners.seen = 0u, corners.cut = 0u, corners.cuts = uvec2(0u);
-    const uint axis = uint(of.w) >> 1u;
+    const uint axis = axis_of(uint(of.w));
     [[unroll]] for (uint k = 0u; k < 8u; ++k) {
         const uvec3 step = uvec3(k & 1u, k >> 1u & 1u, k >> 2u);
         const vec3 offset = turned_back(axis, vec3(step));
-        const uint number = number_of(vec3(of.xyz) + offset, push.cubes, uint(of.w));
+        const uint number = number_of(vec3(of.xyz) + offset, push.cubes, uint(of.w), kCellFacings);
         const uvec4 cell = find(number);
         const bool there = cell.x == number && number != kNoCell;
         const vec3 normal = decode_normal(unpackSnorm4x8(cell.w).zw);
@@ -101,7 +118,7 @@ float past_cut(uint cut, vec2 from_middle) {
 // Of light and its weight, the sum over the corners.
 vec4 on_surfaces(Corners corners, vec3 at) {
     const vec3 local = at - vec3(corners.of.xyz);
-    const uint axis = uint(corners.of.w) >> 1u;
+    const uint axis = axis_of(uint(corners.of.w));
     const vec3 share = turned_to(axis, clamp(local - 0.5, 0.0, 1.0));
     const vec2 across = turned_to(axis, local).yz;
     uint off = 0u, left = corners.cut;  // a bit of each corner: a cut parts it from the point; the cuts to look at
@@ -135,13 +152,13 @@ vec4 on_surfaces(Corners corners, vec3 at) {
 vec4 in_air(vec3 at, vec3 normal) {
     const vec3 air = at / float(push.air_cubes) - 0.5, corner = floor(air), share = air - corner;
     const vec3 parts = normal * normal / dot(normal, normal), cubes = vec3((uvec3(push.cubes) + push.air_cubes - 1u) / push.air_cubes);
-    const uint begins = uint(push.cubes.x) * uint(push.cubes.y) * uint(push.cubes.z) * kCellSides;
+    const uint begins = uint(push.cubes.x) * uint(push.cubes.y) * uint(push.cubes.z) * kCellFacings;
     vec4 sum = vec4(0.0);
     for (uint k = 0u; k < 24u; ++k) {
         const uint axis = k >> 3u;
         const vec3 offset = vec3(k & 1u, k >> 1u & 1u, k >> 2u & 1u), linear = mix(1.0 - share, share, offset);
         const float component = axis == 0u ? normal.x : axis == 1u ? normal.y : normal.z;
-        const uint number = number_of(corner + offset, cubes, 2u * axis + (component < 0.0 ? 1u : 0u));
+        const uint number = number_of(corner + offset, cubes, 2u * axis + (component < 0.0 ? 1u : 0u), kCellSides);
         const uvec4 cell = find(number == kNoCell ? kNoCell : begins + number);
         const float part = axis == 0u ? parts.x : axis == 1u ? parts.y : parts.z;
         const float weight = part * (linear.x * linear.y * linear.z + kLeastWeight);
@@ -154,7 +171,7 @@ vec4 in_air(vec3 at, vec3 normal) {
 struct Point {
     vec3 position, n;  // in the view frame, m
     vec3 at, normal;   // in cubes; this is no unit vector
-    ivec4 part;        // of a cube, and the side
+    ivec4 part;        // of a cube, and what it faces
     float plain;       // of roads, see road_in_diffuse
     bool drawn;
 };
@@ -168,10 +185,7 @@ Point point_of(uvec2 pixel) {
     point.at = push.eye + push.x_axis * point.position.x + push.y_axis * point.position.y + push.z_axis * point.position.z;
     point.normal = push.x_axis * point.n.x + push.y_axis * point.n.y + push.z_axis * point.n.z;
     point.plain = -surface.w;
-    const vec3 a = vec3(kSideFactorX, kSideFactorY, kSideFactorZ) * abs(point.normal);
-    const uint axis = a.x >= a.y && a.x >= a.z ? 0u : a.y >= a.z ? 1u : 2u;
-    const bool backwards = (axis == 0u ? point.normal.x : axis == 1u ? point.normal.y : point.normal.z) < 0.0;
-    point.part = ivec4(floor(point.at - 0.5), 2u * axis + (backwards ? 1u : 0u));
+    point.part = ivec4(floor(point.at - 0.5), facing_of(point.normal));
     return point;
 }
 

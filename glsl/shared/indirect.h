@@ -13,11 +13,13 @@ const uint kNoCell = 0xffffffffu;  // x of an empty place
 const uint kCellHash = 2654435769u;  // times the number; its upper bits are the place
 const float kCellUnit = 16.0f;       // lx
 const uint kCellSides = 6u;          // of a cube: +x, -x, +y, -y, +z, -z
+const uint kCellFacings = 18u;       // what surfaces face: these, and the ways between two, see transport::kFacings
 const uint kCutSteps = 32u;          // along the way of a cut: its place is one of them; above them the bit of what is below
 const float kDiagonal = 0.70710678f;  // of a way between two axes, along each
 
 // Times the components of a normal along each axis before they are compared, see transport::kSideFactors.
 const float kSideFactorX = 1.0002f, kSideFactorY = 1.0001f, kSideFactorZ = 1.0f;
+const float kBetween = 0.414f;     // of the largest component, see transport::kBetween
 const float kSameSurface = 0.75f;  // cubes: so far off the plane of a cell is another surface
 const float kElsewhere = 1e-3f;    // weight of such
 const float kLeastWeight = 1e-7f;  // of any cell

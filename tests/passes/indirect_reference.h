@@ -65,19 +65,23 @@ public:
             const bool air = grid.is_air(cell.number);
             const dvec3 in_grid = (grid.middle(cell.number) - grid.origin) / grid.size,
                         middle = air ? in_grid : glm::floor(in_grid) + 0.5;
-            (air ? air_ : surfaces_)[cell.number % 6].push_back(
-                {middle, cell.light, cell.normal, cell.height / grid.size, cell.hidden, cell});
+            (air ? air_[(cell.number - grid.air_begins()) % 6] : surfaces_[cell.number % 18])
+                .push_back({middle, cell.light, cell.normal, cell.height / grid.size, cell.hidden, cell});
         }
     }
 
     const transport::CellGrid& grid() const { return grid_; }
     dvec3 open(dvec3 normal) const { return (1 + normal.y) / 2 * above_ + (1 - normal.y) / 2 * below_; }
 
-    /// `place` in cubes; `side` 0 to 5: +x, -x, +y, -y, +z, -z.
-    CellLight on_surfaces(dvec3 place, uint32_t side) const {
-        const int along = int(side / 2), across = (along + 1) % 3, over = (along + 2) % 3;
+    /// `place` in cubes; `facing` 0 to 17: +x, -x, +y, -y, +z, -z, and between y and z, z and x, x and y.
+    CellLight on_surfaces(dvec3 place, uint32_t facing) const {
+        const int along = facing < 6    ? int(facing / 2)
+                          : facing < 10 ? 1
+                          : facing < 14 ? 2
+                                        : 0,
+                  across = (along + 1) % 3, over = (along + 2) % 3;
         dvec3 own = glm::floor(place) + 0.5;
-        for (const Lit& cell : surfaces_[side])
+        for (const Lit& cell : surfaces_[facing])
             if (cell.middle == own && cell.is_cut_off(place, along)) {
                 // To the cubes that lie that way from the middle of this one.
                 const glm::dvec2 off(place[across] - own[across], place[over] - own[over]),
@@ -87,10 +91,10 @@ public:
                 break;
             }
         uint32_t hidden = 0;
-        for (const Lit& cell : surfaces_[side])
+        for (const Lit& cell : surfaces_[facing])
             if (cell.middle == own) hidden = cell.hidden;
         CellLight sum;
-        for (const Lit& cell : surfaces_[side]) {
+        for (const Lit& cell : surfaces_[facing]) {
             const dvec3 off = place - cell.middle;
             if (glm::any(glm::lessThan(off, dvec3(-1))) || glm::any(glm::greaterThanEqual(off, dvec3(1)))) continue;
             bool behind_a_wall = false;
@@ -142,27 +146,39 @@ private:
     transport::CellGrid grid_;
     double air_cubes_;
     dvec3 above_, below_;
-    std::vector<Lit> surfaces_[6], air_[6];
+    std::vector<Lit> surfaces_[18], air_[6];
 };
 
-/// Illuminance of a surface that faces `side` most, RGB lx; `place` in cubes, the normal of unit length.
-inline dvec3 illuminance_on_side(const CellList& cells, dvec3 place, dvec3 normal, uint32_t side) {
-    CellLight found = cells.on_surfaces(place, side);
+/// Illuminance of a surface, RGB lx; `place` in cubes, the normal of unit length.
+inline dvec3 illuminance_on(const CellList& cells, dvec3 place, dvec3 normal, uint32_t facing) {
+    CellLight found = cells.on_surfaces(place, facing);
     if (found.weight < 2 * kElsewhere)
         if (const CellLight air = cells.in_air(place, normal); air.weight > 0) found = air;
     return found.weight > 0 ? found.light / found.weight : cells.open(normal);
 }
 
-/// The sides that a normal goes to most, but for `rounding` of its components; the first is the one. A component along
-/// x counts 0.02 % more than it is, along y 0.01 %.
-inline std::vector<uint32_t> sides_of(dvec3 normal, double rounding = 0) {
+/// What a normal is nearest to, of the six sides and of the twelve ways between two of them, but for `rounding` of its
+/// components; the first is the one. A component along x counts 0.02 % more than it is, along y 0.01 %, and a way
+/// between two sides begins where the smaller component is 0.414 of the larger one.
+inline std::vector<uint32_t> facings_of(dvec3 normal, double rounding = 0) {
     const dvec3 counted = glm::abs(normal) * dvec3(1.0002, 1.0001, 1);
-    const double most = std::max({counted.x, counted.y, counted.z});
-    std::vector<uint32_t> sides;
-    for (int axis = 0; axis < 3; ++axis)
-        if (counted[axis] >= most - rounding) sides.push_back(uint32_t(2 * axis + (normal[axis] < 0 ? 1 : 0)));
-    std::ranges::stable_sort(sides, std::greater{}, [&](uint32_t s) { return counted[int(s / 2)]; });
-    return sides;
+    struct Way {
+        uint32_t facing;
+        double towards;
+    };
+    std::vector<Way> ways;
+    const auto signs = [&](int a, int b) { return (normal[a] < 0 ? 2u : 0u) + (normal[b] < 0 ? 1u : 0u); };
+    const double border = 1 / (1 + 0.414);  // part of the sum of two that the larger one is there
+    for (int axis = 0; axis < 3; ++axis) {
+        ways.push_back({uint32_t(2 * axis + (normal[axis] < 0 ? 1 : 0)), counted[axis]});
+        const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+        ways.push_back({6 + 4 * uint32_t(axis) + signs(a, b), border * (counted[a] + counted[b])});
+    }
+    std::ranges::stable_sort(ways, std::greater{}, &Way::towards);
+    std::vector<uint32_t> facings;
+    for (const Way& way : ways)
+        if (way.towards >= ways[0].towards - 2 * rounding) facings.push_back(way.facing);
+    return facings;
 }
 
 /// A pixel's surface, in cubes and in the world.
@@ -193,7 +209,7 @@ inline dvec3 add_indirect(const CellList& cells, const SurfaceTexel& texel, dvec
     if (!(texel.surface.z > 0)) return luminance;
     const CellPlace at = cell_place(cells.grid(), texel, pixel_centre, view);
     return luminance + sent(texel, pixel_centre, view,
-                            illuminance_on_side(cells, at.place, at.normal, sides_of(at.normal)[0]), lambert);
+                            illuminance_on(cells, at.place, at.normal, facings_of(at.normal)[0]), lambert);
 }
 
 /// The same of illuminance that is known for the pixel, lx.

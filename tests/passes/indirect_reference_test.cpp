@@ -34,17 +34,17 @@ TEST(IndirectReference, AFloorOfOneValueHasIt) {
         for (int z = 0; z < 10; ++z) made.add({x, 3, z}, 2, 0.1, {3, 4, 5});
     const reference::CellList cells = listed(made);
     for (const dvec3 place : {dvec3(0.1, 3.2, 0.2), dvec3(6, 3.7, 5), dvec3(11.9, 3.9, 9.9)}) {
-        const dvec3 light = reference::illuminance_on_side(cells, place, {0, 1, 0}, 2);
+        const dvec3 light = reference::illuminance_on(cells, place, {0, 1, 0}, 2);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(light[c], 3 + c, 1e-12);
     }
-    EXPECT_EQ(reference::illuminance_on_side(cells, {6, 3.5, 5}, {0, -1, 0}, 3), dvec3(0));
-    EXPECT_EQ(reference::illuminance_on_side(cells, {6, 5.5, 5}, {0, 1, 0}, 2), dvec3(0));
-    EXPECT_EQ(reference::illuminance_on_side(cells, {-2, 3.5, 5}, {0, 1, 0}, 2), dvec3(0));
+    EXPECT_EQ(reference::illuminance_on(cells, {6, 3.5, 5}, {0, -1, 0}, 3), dvec3(0));
+    EXPECT_EQ(reference::illuminance_on(cells, {6, 5.5, 5}, {0, 1, 0}, 2), dvec3(0));
+    EXPECT_EQ(reference::illuminance_on(cells, {-2, 3.5, 5}, {0, 1, 0}, 2), dvec3(0));
 }
 
 TEST(IndirectReference, WhereThereAreNoCellsTheSkyIsOpen) {
     const reference::CellList none(kGrid, {}, {8, 4, 2}, {0, 4, 1});
-    const auto at = [&](dvec3 normal) { return reference::illuminance_on_side(none, {6, 5, 5}, normal, 2); };
+    const auto at = [&](dvec3 normal) { return reference::illuminance_on(none, {6, 5, 5}, normal, 2); };
     EXPECT_EQ(at({0, 1, 0}), dvec3(8, 4, 2));
     EXPECT_EQ(at({0, -1, 0}), dvec3(0, 4, 1));
     EXPECT_EQ(at({0, 0, 1}), dvec3(4, 4, 1.5));
@@ -55,7 +55,7 @@ TEST(IndirectReference, WhereThereAreNoCellsTheSkyIsOpen) {
 TEST(IndirectReference, HeightsAndDistancesAreWeights) {
     MadeCells made{kGrid, {}};
     made.add({4, 3, 4}, 2, 0, glm::vec3(1)), made.add({5, 3, 4}, 2, 0.15, glm::vec3(2));
-    const double found = reference::illuminance_on_side(listed(made), {4.75, 3.5, 4.5}, {0, 1, 0}, 2).x;
+    const double found = reference::illuminance_on(listed(made), {4.75, 3.5, 4.5}, {0, 1, 0}, 2).x;
     EXPECT_NEAR(found, (0.75 + 2 * 0.25 * 0.6) / (0.75 + 0.25 * 0.6), 1e-6);  // least weights are 1e-7
 }
 
@@ -65,7 +65,7 @@ TEST(IndirectReference, NoLightCrossesAWall) {
         MadeCells made{kGrid, {}};
         made.add({4, 3, 4}, 2, 0, glm::vec3(1), walls), made.add({5, 3, 4}, 2, 0, glm::vec3(24));
         made.add({4, 3, 5}, 2, 0, glm::vec3(7)), made.add({5, 3, 5}, 2, 0, glm::vec3(100));
-        return reference::illuminance_on_side(listed(made), place, {0, 1, 0}, 2).x;
+        return reference::illuminance_on(listed(made), place, {0, 1, 0}, 2).x;
     };
     const dvec3 by_x(4.75, 3.5, 4.5), by_z(4.5, 3.5, 4.75), by_both(4.75, 3.5, 4.75);
     EXPECT_NEAR(light_at(0, by_x), 0.75 + 0.25 * 24, 1e-4);
@@ -87,7 +87,7 @@ TEST(IndirectReference, ACutPartsACell) {
         made.add({4, 3, 4}, kSide, {1, 0, 0}, 0, glm::vec3(1), walls_below);
         made.add({4, 4, 4}, kSide, {1, 0, 0}, 0, glm::vec3(8), 0, transport::CellCut::across(0, 1 / 3.0, false));
         made.add({4, 5, 4}, kSide, {1, 0, 0}, 0, glm::vec3(8));
-        return reference::illuminance_on_side(listed(made), {4.5, height, 4.5}, {1, 0, 0}, kSide).x;
+        return reference::illuminance_on(listed(made), {4.5, height, 4.5}, {1, 0, 0}, kSide).x;
     };
     for (const double below : {3.6, 3.9, 4.1, 4.3}) EXPECT_NEAR(light_at(below, 0), 1, 1e-4) << below;
     // Above it, the cube below counts unless it is hidden: that is for the cell to say.
@@ -104,7 +104,7 @@ TEST(IndirectReference, ACutPartsACellAlongADiagonal) {
     for (const auto& [y, z, light] : {std::array{5, 4, 1}, std::array{4, 5, 2}, std::array{5, 5, 4}})
         made.add({4, y, z}, kSide, {1, 0, 0}, 0, glm::vec3(float(light)), y == 4 ? 1 << 1 : 0);
     const auto at = [&](double y, double z) {
-        return reference::illuminance_on_side(listed(made), {4.5, y, z}, {1, 0, 0}, kSide).x;
+        return reference::illuminance_on(listed(made), {4.5, y, z}, {1, 0, 0}, kSide).x;
     };
     EXPECT_NEAR(at(4.5, 4.5), 8, 1e-4);
     EXPECT_NEAR(at(4.6, 4.6), 0.01 / 0.19 * 4 + 0.09 / 0.19 * 3, 1e-3) << "just beyond: of the other three";
@@ -118,7 +118,7 @@ TEST(IndirectReference, OfTheAirSidesCountByTheSquaresOfTheNormal) {
     for (uint32_t side = 0; side < 6; ++side) made.add_air({0, 0, 0}, side, glm::vec3(std::exp2(float(side))));
     const reference::CellList cells = listed(made);
     const dvec3 normal = dvec3(1, -2, 2) / 3.0;  // +x, -y, +z
-    EXPECT_NEAR(reference::illuminance_on_side(cells, {6.5, 5.2, 7}, normal, 3).x, (1 + 4 * 8 + 4 * 16) / 9.0, 1e-12);
+    EXPECT_NEAR(reference::illuminance_on(cells, {6.5, 5.2, 7}, normal, 3).x, (1 + 4 * 8 + 4 * 16) / 9.0, 1e-12);
 }
 
 TEST(IndirectReference, APixelSendsWhatItsSurfaceReflects) {
@@ -173,7 +173,7 @@ TEST(IndirectReference, IsTheLookupOfTheHost) {
         const dvec3 place = dvec3(random.unit(), random.unit(), random.unit()) * dvec3(14, 11, 12) - 1.0;
         const dvec3 normal = glm::normalize(dvec3(random.normal(), random.normal(), random.normal()));
         const dvec3 want = radiosity.at(light, kGrid.origin + kGrid.size * place, normal);
-        const dvec3 found = reference::illuminance_on_side(cells, place, normal, reference::sides_of(normal)[0]);
+        const dvec3 found = reference::illuminance_on(cells, place, normal, reference::facings_of(normal)[0]);
         for (int c = 0; c < 3; ++c) ASSERT_NEAR(found[c], want[c], 1e-6) << i;  // weights are floats there
         lit += want != dvec3(0);
     }

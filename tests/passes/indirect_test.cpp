@@ -54,7 +54,7 @@ MadeCells cells_around(dvec3 middle, uint32_t seed, double part) {
     for (int z = 0; z < 25; ++z)
         for (int y = 0; y < 15; ++y)
             for (int x = 0; x < 25; ++x)
-                for (uint32_t side = 0; side < 6; ++side) {
+                for (uint32_t facing = 0; facing < transport::kFacings; ++facing) {
                     const bool there = double(random.unit()) < part;
                     const double height = 0.8 * glm::unpackHalf1x16(glm::packHalf1x16(random.unit() - 0.5f));
                     const auto byte = [&] { return std::round(double(random.unit()) * 254 - 127) / 127; };
@@ -65,7 +65,7 @@ MadeCells cells_around(dvec3 middle, uint32_t seed, double part) {
                     if (random.unit() < 0.25f)
                         cut = transport::CellCut::across(uint32_t(random.unit() * 4) % 4, double(random.unit()),
                                                          random.unit() < 0.5f);
-                    if (there) made.add({x, y, z}, side, normal, height, light(), walls, cut);
+                    if (there) made.add({x, y, z}, facing, normal, height, light(), walls, cut);
                 }
     for (int z = 0; z < 5; ++z)  // of five cubes each
         for (int y = 0; y < 3; ++y)
@@ -113,10 +113,10 @@ void expect_reference(const std::vector<glm::vec4>& got, const Lit& s, const Mad
         const glm::dvec2 centre = glm::dvec2(s.pixel(i)) + 0.5;
         const reference::CellPlace at = reference::cell_place(made.grid, texel, centre, view);
         const auto light = [&](dvec3 place, uint32_t side) {
-            return reference::sent(texel, centre, view, reference::illuminance_on_side(cells, place, at.normal, side),
+            return reference::sent(texel, centre, view, reference::illuminance_on(cells, place, at.normal, side),
                                    double(kLambert));
         };
-        const std::vector<uint32_t> sides = reference::sides_of(at.normal, 1e-6);
+        const std::vector<uint32_t> sides = reference::facings_of(at.normal, 1e-6);
         const dvec3 here = light(at.place, sides[0]);
         const double off = 3e-7 * (glm::length(eye) + glm::distance(at.place, eye));
         dvec3 rounding(0);

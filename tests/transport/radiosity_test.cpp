@@ -94,7 +94,7 @@ TEST(Radiosity, AWallHasItsPartOfTheSky) {
         const std::vector<double> sky(radiosity.sky.begin(), radiosity.sky.end());
         for (const double z : {1.0, 3.0, 5.0}) {
             const auto of_wall = [&](size_t i, dvec3 middle) {
-                return radiosity.grid.side(radiosity.numbers[i]) == 4 && std::abs(middle.y - z) < 0.1;
+                return radiosity.grid.facing(radiosity.numbers[i]) == 4 && std::abs(middle.y - z) < 0.1;
             };
             const double want = floor ? 0.5 + 0.5 * z / std::sqrt(z * z + kFar * kFar) : 1;
             // 128 rays of each of 41 cells: 0.7 % if they were not spread evenly.
@@ -122,7 +122,7 @@ TEST(Radiosity, ASkyWithAPictureLightsByDirection) {
     const Radiosity radiosity = gathered(scene);
     const std::vector<vec3> light = radiosity.solve({.sky = dvec3(1e6), .sky_picture = &picture}).other;
     for (size_t i = 0; i < light.size(); ++i) {
-        const vec3 want = radiosity.grid.side(radiosity.numbers[i]) == 0 ? vec3(7, 3, 13) : vec3(1, 1, 3);
+        const vec3 want = radiosity.grid.facing(radiosity.numbers[i]) == 0 ? vec3(7, 3, 13) : vec3(1, 1, 3);
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(light[i][c], want[c], 1e-5f * want[c]) << i;
     }
 }
@@ -175,7 +175,7 @@ TEST(Radiosity, LightGoesToAndFroBetweenPlates) {
         const auto light = lux(radiosity.solve({.reflections = reflections}).other);
         const auto mean = [&](uint32_t side) {
             return mean_over(radiosity, light, [&](size_t i, dvec3 middle) {
-                return radiosity.grid.side(radiosity.numbers[i]) == side && std::hypot(middle.x, middle.z) < 10;
+                return radiosity.grid.facing(radiosity.numbers[i]) == side && std::hypot(middle.x, middle.z) < 10;
             });
         };
         const double q = kReflectance * kReflectance, direct = kPi * kEmission;

@@ -49,7 +49,9 @@ TEST(SurfaceCells, AreAsSmallAsTheirNumberAllows) {
     EXPECT_EQ(size(0), 1);
     EXPECT_EQ(size(200'000), 1) << "with the 16 m^2 of the wall; at 0.7 m there would be 320,000";
     EXPECT_NEAR(size(330'000), std::numbers::sqrt2 / 2, 1e-9);
-    EXPECT_NEAR(size(20'000'000), 0.125, 1e-9) << "none smaller than the settings say";
+    scene::Scene small;
+    add_rectangle(small, add_material(small, 0.5f), {0, 0, 0}, {30, 0, 0}, {0, 0, 30});
+    EXPECT_NEAR(cells_of(small, 600'000, 20'000'000)->grid.size, 0.125, 1e-9) << "none smaller than the settings say";
     EXPECT_EQ(cells_of(terrain(), 20'000, 1'000'000)->grid.size, 1) << "a large scene has none";
     // Little surface in much space: numbers of cubes of 0.7 m do not fit, those of 1 m do.
     scene::Scene wide;

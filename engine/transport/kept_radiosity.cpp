@@ -11,7 +11,7 @@ namespace vesper::transport {
 namespace {
 
 // To be raised whenever the same scene gives other cells.
-constexpr uint64_t kRadiosityVersion = 22;
+constexpr uint64_t kRadiosityVersion = 23;
 
 void add_use(Digest& digest, const scene::TextureUse& use) {
     digest.add_value(use.image), digest.add_value(use.wrap_u), digest.add_value(use.wrap_v);

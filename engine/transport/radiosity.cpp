@@ -26,11 +26,12 @@ struct Offset {
 constexpr std::array<Offset, Radiosity::kBeside> kOffsets{
     {{-1, -1, 1}, {0, -1, 2}, {1, -1, 1}, {-1, 0, 2}, {1, 0, 2}, {-1, 1, 1}, {0, 1, 2}, {1, 1, 1}}};
 constexpr float kOwnWeight = 4;
-constexpr uint32_t kMeans = 3;       // after the first, each of the one before
-constexpr float kStep = 0.25f;       // of the illuminance: these leave out cells that differ by more
-constexpr float kOneSurface = 0.9f;  // cosine between the normals of cells that are
-constexpr double kOnePlane = 0.25;   // cubes: how far off they may be
-constexpr size_t kAtATime = 4096;    // cells
+constexpr uint32_t kMeans = 3;           // after the first, each of the one before
+constexpr uint32_t kMeansGivenBack = 5;  // of what these took away: it has all the noise
+constexpr float kStep = 0.25f;           // of the illuminance: these leave out cells that differ by more
+constexpr float kOneSurface = 0.9f;      // cosine between the normals of cells that are
+constexpr double kOnePlane = 0.25;       // cubes: how far off they may be
+constexpr size_t kAtATime = 4096;        // cells
 
 template <class Work>
 void each_of(size_t cells, const Work& work) {
@@ -167,18 +168,17 @@ std::vector<glm::vec3> Radiosity::mean_of(const std::vector<glm::vec3>& lux, std
     return means;
 }
 
-// A mean; of it others, which leave out `steps`; and of what these took away, which is given back (twicing: Tukey
-// 1977), so that peaks and valleys of the light keep their heights. Linear: where `steps` are those of other light
-// there may be a little less than 0.
+// A mean; of it others, which leave out `steps`; and more of them of what all these took away, which is given back
+// (twicing: Tukey 1977), so that peaks and valleys of the light keep their heights. Linear: where `steps` are those of
+// other light there may be a little less than 0.
 std::vector<glm::vec3> Radiosity::smoothed(const std::vector<glm::vec3>& lux) const {
-    const auto means = [&](std::vector<glm::vec3> of) {
-        for (uint32_t mean = 0; mean < kMeans; ++mean) of = mean_of(of, steps);
+    const auto means = [&](std::vector<glm::vec3> of, uint32_t count) {
+        for (uint32_t mean = 0; mean < count; ++mean) of = mean_of(of, steps);
         return of;
     };
-    const std::vector<glm::vec3> first = mean_of(lux, {});
-    std::vector<glm::vec3> result = means(first), rest(cells());
-    each_of(cells(), [&](size_t i) { rest[i] = first[i] - result[i]; });
-    rest = means(std::move(rest));
+    std::vector<glm::vec3> result = means(mean_of(lux, {}), kMeans), rest(cells());
+    each_of(cells(), [&](size_t i) { rest[i] = lux[i] - result[i]; });
+    rest = means(std::move(rest), kMeansGivenBack);
     each_of(cells(), [&](size_t i) { result[i] += rest[i]; });
     return result;
 }

@@ -2,11 +2,8 @@
 // dimmed and removed. SPDX-License-Identifier: MIT
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <numbers>
-#include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -15,54 +12,10 @@
 #include "photometry/ies.h"
 #include "places.h"
 #include "support/c_scene.h"
-#include "support/complaints.h"
 #include "support/temp_folder.h"
 
 namespace vesper::test {
 namespace {
-
-class CScene : public ::testing::Test {
-protected:
-    void SetUp() override {
-        VesperDeviceOptions options = VESPER_INIT(VesperDeviceOptions);
-        options.validation = 1, options.user = &complaints;
-        options.on_message = [](const char* message, void* user) { *static_cast<std::string*>(user) += message; };
-        expect(vesper_device_open(&options, &device, &error));
-        expect(vesper_scene_create(&scene, &error));
-        const VesperMaterial material = white();
-        expect(vesper_scene_add_material(scene, &material, &ground_material, &error));
-        const VesperMesh mesh = square(ground_material);
-        expect(vesper_scene_add_mesh(scene, &mesh, &ground_mesh, &error));
-        expect(vesper_scene_add_node(scene, "ground", ground_mesh, nullptr, &ground, &error));
-    }
-    void TearDown() override {
-        vesper_renderer_destroy(renderer), vesper_scene_destroy(scene), vesper_device_close(device);
-        EXPECT_EQ(complaints, "");
-    }
-    void expect(VesperResult result) { ASSERT_EQ(result, VESPER_OK) << error.message; }
-    uint32_t add(const VesperLamp& lamp) {
-        uint32_t node = VESPER_NONE;
-        expect(vesper_scene_add_lamp(scene, &lamp, &node, &error));
-        return node;
-    }
-    std::vector<float> render(const VesperView& view) {
-        if (!renderer) expect(vesper_renderer_create(device, scene, &renderer, &error));
-        std::vector<float> luminance(4 * kSide * kSide);
-        VesperOutputs outputs = VESPER_INIT(VesperOutputs);
-        outputs.luminance = luminance.data();
-        expect(vesper_render(renderer, nullptr, &view, 0, &outputs, &error));
-        return luminance;
-    }
-    // Illuminance on the white, matt ground below, lx.
-    float lux(float x = 0) { return render(down(x))[4 * kMiddle] * kPi; }
-
-    std::string complaints;
-    VesperDevice* device = nullptr;
-    VesperScene* scene = nullptr;
-    VesperRenderer* renderer = nullptr;
-    uint32_t ground_material = 0, ground_mesh = 0, ground = 0;
-    VesperError error;
-};
 
 // A plate between lamp and ground.
 TEST_F(CScene, LampsLightWhatTheySee) {
@@ -76,144 +29,6 @@ TEST_F(CScene, LampsLightWhatTheySee) {
     EXPECT_NEAR(light(), 1, 2e-3);
     expect(vesper_unset(renderer, "shadows", &error));
     EXPECT_EQ(light(), 0);
-}
-
-TEST_F(CScene, PixelsMayHaveSamples) {
-    add(candle());
-    VesperView view = down();
-    const std::vector<float> smooth = render(view);
-    expect(vesper_set(renderer, "samples", 1, &error));
-    EXPECT_EQ(render(view), smooth);
-    expect(vesper_set(renderer, "samples", 16, &error));
-    const std::vector<float> many = render(view);
-    EXPECT_NE(many, smooth);
-    EXPECT_NEAR(many[4 * kMiddle], smooth[4 * kMiddle], 1e-3f * smooth[4 * kMiddle]);
-    for (const double wrong : {65537.0, 0.0, 1.5})
-        EXPECT_EQ(vesper_set(renderer, "samples", wrong, &error), VESPER_BAD_ARGUMENT) << wrong;
-    EXPECT_EQ(render(view), many);
-}
-
-// A value that is set stays whatever the set, as on the command line.
-TEST_F(CScene, RenderersHaveAQuality) {
-    add(candle());
-    VesperView view = down();
-    const std::vector<float> standard = render(view);
-    EXPECT_GT(standard[4 * kMiddle], 0);
-    expect(vesper_set(renderer, "threshold", 10, &error));  // the candle gives the ground 1 lx
-    EXPECT_EQ(render(view)[4 * kMiddle], 0);
-    expect(vesper_set_quality(renderer, "exact", &error));
-    EXPECT_EQ(render(view)[4 * kMiddle], 0);
-    expect(vesper_unset(renderer, "threshold", &error));
-    EXPECT_NEAR(render(view)[4 * kMiddle], standard[4 * kMiddle], 1e-3f * standard[4 * kMiddle]);
-    EXPECT_EQ(vesper_set_quality(renderer, "best", &error), VESPER_BAD_ARGUMENT);
-    EXPECT_NE(std::string(error.message).find("fast, interactive, standard, exact"), std::string::npos)
-        << error.message;
-    expect(vesper_set_quality(renderer, "standard", &error));
-    EXPECT_EQ(render(view), standard);
-}
-
-TEST_F(CScene, SettingsAreListedSetAndReadByName) {
-    add(candle());
-    render(down());
-    ASSERT_GT(vesper_setting_count(), 10u);
-    std::set<std::string> names;
-    for (uint32_t i = 0; i < vesper_setting_count(); ++i) {
-        VesperSetting setting = VESPER_INIT(VesperSetting);
-        expect(vesper_setting_at(i, &setting, &error));
-        EXPECT_TRUE(names.insert(setting.name).second) << setting.name;
-        EXPECT_GT(std::string(setting.help).size(), 10u) << setting.name;
-        EXPECT_LT(setting.low, setting.high) << setting.name;
-        double value = -1;
-        expect(vesper_get(renderer, setting.name, &value, &error));
-        EXPECT_EQ(value, setting.standard) << setting.name;
-        expect(vesper_set(renderer, setting.name, setting.exact, &error));
-        expect(vesper_get(renderer, setting.name, &value, &error));
-        EXPECT_EQ(value, setting.exact) << setting.name;
-        EXPECT_EQ(vesper_set(renderer, setting.name, setting.low - 1, &error), VESPER_BAD_ARGUMENT) << setting.name;
-        EXPECT_NE(std::string(error.message).find(setting.name), std::string::npos) << error.message;
-    }
-    for (const char* name : {"threshold", "shadow-error", "anti-aliasing", "indirect"})
-        EXPECT_TRUE(names.contains(name));
-    EXPECT_EQ(vesper_set(renderer, "threshold", 5000, &error), VESPER_BAD_ARGUMENT);
-    EXPECT_EQ(std::string(error.message), "threshold 5000: a number from 1e-09 to 1000 lx is expected");
-    double value = 0;
-    for (const char* name : {"no-shadows", "scale", ""}) {
-        EXPECT_EQ(vesper_set(renderer, name, 1, &error), VESPER_BAD_ARGUMENT) << name;
-        EXPECT_EQ(vesper_get(renderer, name, &value, &error), VESPER_BAD_ARGUMENT) << name;
-    }
-    EXPECT_EQ(vesper_set(renderer, nullptr, 1, &error), VESPER_BAD_ARGUMENT);
-    EXPECT_EQ(vesper_set(nullptr, "samples", 1, &error), VESPER_BAD_ARGUMENT);
-    EXPECT_EQ(vesper_setting_at(vesper_setting_count(), nullptr, &error), VESPER_BAD_ARGUMENT);
-}
-
-// Shadow maps that a host keeps: a second renderer has the same light.
-TEST_F(CScene, ShadowsMayBeKept) {
-    add(candle());
-    uint32_t plate = VESPER_NONE;
-    expect(vesper_scene_add_node(scene, "plate", ground_mesh, at(0, 0.75f, 0).data(), &plate, &error));
-    const std::vector<float> without = render(down(0.4f));
-    const TempFolder folder;
-    const std::string maps = (folder / "of/maps").string();
-    for (const char* run : {"cold", "warm"}) {
-        vesper_renderer_destroy(renderer), renderer = nullptr;
-        expect(vesper_renderer_create(device, scene, &renderer, &error));
-        expect(vesper_renderer_set_cache(renderer, maps.c_str(), &error));
-        EXPECT_EQ(render(down(0.4f)), without) << run;
-        EXPECT_EQ(std::distance(std::filesystem::directory_iterator(maps), {}), 1) << run;
-    }
-    const std::string file = folder.write("file", "").string();
-    for (const std::string& bad : {file, file + "/maps"}) {
-        EXPECT_EQ(vesper_renderer_set_cache(renderer, bad.c_str(), &error), VESPER_FAILED);
-        EXPECT_NE(std::string(error.message).find(bad), std::string::npos) << error.message;
-    }
-    EXPECT_EQ(vesper_renderer_set_cache(renderer, "", &error), VESPER_BAD_ARGUMENT);
-    EXPECT_EQ(vesper_renderer_set_cache(nullptr, nullptr, &error), VESPER_BAD_ARGUMENT);
-    expect(vesper_renderer_set_cache(renderer, nullptr, &error));
-    std::filesystem::remove_all(maps);
-    expect(vesper_scene_attach(scene, plate, ground, &error));
-    EXPECT_EQ(render(down(0.4f)), without);
-    EXPECT_FALSE(std::filesystem::exists(maps));
-}
-
-// A large plate of 1 cd/m^2 hangs over the ground: pi lx by its light, 0.8 % less at its middle. 10 %: noise of
-// nine cells.
-TEST_F(CScene, EmittingSurfacesLightOnceThatIsGathered) {
-    VesperMaterial glow = white();
-    uint32_t material = VESPER_NONE, mesh = VESPER_NONE, plate = VESPER_NONE;
-    for (int i = 0; i < 3; ++i) glow.base_colour[i] = 0, glow.emission[i] = 1;
-    expect(vesper_scene_add_material(scene, &glow, &material, &error));
-    const VesperMesh shape = square(material);
-    expect(vesper_scene_add_mesh(scene, &shape, &mesh, &error));
-    const float turned[]{1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 2, 0, 1};
-    expect(vesper_scene_add_node(scene, "plate", mesh, turned, &plate, &error));
-    EXPECT_EQ(lux(), 0);
-    double share = 0;
-    const VesperProgress keep = [](double done, void* user) {
-        *static_cast<double*>(user) = done;
-        return 1;
-    };
-    const VesperProgress stop = [](double, void*) { return 0; };
-    EXPECT_EQ(vesper_renderer_gather_light(renderer, stop, nullptr, &error), VESPER_FAILED);
-    EXPECT_EQ(lux(), 0);
-    expect(vesper_renderer_gather_light(renderer, keep, &share, &error));
-    EXPECT_GT(share, 0);
-    EXPECT_NEAR(lux(), kPi, 0.1 * kPi);
-    VesperView view = down();
-    expect(vesper_set(renderer, "indirect", 0, &error));
-    EXPECT_EQ(render(view)[4 * kMiddle], 0);
-    expect(vesper_set(renderer, "indirect", 1, &error));
-    view.forward[1] = 1;
-    EXPECT_EQ(render(view)[4 * kMiddle], 1);
-    expect(vesper_renderer_dim(renderer, plate, 0.5f, &error));
-    EXPECT_EQ(render(view)[4 * kMiddle], 0.5f);
-    EXPECT_NEAR(lux(), kPi / 2, 0.05 * kPi);
-    expect(vesper_renderer_dim(renderer, plate, 0, &error));
-    EXPECT_EQ(lux(), 0);
-    expect(vesper_renderer_dim(renderer, plate, 1, &error));
-    expect(vesper_renderer_place(renderer, plate, at(0, 500, 0).data(), &error));
-    EXPECT_EQ(lux(), 0) << "what moves now gives no light";
-    add(candle());
-    EXPECT_NEAR(lux(), 1, 2e-3) << "of another scene nothing is gathered";
 }
 
 // I / d^2, and sums of it; 0.2 % is what half floats of reflectance and the size of a pixel cost.
@@ -232,23 +47,6 @@ TEST_F(CScene, LampsComeAndGo) {
     expect(vesper_renderer_dim(renderer, two, 0, &error));
     EXPECT_EQ(lux(), 0);
     EXPECT_EQ(vesper_scene_node_count(scene), 3u) << "numbers stay";
-}
-
-// A screen beside the eye: its middle is seen at 63.4 degrees from straight ahead.
-TEST_F(CScene, EdgesMayLieToOneSide) {
-    add(candle());
-    VesperView view = down();
-    const float edges[4]{1.98f, 2.02f, -0.01f, 0.01f};
-    std::copy(edges, edges + 4, view.edges);
-    EXPECT_NEAR(render(view)[4 * kMiddle] * kPi, 1 / std::pow(2.0f, 1.5f), 1e-3)
-        << "cos / d^2, 1 m from below the lamp";
-    const auto refused = [&](int edge, float value) {
-        VesperView wrong = view;
-        wrong.edges[edge] = value;
-        VesperOutputs outputs = VESPER_INIT(VesperOutputs);
-        EXPECT_EQ(vesper_render(renderer, nullptr, &wrong, 0, &outputs, &error), VESPER_BAD_ARGUMENT);
-    };
-    refused(0, 2.02f), refused(3, -0.01f), refused(1, NAN), refused(2, -INFINITY);
 }
 
 // A car: a node with a body and a lamp on it, driven 3 m to the right; the lamp is where its own place in the car's
@@ -517,39 +315,6 @@ TEST_F(CScene, RefusesWhatCannotBe) {
     view = down();
     EXPECT_EQ(vesper_render_image(renderer, nullptr, &view, 0, &image, nullptr, &error), VESPER_BAD_ARGUMENT);
     EXPECT_NE(std::string(error.message).find("host's device"), std::string::npos) << error.message;
-}
-
-// The eye of one renderer goes on in another.
-TEST_F(CScene, EyesAreKept) {
-    VesperLamp lamp = candle();
-    lamp.intensity = 1000;
-    const uint32_t node = add(lamp);
-    std::vector<uint8_t> codes(4 * kSide * kSide);
-    VesperOutputs outputs = VESPER_INIT(VesperOutputs);
-    outputs.codes = codes.data();
-    const VesperView view = down();
-    const auto show = [&](VesperRenderer* by, float seconds) {
-        expect(vesper_render(by, nullptr, &view, seconds, &outputs, &error));
-        return codes;
-    };
-    expect(vesper_renderer_create(device, scene, &renderer, &error));
-    show(renderer, 0);
-    std::vector<uint8_t> eye(vesper_eye_size());
-    expect(vesper_renderer_eye(renderer, eye.data(), &error));
-    expect(vesper_renderer_dim(renderer, node, 0.001f, &error));
-    const std::vector<uint8_t> blinded = show(renderer, 0.1f);
-    VesperRenderer* other = nullptr;
-    expect(vesper_renderer_create(device, scene, &other, &error));
-    expect(vesper_renderer_dim(other, node, 0.001f, &error));
-    const std::vector<uint8_t> rested = show(other, 0.1f);
-    expect(vesper_renderer_set_eye(other, eye.data(), eye.size(), &error));
-    EXPECT_EQ(show(other, 0.1f), blinded);
-    EXPECT_NE(rested, blinded);
-    expect(vesper_renderer_reset(other, &error));
-    EXPECT_EQ(show(other, 0.1f), rested);
-    eye[0] ^= 1;
-    EXPECT_EQ(vesper_renderer_set_eye(other, eye.data(), eye.size(), &error), VESPER_BAD_ARGUMENT);
-    vesper_renderer_destroy(other);
 }
 
 }  // namespace

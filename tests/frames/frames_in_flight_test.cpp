@@ -6,7 +6,7 @@
 #include "render/renderer.h"
 #include "support/rooms.h"
 
-namespace vesper::test {
+namespace vesper::test::frames_in_flight_test {
 namespace {
 
 constexpr VkExtent2D kExtent{61, 37};
@@ -134,4 +134,4 @@ TEST_F(FramesInFlight, SizesInTurnMakeNothing) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::frames_in_flight_test

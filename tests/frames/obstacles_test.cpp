@@ -6,7 +6,7 @@
 #include "support/rooms.h"
 #include "vision/visibility.h"
 
-namespace vesper::test {
+namespace vesper::test::obstacles_test {
 namespace {
 
 using State = render::SeenObstacle::State;
@@ -225,4 +225,4 @@ TEST_F(ObstaclesOfFrames, TheBaselineHasNoLuminances) {
 }
 
 }  // namespace
-}  // namespace vesper::test
+}  // namespace vesper::test::obstacles_test

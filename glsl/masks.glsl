@@ -12,9 +12,9 @@ float wrapped(float at, uint wrap, float size) {
 uint holes_of(SeenFacet facet, vec2 there) {
     const int header = int(max(facet.mask, 1.0) - 1.0) * int(kWordsPerMask);  // of what has no mask the first is asked, for nothing
     const vec3 a = facet.corners[0], b = facet.corners[1], c = facet.corners[2];
-    const vec2 uv_a = texel_at(vertices, int(facet.vertices.x * kTexelsPerVertex + 3u)).xy;
-    const vec2 uv_b = texel_at(vertices, int(facet.vertices.y * kTexelsPerVertex + 3u)).xy;
-    const vec2 uv_c = texel_at(vertices, int(facet.vertices.z * kTexelsPerVertex + 3u)).xy;
+    const vec2 uv_a = texel_at(vertices, int(facet.vertices.x * kTexelsPerVertex + kUvTexel)).xy;
+    const vec2 uv_b = texel_at(vertices, int(facet.vertices.y * kTexelsPerVertex + kUvTexel)).xy;
+    const vec2 uv_c = texel_at(vertices, int(facet.vertices.z * kTexelsPerVertex + kUvTexel)).xy;
     // Linear over the pixel: u and v over depth.
     const mat3 weights = mat3(cross(b, c), cross(c, a), cross(a, b)) / dot(a, cross(b, c));
     const vec3 u = weights * vec3(uv_a.x, uv_b.x, uv_c.x), v = weights * vec3(uv_a.y, uv_b.y, uv_c.y);

@@ -8,6 +8,8 @@
 namespace vesper::gpu_scene {
 namespace {
 
+constexpr uint64_t kCopies = 4;  // here, in words(), on the way to the device, and there
+
 uint32_t kind_of(scene::Wrap wrap) {
     switch (wrap) {
         case scene::Wrap::Mirror:
@@ -18,8 +20,6 @@ uint32_t kind_of(scene::Wrap wrap) {
             return shared::kMaskRepeats;
     }
 }
-
-constexpr uint64_t kCopies = 4;  // here, in words(), on the way to the device, and there
 
 uint32_t after(uint32_t i, uint32_t size, scene::Wrap wrap) {
     if (i + 1 < size) return i + 1;

@@ -14,10 +14,10 @@ uint32_t side_of(glm::dvec3 direction) {
 
 uint32_t facing_of(glm::dvec3 direction) {
     const glm::dvec3 a = kSideFactors * glm::abs(direction);
-    const int least = a.z <= a.x && a.z <= a.y ? 2
-                      : a.y <= a.x             ? 1
-                                               : 0,
-              first = (least + 1) % 3, second = (least + 2) % 3;
+    int least = 2;
+    for (const int axis : {1, 0})
+        if (a[axis] < a[least]) least = axis;
+    const int first = (least + 1) % 3, second = (least + 2) % 3;
     const auto [less, more] = std::minmax(a[first], a[second]);
     if (!(less > kBetween * more)) return side_of(direction);
     return kSides + uint32_t(4 * least + (direction[first] < 0 ? 2 : 0) + (direction[second] < 0 ? 1 : 0));

@@ -6,8 +6,8 @@
 // The mean luminance of the surfaces that fill a pixel. Which of them a point of the pixel sees is found from the facets that
 // the pixel and its neighbours see in their middles: the nearest of those that cover it; where there is none, nothing if one of
 // them sees nothing, else the closest. Its luminance is that of the middle that saw it. A facet that is narrower than a pixel,
-// or has holes of which nobody knows where they are, fills the pixel whose middle sees it and no other: of such facets only some are
-// seen, and so, in the mean over many, they keep their area.
+// or has holes at unknown places, fills the pixel whose middle sees it and no other: of such facets only some are seen, and so, in
+// the mean over many, they keep their area.
 
 #include "normal.glsl"
 #include "texels.glsl"
@@ -94,7 +94,8 @@ void main() {
         uint taken = 0u;
         [[unroll]] for (uint i = 0u; i < kPoints; ++i) {
             const vec3 p = vec3(place_of(i), 1.0);
-            const float least = fills ? filled : (holes >> i & 1u) != 0u ? -1e30 : inside(facet, p);
+            const float within = (holes >> i & 1u) != 0u ? -1e30 : inside(facet, p);
+            const float least = fills ? filled : within;
             const float depth = fills ? -1.0 / here.position.z : dot(facet.inverse_depth, p);
             const bool covers = least >= 0.0 && depth > nearest[i];
             const bool closer = nearest[i] < 0.0 && least < 0.0 && least > closest[i] && depth > 0.0;

@@ -22,7 +22,7 @@ struct Instance {
     vec4 row_y;
     vec4 row_z;
     float dimming;   // factor on its emission
-    float mask;      // number of its mask (shared/masks.h); 0: no holes; -1: holes, nobody knows where
+    float mask;      // number of its mask (shared/masks.h); 0: no holes; -1: holes at unknown places
     float placement; // 1 + number of the mesh that it is a part of
     float unused;    // so that it is kTexelsPerInstance texels of rgba32f
 };

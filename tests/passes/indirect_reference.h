@@ -75,11 +75,9 @@ public:
 
     /// `place` in cubes; `facing` 0 to 17: +x, -x, +y, -y, +z, -z, and between y and z, z and x, x and y.
     CellLight on_surfaces(dvec3 place, uint32_t facing) const {
-        const int along = facing < 6    ? int(facing / 2)
-                          : facing < 10 ? 1
-                          : facing < 14 ? 2
-                                        : 0,
-                  across = (along + 1) % 3, over = (along + 2) % 3;
+        constexpr int kAfterMissing[]{1, 2, 0};
+        const int along = facing < 6 ? int(facing / 2) : kAfterMissing[(facing - 6) / 4], across = (along + 1) % 3,
+                  over = (along + 2) % 3;
         dvec3 own = glm::floor(place) + 0.5;
         for (const Lit& cell : surfaces_[facing])
             if (cell.middle == own && cell.is_cut_off(place, along)) {

@@ -13,6 +13,7 @@
 #include "passes/shade_reference.h"
 #include "shared/gbuffer.h"
 #include "support/rooms.h"
+#include "support/scene_geometry.h"
 
 namespace vesper::test {
 
@@ -51,23 +52,17 @@ inline std::vector<LedFacet> facets_on_the_device(const scene::Scene& scene) {
 inline std::shared_ptr<const reference::Mask> mask_of(const scene::Scene& scene, uint32_t material, double longest) {
     const scene::Material& m = scene.materials[material];
     if (m.alpha != scene::Material::Alpha::Mask || m.base_colour_texture.image == scene::kNone) return nullptr;
-    const Image& image = scene.images[m.base_colour_texture.image];
+    const reference::Texture whole = *texture_of(scene, m.base_colour_texture, nullptr);
     const auto cutoff = float(m.alpha_cutoff * (1 - 0x1p-11f) / m.base_colour.a);
-    gpu_scene::Level base{image.width, image.height, {}};
-    for (const uint8_t code : image.rgba) base.rgba.push_back(float(code) / 255);
+    gpu_scene::Level base{whole.width, whole.height, {}};
+    for (const glm::dvec4& texel : whole.texels)
+        for (int c = 0; c < 4; ++c) base.rgba.push_back(float(texel[c]));
     auto mask = std::make_shared<reference::Mask>();
     mask->cutoff = double(cutoff), mask->nearest = m.base_colour_texture.nearest, mask->longest = longest;
     for (const gpu_scene::Level& level : gpu_scene::masked_levels(base, cutoff)) {
-        reference::Texture& texture = mask->levels.emplace_back();
-        texture.width = level.width, texture.height = level.height;
+        reference::Texture& texture = mask->levels.emplace_back(whole);
+        texture.width = level.width, texture.height = level.height, texture.texels.clear();
         for (size_t i = 0; i < level.rgba.size(); i += 4) texture.texels.emplace_back(1, 1, 1, level.rgba[i + 3]);
-        const auto wrapping = [](scene::Wrap wrap) {
-            return wrap == scene::Wrap::Repeat   ? reference::Wrapping::Repeat
-                   : wrap == scene::Wrap::Mirror ? reference::Wrapping::Mirror
-                                                 : reference::Wrapping::Clamp;
-        };
-        texture.wrap_u = wrapping(m.base_colour_texture.wrap_u),
-        texture.wrap_v = wrapping(m.base_colour_texture.wrap_v);
     }
     return mask;
 }

@@ -182,7 +182,8 @@ void record_batches(const graph::Recording& recording, const GpuScene& scene, co
 }
 
 static_assert(sizeof(scene::Vertex) == shared::kTexelsPerVertex * sizeof(glm::vec2) &&
-              offsetof(scene::Vertex, position) == 0);
+              offsetof(scene::Vertex, position) == 0 &&
+              offsetof(scene::Vertex, uv) == shared::kUvTexel * sizeof(glm::vec2));
 
 }  // namespace
 

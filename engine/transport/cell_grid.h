@@ -16,7 +16,7 @@ constexpr glm::dvec3 kSideFactors{1.0002, 1.0001, 1};
 /// The one that a direction goes to most.
 uint32_t side_of(glm::dvec3 direction);
 
-/// What surfaces face: the six sides, then the twelve ways between two of them, so that surfaces at right angles never
+/// Facings of surfaces: the six sides, then the twelve ways between two of them, so that surfaces at right angles never
 /// face the same. Of those without x first, then those without y, then those without z: by the signs of the two axes
 /// after the missing one, ++, +-, -+, --.
 constexpr uint32_t kFacings = 18;

@@ -1,4 +1,4 @@
-// What pixels see. Wants `triangles`, `surface_image`, `facets` and `push` of EdgesPush.
+// Surfaces seen by pixels. Wants `triangles`, `surface_image`, `facets` and `push` of EdgesPush.
 
 #include "neighbours.glsl"
 

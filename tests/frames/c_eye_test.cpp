@@ -1,4 +1,4 @@
-// What an eye remembers through the C interface. SPDX-License-Identifier: MIT
+// The memory of an eye through the C interface. SPDX-License-Identifier: MIT
 #include <cmath>
 #include <cstring>
 #include <limits>

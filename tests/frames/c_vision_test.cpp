@@ -18,6 +18,7 @@
 #include "analysis/saliency_mapper.h"
 #include "analysis/visible_differences.h"
 #include "render/retina.h"
+#include "support/c_device.h"
 #include "vision/visibility.h"
 
 namespace vesper::test {
@@ -27,31 +28,24 @@ constexpr uint32_t kWidth = 61, kHeight = 47;
 constexpr float kFov = 0.03f;  // rad
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInfinity = std::numeric_limits<float>::infinity();
 
-class CVision : public ::testing::Test {
+class CVision : public CDevice {
 protected:
     void SetUp() override {
-        VesperDeviceOptions options = VESPER_INIT(VesperDeviceOptions);
-        options.validation = 1, options.user = &complaints;
-        options.on_message = [](const char* message, void* to) { *static_cast<std::string*>(to) += message; };
-        ASSERT_EQ(vesper_device_open(&options, &device, &error), VESPER_OK) << error.message;
+        ASSERT_NO_FATAL_FAILURE(CDevice::SetUp());
         ASSERT_EQ(vesper_vision_create(device, &vision, &error), VESPER_OK) << error.message;
         differences.size = sizeof differences;
     }
     void TearDown() override {
         vesper_vision_destroy(vision);
-        vesper_device_close(device);
-        EXPECT_EQ(complaints, "");
+        CDevice::TearDown();
     }
     VesperResult compare(const VesperPicture& first, const VesperPicture& second,
                          const VesperObserver* observer = nullptr) {
         return vesper_visible_differences(vision, observer, &first, &second, map.data(), &differences, &error);
     }
-    std::string complaints;
-    VesperDevice* device = nullptr;
     VesperVision* vision = nullptr;
     VesperDifferences differences{};
     std::vector<float> map = std::vector<float>(kWidth * kHeight, -1);
-    VesperError error;
 };
 
 VesperPicture described(const std::vector<float>& rgb, uint32_t width = kWidth, uint32_t height = kHeight) {

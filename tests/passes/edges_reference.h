@@ -220,7 +220,7 @@ inline EdgeMean edge_mean(const SeenPicture& picture, ivec2 p) {
             const Passing passing = fills ? Passing{1, -1 / facet.position.z} : pass(facet.corners, ray, picture.scale);
             if (!fills && facet.masked) {
                 const Opening opening = open(facet, picture, dvec2(q) + 0.5, dvec2(p) + 0.5 + way);
-                // In steps of 1/255, of which two may be off by half.
+                // In steps of 1/255; two of them may be off by half.
                 if (opening.doubt < 0.005) mean.doubt = 0;
                 if (opening.is_hole) continue;
             }

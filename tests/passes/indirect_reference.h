@@ -155,8 +155,8 @@ inline dvec3 illuminance_on(const CellList& cells, dvec3 place, dvec3 normal, ui
     return found.weight > 0 ? found.light / found.weight : cells.open(normal);
 }
 
-/// What a normal is nearest to, of the six sides and of the twelve ways between two of them, but for `rounding` of its
-/// components; the first is the one. A component along x counts 0.02 % more than it is, along y 0.01 %, and a way
+/// The facings nearest to a normal, among the six sides and the twelve ways between two of them, but for `rounding` of
+/// its components; the first is the one. A component along x counts 0.02 % more than it is, along y 0.01 %, and a way
 /// between two sides begins where the smaller component is 0.414 of the larger one.
 inline std::vector<uint32_t> facings_of(dvec3 normal, double rounding = 0) {
     const dvec3 counted = glm::abs(normal) * dvec3(1.0002, 1.0001, 1);

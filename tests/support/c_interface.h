@@ -2,32 +2,15 @@
 #pragma once
 
 #include <cmath>
-#include <string>
 #include <vector>
 
-#include <gtest/gtest.h>
 #include <vesper/vesper.h>
+
+#include "support/c_device.h"
 
 namespace vesper::test {
 
-// The messages of the validation layer, together.
-inline void collect(const char* message, void* user) { *static_cast<std::string*>(user) += message; }
-
-class CInterface : public ::testing::Test {
-protected:
-    void SetUp() override {
-        VesperDeviceOptions options = VESPER_INIT(VesperDeviceOptions);
-        options.validation = 1, options.on_message = collect, options.user = &complaints;
-        ASSERT_EQ(vesper_device_open(&options, &device, &error), VESPER_OK) << error.message;
-    }
-    void TearDown() override {
-        vesper_device_close(device);
-        EXPECT_EQ(complaints, "");
-    }
-    std::string complaints;
-    VesperDevice* device = nullptr;
-    VesperError error;
-};
+class CInterface : public CDevice {};
 
 inline std::vector<float> night_values(uint32_t width, uint32_t height) {
     std::vector<float> rgb;

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <numbers>
-#include <string>
 #include <vector>
 
-#include <gtest/gtest.h>
 #include <vesper/vulkan.h>
+
+#include "support/c_device.h"
 
 namespace vesper::test {
 
@@ -47,13 +47,10 @@ inline VesperView down(float x = 0) {
 inline std::vector<float> at(float x, float y, float z) { return {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1}; }
 
 // A scene of that, with a renderer when something is drawn.
-class CScene : public ::testing::Test {
+class CScene : public CDevice {
 protected:
     void SetUp() override {
-        VesperDeviceOptions options = VESPER_INIT(VesperDeviceOptions);
-        options.validation = 1, options.user = &complaints;
-        options.on_message = [](const char* message, void* user) { *static_cast<std::string*>(user) += message; };
-        expect(vesper_device_open(&options, &device, &error));
+        ASSERT_NO_FATAL_FAILURE(CDevice::SetUp());
         expect(vesper_scene_create(&scene, &error));
         const VesperMaterial material = white();
         expect(vesper_scene_add_material(scene, &material, &ground_material, &error));
@@ -62,8 +59,8 @@ protected:
         expect(vesper_scene_add_node(scene, "ground", ground_mesh, nullptr, &ground, &error));
     }
     void TearDown() override {
-        vesper_renderer_destroy(renderer), vesper_scene_destroy(scene), vesper_device_close(device);
-        EXPECT_EQ(complaints, "");
+        vesper_renderer_destroy(renderer), vesper_scene_destroy(scene);
+        CDevice::TearDown();
     }
     void expect(VesperResult result) { ASSERT_EQ(result, VESPER_OK) << error.message; }
     uint32_t add(const VesperLamp& lamp) {
@@ -82,12 +79,9 @@ protected:
     // Illuminance on the white, matt ground below, lx.
     float lux(float x = 0) { return render(down(x))[4 * kMiddle] * kPi; }
 
-    std::string complaints;
-    VesperDevice* device = nullptr;
     VesperScene* scene = nullptr;
     VesperRenderer* renderer = nullptr;
     uint32_t ground_material = 0, ground_mesh = 0, ground = 0;
-    VesperError error;
 };
 
 }  // namespace vesper::test

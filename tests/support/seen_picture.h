@@ -17,7 +17,7 @@
 
 namespace vesper::test {
 
-/// What a vertex of the device leads, in its mesh's frame.
+/// The facet that a vertex of the device leads, in its mesh's frame.
 struct LedFacet {
     std::vector<glm::dvec3> corners;
     std::vector<glm::dvec2> uv;

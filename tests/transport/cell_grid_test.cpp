@@ -53,7 +53,7 @@ TEST(CellGrid, ADirectionFacesWhatIsNearest) {
         EXPECT_NE(direction[transport::axis_of(facing)], 0);
     }
     EXPECT_EQ(transport::direction_of(6 + 4 * 2 + 1), dvec3(1, -1, 0) * std::sqrt(0.5)) << "+x and -y";
-    // What goes to several alike: the first, whatever rounding does.
+    // Directions as near to several go to the first, whatever rounding does.
     for (const double less : {1.0, 1 - 1e-6, 1 + 1e-6}) {
         EXPECT_EQ(transport::facing_of({1, 1, less}), 6u + 4 * 2);
         EXPECT_EQ(transport::facing_of({1, 0, less * std::tan(std::numbers::pi / 8)}), 6u + 4);

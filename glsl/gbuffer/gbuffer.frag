@@ -31,6 +31,10 @@ layout(location = 3) out uvec2 out_triangle;
 // The nearest halves: a device may cut off instead when it writes them, which takes 0.03 % of every reflectance.
 vec3 halves(vec3 v) { return vec3(unpackHalf2x16(packHalf2x16(v.rg)), unpackHalf2x16(packHalf2x16(v.bb)).x); }
 
+// mix(), with the bits of `low` and `high` at 0 and 1: devices may have low + (high - low) * t, which takes from a dark texel
+// beside a lamp what rounding of the lamp's luminance leaves.
+vec4 between(vec4 low, vec4 high, float t) { return low * (1.0 - t) + high * t; }
+
 // Of texels larger than a pixel the mean over a box about as wide as the pixel: borders between them are no stairs.
 vec4 texture_at(sampler2D image, uint number) {
     if ((kNearest >> number & 1u) == 0u) return texture(image, texture_uv);
@@ -40,10 +44,10 @@ vec4 texture_at(sampler2D image, uint number) {
     const vec2 border = round(place), share = clamp(258.0 / 256.0 * (place - border) / max(width, 1e-6) + 0.5, 0.0, 1.0);
     const vec2 beyond = mix(share, step(border, place), lessThan(width, vec2(1e-4)));
     const vec2 low = (border - 0.5) / size, high = (border + 0.5) / size;
-    const vec4 above = mix(textureLod(image, low, 0.0), textureLod(image, vec2(high.x, low.y), 0.0), beyond.x);
-    const vec4 below = mix(textureLod(image, vec2(low.x, high.y), 0.0), textureLod(image, high, 0.0), beyond.x);
+    const vec4 above = between(textureLod(image, low, 0.0), textureLod(image, vec2(high.x, low.y), 0.0), beyond.x);
+    const vec4 below = between(textureLod(image, vec2(low.x, high.y), 0.0), textureLod(image, high, 0.0), beyond.x);
     const vec4 farther = texture(image, texture_uv);
-    return all(lessThan(width, vec2(1.0))) ? mix(above, below, beyond.y) : farther;
+    return all(lessThan(width, vec2(1.0))) ? between(above, below, beyond.y) : farther;
 }
 
 void main() {

@@ -95,20 +95,35 @@ mat2 texels_per_pixel(FetchedMap map, vec3 from, vec3 position, vec3 normal, vec
     return texels_along(map, q, x, y);
 }
 
-// Share of the lamp that a pixel sees, 0 to 1, in fifteenths. An edge is where half of the weight of the four nearest texels sees
-// the lamp, and the pixel gets what lies on the lit side of it. `per_pixel`: as texels_per_pixel().
+// The share of a pixel on the lit side of an edge. `distance`: of its middle from the edge, to the lit side, texels; `change`: of
+// that with a step of a pixel. Edges whose width is not finite are sharp, and places that are not see nothing.
+float edge_share(float distance, float change) {
+    const float width = change > 1e-3 ? min(change, 1.0) : 1e-3;
+    return distance >= -1e3 ? clamp(0.5 + distance / width, 0.0, 1.0) : 0.0;
+}
+
+// Whether the four texels nearest to a point see the lamp, 0 or 1.
+struct FourTexels {
+    vec2 low, high;  // rows
+};
+
+FourTexels four_texels(FetchedMap map, MapPoint p) {
+    const ivec2 corner = ivec2(floor(p.texel - 0.5));
+    return FourTexels(vec2(sees(map, p, corner) ? 1.0 : 0.0, sees(map, p, corner + ivec2(1, 0)) ? 1.0 : 0.0),
+                      vec2(sees(map, p, corner + ivec2(0, 1)) ? 1.0 : 0.0, sees(map, p, corner + ivec2(1, 1)) ? 1.0 : 0.0));
+}
+
+// An edge is where half of their weight sees the lamp, and the pixel gets what lies on the lit side of it.
+float share_of(FourTexels four, MapPoint p, mat2 per_pixel) {
+    const vec2 share = fract(p.texel - 0.5);
+    const vec2 column = mix(four.low, four.high, share.y), row = mix(vec2(four.low.x, four.high.x), vec2(four.low.y, four.high.y), share.x);
+    return edge_share(mix(column.x, column.y, share.x) - 0.5, length(vec2(column.y - column.x, row.y - row.x) * per_pixel));
+}
+
+// Share of the lamp that a pixel sees, 0 to 1, in fifteenths. `per_pixel`: as texels_per_pixel().
 float visibility(FetchedMap map, vec3 from, vec3 normal, mat2 per_pixel) {
     const MapPoint p = map_point(map, from, normal);
-    const vec2 at = p.texel - 0.5, share = fract(at);
-    const ivec2 corner = ivec2(floor(at));
-    const vec2 low = vec2(sees(map, p, corner) ? 1.0 : 0.0, sees(map, p, corner + ivec2(1, 0)) ? 1.0 : 0.0);
-    const vec2 high = vec2(sees(map, p, corner + ivec2(0, 1)) ? 1.0 : 0.0, sees(map, p, corner + ivec2(1, 1)) ? 1.0 : 0.0);
-    const vec2 column = mix(low, high, share.y), row = mix(vec2(low.x, high.x), vec2(low.y, high.y), share.x);
-    const float lit = mix(column.x, column.y, share.x);
-    // Surfaces that are not finite see nothing, and edges whose width is not finite are sharp.
-    const float change = length(vec2(column.y - column.x, row.y - row.x) * per_pixel), width = change > 1e-3 ? min(change, 1.0) : 1e-3;
-    const float seen = lit >= 0.0 ? clamp(0.5 + (lit - 0.5) / width, 0.0, 1.0) : 0.0;
-    return p.inside ? floor(15.0 * seen + 0.5) / 15.0 : 1.0;
+    return p.inside ? floor(15.0 * share_of(four_texels(map, p), p, per_pixel) + 0.5) / 15.0 : 1.0;
 }
 
 // The same by one texel. `way`: 1, or less where something stops the light: how much of the way it gets.

@@ -36,9 +36,10 @@ layout(push_constant, scalar) uniform Push { VisibilityPush push; };
 #include "lamp.glsl"
 #include "lanes.glsl"
 #include "shadows/lookup.glsl"
+#include "shadows/edge_lines.glsl"
 
 const float kMostSheen = 8.0;  // what a sheen or a wide lobe has, at most, in place of a cosine
-const uint kProbes = 16u, kFirstProbes = 4u;
+const uint kProbes = 16u, kFirstProbes = 4u, kMiddleProbe = 13u;
 const float kMostTilt = 1e-3, kMostLift = 1e-3;  // of a plane's pixels: rad; and of their distance from the eye
 // Of the radius of a lamp: how far aside probes look up, and so the widest radius of a penumbra. It is that of what stops the
 // light after a quarter of the way.
@@ -60,6 +61,7 @@ shared float way[kBlockCapacity];        // what Sight::ways holds
 shared uint chosen[kBlockCapacity];      // places on the list of lamps that all probes, and then all pixels, look up
 shared float widths[kSharePlaces];       // of the penumbrae of those that are looked up
 shared uint counted[kBlockSize];         // by columns: see look_up_penumbra()
+shared uint coarse[kSharePlaces];        // as chosen: those with hard edges and wide texels
 
 void read_block(uvec2 corner) {
     const uint column = gl_LocalInvocationID.x;
@@ -187,6 +189,14 @@ float penumbra(FetchedMap map, vec3 lamp, float stops) {
     return width > max(pixel_size, 2.0 * map.bias * away) ? width : 0.0;
 }
 
+// Whether the block is a plane, where texels of a lamp's map are wider than two pixels, and a window holds those of all its pixels.
+bool has_wide_texels(FetchedMap map, vec3 lamp) {
+    const vec3 middle = probe_position[kMiddleProbe];
+    const mat2 per_pixel = texels_per_pixel(map, middle - lamp, middle, probe_normal[kMiddleProbe], push.grid.ray_scale);
+    const float right = length(per_pixel[0]), down = length(per_pixel[1]);
+    return plane && probe_drawn[kMiddleProbe] && min(right, down) < 0.5 && right + down < 1.6;
+}
+
 // Shares of a lamp with hard edges that the pixels of the column see, four bits each.
 uint look_up_edges(uint index) {
     const FetchedMap map = fetch_map(index);
@@ -197,6 +207,21 @@ uint look_up_edges(uint index) {
     uint word = 0u;
     [[unroll]] for (uint r = 0u; r < kBlockSize; ++r)
         word |= uint(visibility(map, position[r] - lamp, normal[r], per_pixel) * 15.0 + 0.5) << 4u * r;
+    return word;
+}
+
+// The same where texels are wide, see has_wide_texels().
+uint look_up_lines(uint index) {
+    const FetchedMap map = fetch_map(index);
+    const vec3 lamp = texel_at(lamps, int(index * kTexelsPerLamp)).xyz;
+    const MapPoint middle = map_point(map, probe_position[kMiddleProbe] - lamp, probe_normal[kMiddleProbe]);
+    const ivec2 first = ivec2(clamp(middle.texel, -1e4, 1e4)) - kWindow / 2;
+    fill_window(map, middle, first);
+    const uint half_way = kBlockSize / 2u;
+    const mat2 per_pixel = texels_per_pixel(map, position[half_way] - lamp, position[half_way], normal[half_way], push.grid.ray_scale);
+    uint word = 0u;
+    [[unroll]] for (uint r = 0u; r < kBlockSize; ++r)
+        word |= uint(visibility_by_lines(map, position[r] - lamp, normal[r], per_pixel, first) * 15.0 + 0.5) << 4u * r;
     return word;
 }
 
@@ -326,23 +351,29 @@ uvec4 see(uint x, uint y) {
         limit *= 2.0;  // for the next time
     } while (open > kSharePlaces);
     lanes_wait();
-    // These, one after another: first, from the front of `chosen`, those with hard edges; then, from its end, the others.
-    uint hard = 0u, soft = 0u;
+    // These, one after another: first, from the front of `chosen`, those with hard edges; then, from its end, those with
+    // penumbrae; then those in `coarse`.
+    uint hard = 0u, soft = 0u, wide = 0u;
     c = 0u;
     if (open != 0u) do {
         const bool there = c + lane < open;
         const uint i = there ? chosen[c + lane] : 0u;
         const Sight s = unpack(found[i], way[i]);
         const uint index = lamp_of(listed[i]);
-        const float width = penumbra(fetch_map(index), texel_at(lamps, int(index * kTexelsPerLamp)).xyz,
-                                     s.facing > s.seen ? s.ways / float(s.facing - s.seen) : 1.0);
-        const uint those = lanes_mask(there && width == 0.0), others = lanes_mask(there && width > 0.0);
+        const FetchedMap map = fetch_map(index);
+        const vec3 lamp = texel_at(lamps, int(index * kTexelsPerLamp)).xyz;
+        const float width = penumbra(map, lamp, s.facing > s.seen ? s.ways / float(s.facing - s.seen) : 1.0);
+        const bool lines = width == 0.0 && has_wide_texels(map, lamp);
+        const uint those = lanes_mask(there && width == 0.0 && !lines), others = lanes_mask(there && width > 0.0);
+        const uint of_lines = lanes_mask(there && lines);
         lanes_wait();
-        if (there) {
+        if (there && lines) coarse[wide + bitCount(of_lines & before)] = i;
+        if (there && !lines) {
             const uint at = width > 0.0 ? soft + bitCount(others & before) : hard + bitCount(those & before);
             if (width > 0.0) widths[at] = width;
             chosen[width > 0.0 ? kBlockCapacity - 1u - at : at] = i;
         }
+        wide += bitCount(of_lines);
         hard += bitCount(those);
         soft += bitCount(others);
         c += kBlockSize;
@@ -362,6 +393,12 @@ uvec4 see(uint x, uint y) {
         mixed = leave(i, index, look_up_penumbra(index, widths[c]), places, mixed);
         ++c;
     } while (c < soft);
+    c = 0u;
+    if (wide != 0u) do {
+        const uint i = coarse[c], index = lamp_of(listed[i]);
+        mixed = leave(i, index, look_up_lines(index), places, mixed);
+        ++c;
+    } while (c < wide);
     lanes_wait();
 
     uint lit = 0u, dark = 0u, kept_cones = 0u, kept_others = 0u;

@@ -11,3 +11,11 @@ vec3 decode_normal(vec2 p) {
     const vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
     return normalize(vec3(z < 0.0 ? folded : p, z));
 }
+
+// The normal of the plane of a triangle, towards the eye, by GBuffer::slope. `ray`: through the pixel, z is -1; `ray_scale`: how it
+// changes with a step of a pixel. Where the interpolated normal is as near as rounding may be, or there is no slope, that one.
+vec3 plane_normal(uint slope, vec3 ray, vec2 ray_scale, vec3 interpolated) {
+    const vec2 tilt = unpackHalf2x16(slope) / ray_scale;
+    const vec3 n = normalize(vec3(-tilt, 1.0 - dot(tilt, ray.xy)));
+    return distance(n, interpolated) > 0.01 ? n : interpolated;
+}

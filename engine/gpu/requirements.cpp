@@ -36,7 +36,8 @@ constexpr VkStructureType k12 = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEA
 
 // Of a shader stage: shade.comp takes 15 storage buffers where its texels are in them, cull_triangles.comp 7 where they
 // are not; acuity.comp takes 8 images. Histograms are made by workgroups of a thread for each bin.
-constexpr uint32_t kStorageBuffers = 16, kFewStorageBuffers = 7, kStorageImages = 8, kInvocations = 256;
+constexpr uint32_t kStorageBuffers = 16, kFewStorageBuffers = 7, kStorageImages = 8, kColourTargets = 5,
+                   kInvocations = 256;
 
 constexpr Feature kFeatures[] = {
     {"independentBlend", {kIndependentBlend, kIndependentBlend}},
@@ -140,6 +141,8 @@ std::string missing_support(VkPhysicalDevice device) {
                         std::to_string(kStorageBuffers) + " storage buffers per shader stage");
     if (limits.maxPerStageDescriptorStorageImages < kStorageImages)
         list(names, std::to_string(kStorageImages) + " storage images per shader stage");
+    if (limits.maxColorAttachments < kColourTargets || limits.maxFragmentOutputAttachments < kColourTargets)
+        list(names, std::to_string(kColourTargets) + " colour attachments");
     if (limits.maxComputeWorkGroupInvocations < kInvocations || limits.maxComputeWorkGroupSize[0] < kInvocations)
         list(names, "workgroups of " + std::to_string(kInvocations) + " invocations");
     uint32_t families = 0;

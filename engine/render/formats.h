@@ -9,6 +9,7 @@ constexpr VkFormat kReflectanceFormat = VK_FORMAT_R16G16B16A16_SFLOAT;  ///< bas
 constexpr VkFormat kSurfaceFormat = VK_FORMAT_R32G32B32A32_SFLOAT;      ///< normal (2), depth (m), roughness
 constexpr VkFormat kEmissionFormat = VK_FORMAT_R32G32B32A32_SFLOAT;     ///< cd/m^2 RGB
 constexpr VkFormat kTriangleFormat = VK_FORMAT_R32G32_UINT;             ///< see GBuffer::triangle
+constexpr VkFormat kSlopeFormat = VK_FORMAT_R32_UINT;                   ///< see GBuffer::slope
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr VkFormat kSceneFormat = VK_FORMAT_R32G32B32A32_SFLOAT;         ///< 1e-4 to 1e8 cd/m^2 in one frame
 constexpr VkFormat kBloomFormat = VK_FORMAT_R16G16B16A16_SFLOAT;         ///< displayed light, relative

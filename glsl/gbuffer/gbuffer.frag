@@ -27,6 +27,7 @@ layout(location = 0) out vec4 out_reflectance;
 layout(location = 1) out vec4 out_surface;
 layout(location = 2) out vec4 out_emission;
 layout(location = 3) out uvec2 out_triangle;
+layout(location = 4) out uint out_slope;
 
 // The nearest halves: a device may cut off instead when it writes them, which takes 0.03 % of every reflectance.
 vec3 halves(vec3 v) { return vec3(unpackHalf2x16(packHalf2x16(v.rg)), unpackHalf2x16(packHalf2x16(v.bb)).x); }
@@ -68,4 +69,5 @@ void main() {
     out_surface = vec4(encode_normal(normal), 1.0 / gl_FragCoord.w, m.y);
     out_emission = vec4(emission, 1.0);
     out_triangle = triangle;
+    out_slope = packHalf2x16(vec2(dFdx(gl_FragCoord.w), dFdy(gl_FragCoord.w)) / gl_FragCoord.w);
 }

@@ -31,6 +31,7 @@ HALVES(5, distances);
 TEXELS(6, vec4, tables);
 writeonly WRITTEN_TEXELS(7, uint, shares);
 layout(binding = 8, scalar) buffer Report { uint report[]; };
+layout(binding = 9, r32ui) readonly uniform uimage2D slope_image;
 layout(push_constant, scalar) uniform Push { VisibilityPush push; };
 
 #include "lamp.glsl"
@@ -46,12 +47,13 @@ const float kMostTilt = 1e-3, kMostLift = 1e-3;  // of a plane's pixels: rad; an
 const float kWidest = 3.0;
 
 vec3 position[kBlockSize], normal[kBlockSize];  // of the column
+vec3 facet_normal[kBlockSize];  // of the planes of its triangles, which maps are compared with
 bool drawn[kBlockSize];
 bool plane;          // all of the block's surfaces are one
 bool filled;         // something is drawn at each of its pixels
 bool shiny;          // of the block: whether some surface with a specular lobe or road with a table is drawn
 float pixel_size;    // m across the way from the eye, where the block is nearest
-vec3 probe_position[kProbes], probe_normal[kProbes];  // two in each column and row, and in the corners
+vec3 probe_position[kProbes], probe_normal[kProbes], probe_facet[kProbes];  // two in each column and row, and in the corners
 bool probe_drawn[kProbes];
 // Of lamps.
 shared uint listed[kBlockCapacity];      // their entries
@@ -69,10 +71,13 @@ void read_block(uvec2 corner) {
     float nearest = 1e30;
     [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
         const uvec2 pixel = corner + uvec2(column, r);
-        const vec4 surface = imageLoad(surface_image, ivec2(min(pixel, push.size - 1u)));
+        const ivec2 at = ivec2(min(pixel, push.size - 1u));
+        const vec4 surface = imageLoad(surface_image, at);
+        const vec3 ray = pixel_ray(push.grid, vec2(pixel));
         drawn[r] = surface.z > 0.0 && all(lessThan(pixel, push.size));
-        position[r] = pixel_ray(push.grid, vec2(pixel)) * surface.z;
+        position[r] = ray * surface.z;
         normal[r] = decode_normal(surface.xy);
+        facet_normal[r] = plane_normal(imageLoad(slope_image, at).r, ray, push.grid.ray_scale, normal[r]);
         shines = shines || (drawn[r] && surface.w < 1.0);
         all_drawn = all_drawn && drawn[r];
         nearest = drawn[r] ? min(nearest, surface.z) : nearest;
@@ -82,10 +87,13 @@ void read_block(uvec2 corner) {
     const uint columns[2] = uint[](0x66215152u, 0x44337700u), rows[2] = uint[](0x14636521u, 0x35427070u);
     [[unroll]] for (uint k = 0u; k < kProbes; ++k) {
         const uvec2 pixel = corner + (uvec2(columns[k / 8u], rows[k / 8u]) >> 4u * (k % 8u) & 7u);
-        const vec4 surface = imageLoad(surface_image, ivec2(min(pixel, push.size - 1u)));
+        const ivec2 at = ivec2(min(pixel, push.size - 1u));
+        const vec4 surface = imageLoad(surface_image, at);
+        const vec3 ray = pixel_ray(push.grid, vec2(pixel));
         probe_drawn[k] = surface.z > 0.0 && all(lessThan(pixel, push.size));
-        probe_position[k] = pixel_ray(push.grid, vec2(pixel)) * surface.z;
+        probe_position[k] = ray * surface.z;
         probe_normal[k] = decode_normal(surface.xy);
+        probe_facet[k] = plane_normal(imageLoad(slope_image, at).r, ray, push.grid.ray_scale, probe_normal[k]);
     }
     bool same = probe_drawn[0];
     [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
@@ -112,6 +120,9 @@ struct Sight {
     float ways;         // sum over those that do not see it, see glances()
 };
 
+// The normal of the plane that a map is compared with: of a triangle, or, where that faces away from the lamp, the interpolated one.
+vec3 compared(vec3 facet, vec3 interpolated, vec3 to_lamp) { return dot(facet, to_lamp) > 0.0 ? facet : interpolated; }
+
 uint pack(Sight s) { return uint(s.cosine * 255.0) << 16u | s.facing << 8u | s.seen; }  // but for the ways
 Sight unpack(uint packed, float ways) { return Sight(packed >> 8u & 0xffu, packed & 0xffu, float(packed >> 16u) / 255.0, ways); }
 // Sight of the block, by its probes.
@@ -127,7 +138,7 @@ float probe_from(uint k, vec3 beside, FetchedMap map, vec3 lamp, inout Sight s, 
     const float cosine = dot(probe_normal[k], to) * inverse;
     const bool faces = probe_drawn[k] && cosine > 0.0;
     float way_here;
-    const bool sees_it = glances(map, beside - to, probe_normal[k], way_here) && faces;
+    const bool sees_it = glances(map, beside - to, compared(probe_facet[k], probe_normal[k], to), way_here) && faces;
     s.facing += faces ? 1u : 0u;
     s.seen += sees_it ? 1u : 0u;
     s.ways += faces && !sees_it ? way_here : 0.0;
@@ -192,7 +203,7 @@ float penumbra(FetchedMap map, vec3 lamp, float stops) {
 // Whether the block is a plane, where texels of a lamp's map are wider than two pixels, and a window holds those of all its pixels.
 bool has_wide_texels(FetchedMap map, vec3 lamp) {
     const vec3 middle = probe_position[kMiddleProbe];
-    const mat2 per_pixel = texels_per_pixel(map, middle - lamp, middle, probe_normal[kMiddleProbe], push.grid.ray_scale);
+    const mat2 per_pixel = texels_per_pixel(map, middle - lamp, middle, probe_facet[kMiddleProbe], push.grid.ray_scale);
     const float right = length(per_pixel[0]), down = length(per_pixel[1]);
     return plane && probe_drawn[kMiddleProbe] && min(right, down) < 0.5 && right + down < 1.6;
 }
@@ -203,10 +214,10 @@ uint look_up_edges(uint index) {
     const vec3 lamp = texel_at(lamps, int(index * kTexelsPerLamp)).xyz;
     // Within a column about the same.
     const uint middle = kBlockSize / 2u;
-    const mat2 per_pixel = texels_per_pixel(map, position[middle] - lamp, position[middle], normal[middle], push.grid.ray_scale);
+    const mat2 per_pixel = texels_per_pixel(map, position[middle] - lamp, position[middle], facet_normal[middle], push.grid.ray_scale);
     uint word = 0u;
     [[unroll]] for (uint r = 0u; r < kBlockSize; ++r)
-        word |= uint(visibility(map, position[r] - lamp, normal[r], per_pixel) * 15.0 + 0.5) << 4u * r;
+        word |= uint(visibility(map, position[r] - lamp, compared(facet_normal[r], normal[r], lamp - position[r]), per_pixel) * 15.0 + 0.5) << 4u * r;
     return word;
 }
 
@@ -214,14 +225,14 @@ uint look_up_edges(uint index) {
 uint look_up_lines(uint index) {
     const FetchedMap map = fetch_map(index);
     const vec3 lamp = texel_at(lamps, int(index * kTexelsPerLamp)).xyz;
-    const MapPoint middle = map_point(map, probe_position[kMiddleProbe] - lamp, probe_normal[kMiddleProbe]);
+    const MapPoint middle = map_point(map, probe_position[kMiddleProbe] - lamp, probe_facet[kMiddleProbe]);
     const ivec2 first = ivec2(clamp(middle.texel, -1e4, 1e4)) - kWindow / 2;
     fill_window(map, middle, first);
     const uint half_way = kBlockSize / 2u;
-    const mat2 per_pixel = texels_per_pixel(map, position[half_way] - lamp, position[half_way], normal[half_way], push.grid.ray_scale);
+    const mat2 per_pixel = texels_per_pixel(map, position[half_way] - lamp, position[half_way], facet_normal[half_way], push.grid.ray_scale);
     uint word = 0u;
     [[unroll]] for (uint r = 0u; r < kBlockSize; ++r)
-        word |= uint(visibility_by_lines(map, position[r] - lamp, normal[r], per_pixel, first) * 15.0 + 0.5) << 4u * r;
+        word |= uint(visibility_by_lines(map, position[r] - lamp, facet_normal[r], per_pixel, first) * 15.0 + 0.5) << 4u * r;
     return word;
 }
 
@@ -239,7 +250,7 @@ uint look_up_penumbra(uint index, float width) {
     uint counts[kBlockSize];
     [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
         const vec3 from = position[r] - lamp;
-        points[r] = map_point(map, from, normal[r]);
+        points[r] = map_point(map, from, compared(facet_normal[r], normal[r], -from));
         steps[r] = width * texels_across(map, from);
         counts[r] = 0u;
     }

@@ -22,6 +22,7 @@ using scene::Material, scene::Scene, scene::Vertex, scene::Wrap;
 
 struct Layers {
     std::vector<glm::vec4> reflectance, surface, emission;
+    std::vector<uint32_t> slope;
 };
 
 Layers draw(PassRig& rig, const Scene& scene, const View& view,
@@ -31,9 +32,11 @@ Layers draw(PassRig& rig, const Scene& scene, const View& view,
     graph::FrameGraph graph;
     const render::GBuffer g = render::add_gbuffer(rig.frame(graph, view), resident, frame);
     const graph::Resource reflectance = keep<uint64_t>(graph, g.reflectance),
-                          surface = keep<glm::vec4>(graph, g.surface), emission = keep<glm::vec4>(graph, g.emission);
+                          surface = keep<glm::vec4>(graph, g.surface), emission = keep<glm::vec4>(graph, g.emission),
+                          slope = keep<uint32_t>(graph, g.slope);
     rig.run(graph);
-    return {from_halves(rig.got<uint64_t>(reflectance)), rig.got<glm::vec4>(surface), rig.got<glm::vec4>(emission)};
+    return {from_halves(rig.got<uint64_t>(reflectance)), rig.got<glm::vec4>(surface), rig.got<glm::vec4>(emission),
+            rig.got<uint32_t>(slope)};
 }
 
 /// How near values must be. Depth and normals are interpolated in float over triangles snapped to 1/256 px.
@@ -163,6 +166,36 @@ TEST(Gbuffer, MatchesRaysAtEverySize) {
         SCOPED_TRACE(std::to_string(extent.width) + " x " + std::to_string(extent.height));
         expect_scene(rig, soup(extent.width), view_of(extent));
     }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// Normals are interpolated; how inverse depths change is a matter of triangles.
+TEST(Gbuffer, SlopesAreThoseOfTriangles) {
+    PassRig rig;
+    if (snaps_coarsely(rig.device())) GTEST_SKIP() << "small triangles have other planes on such a device";
+    const Scene scene = soup(11);
+    const View view = view_of({320, 200});
+    const Layers got = draw(rig, scene, view);
+    const reference::Geometry g = geometry_of(scene, scene::world_transforms(scene, 0), view.world_to_view);
+    const reference::Rays rays = rays_of(view);
+    size_t compared = 0, steep = 0;
+    for (size_t i = 0; i < got.slope.size(); ++i) {
+        const glm::dvec2 pixel = glm::dvec2(i % view.extent.width, i / view.extent.width) + 0.5;
+        if (!reference::certain(g, rays, pixel, 0.1)) continue;
+        const reference::Seen here = reference::cast(g, rays, pixel);
+        if (here.depth == 0) continue;
+        const glm::vec2 slope = glm::unpackHalf2x16(got.slope[i]);
+        for (const int axis : {0, 1}) {
+            glm::dvec2 step(0);
+            step[axis] = 0.01;
+            const double want = (here.depth / reference::cast(g, rays, pixel + step).depth - 1) / 0.01;
+            EXPECT_NEAR(double(slope[axis]), want, 2e-3 * std::abs(want) + 2e-5) << i << " " << axis;
+            steep += std::abs(want) > 1e-3 ? 1 : 0;
+        }
+        ++compared;
+    }
+    EXPECT_GT(compared, 5000u);
+    EXPECT_GT(steep, 5000u);
     EXPECT_EQ(rig.complaints(), "");
 }
 

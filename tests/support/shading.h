@@ -18,6 +18,7 @@ namespace vesper::test {
 struct Surfaces {
     VkExtent2D extent;
     std::vector<glm::vec4> reflectance, surface, emission;
+    std::vector<uint32_t> slope = {};  ///< see GBuffer::slope; without, triangles are as bent as their normals
 
     glm::uvec2 pixel(size_t i) const { return {i % extent.width, i / extent.width}; }
     reference::SurfaceTexel texel(size_t i) const {
@@ -28,11 +29,15 @@ struct Surfaces {
 
 /// As images of a frame; without emission for a pass that reads none.
 inline render::GBuffer upload(graph::FrameGraph& graph, const Surfaces& s) {
-    return {PassRig::image(graph, "reflectance", render::kReflectanceFormat, s.extent, to_halves(s.reflectance)),
-            PassRig::image(graph, "surface", render::kSurfaceFormat, s.extent, s.surface),
-            s.emission.empty() ? graph::Resource{}
-                               : PassRig::image(graph, "emission", render::kEmissionFormat, s.extent, s.emission),
-            {}};
+    render::GBuffer g{};
+    g.reflectance =
+        PassRig::image(graph, "reflectance", render::kReflectanceFormat, s.extent, to_halves(s.reflectance));
+    g.surface = PassRig::image(graph, "surface", render::kSurfaceFormat, s.extent, s.surface);
+    if (!s.emission.empty())
+        g.emission = PassRig::image(graph, "emission", render::kEmissionFormat, s.extent, s.emission);
+    const std::vector<uint32_t> none(s.surface.size(), 0x7fff7fff);  // NaN
+    g.slope = PassRig::image(graph, "slope", render::kSlopeFormat, s.extent, s.slope.empty() ? none : s.slope);
+    return g;
 }
 
 inline render::TableTexels upload(graph::FrameGraph& graph, const gpu_scene::IntensityTables& tables) {

@@ -64,7 +64,8 @@ const gpu::GraphicsPipeline& pipeline_of(const gpu::GraphicsPipelineCache& pipel
                          {.targets = {{kReflectanceFormat},
                                       {kSurfaceFormat},
                                       {kEmissionFormat, (variant & kEmits) != 0},
-                                      {kTriangleFormat}},
+                                      {kTriangleFormat},
+                                      {kSlopeFormat}},
                           .depth = kDepthFormat,
                           .constants = {variant & kBaseTexture, variant & kMetallicRoughnessTexture,
                                         variant & kEmissionTexture, variant & kMask, variant / kNearest & 7}});
@@ -224,6 +225,7 @@ GBuffer add_gbuffer(const FrameContext& frame, const GpuScene& scene, const gpu_
               graph.transient("emission", graph::image_shape(kEmissionFormat, view.extent)),
               graph.transient("depth", graph::image_shape(kDepthFormat, view.extent)),
               graph.transient("triangle", graph::image_shape(kTriangleFormat, view.extent)),
+              graph.transient("slope", graph::image_shape(kSlopeFormat, view.extent)),
               placed,
               {},
               {},
@@ -240,6 +242,7 @@ GBuffer add_gbuffer(const FrameContext& frame, const GpuScene& scene, const gpu_
                   {g.surface, graph::Access::ColorTarget},
                   {g.emission, graph::Access::ColorTarget},
                   {g.triangle, graph::Access::ColorTarget},
+                  {g.slope, graph::Access::ColorTarget},
                   {g.depth, graph::Access::DepthTarget}},
                  [&scene, view, placed, batches = std::move(batches)](const graph::Recording& recording) {
                      if (!batches.empty()) record_batches(recording, scene, view, placed, batches);

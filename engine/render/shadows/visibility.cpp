@@ -26,7 +26,7 @@ Blocks add_visibility(const FrameContext& frame, const GBuffer& surfaces, const 
     graph.dispatch("visibility", kernel,
                    {load(surfaces.surface), sample(clusters.lamps), update(blocks.counts), update(blocks.entries),
                     sample(maps.lamps), sample(maps.distances), sample(clusters.tables.texels), store(blocks.shares),
-                    update(blocks.visibility)},
+                    update(blocks.visibility), load(surfaces.slope)},
                    shared::VisibilityPush{.grid = clusters.push.grid,
                                           .size = {extent.width, extent.height},
                                           .blocks_x = blocks.columns,

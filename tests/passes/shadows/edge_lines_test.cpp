@@ -1,4 +1,5 @@
-// Edges of shadows where texels are wider than pixels. SPDX-License-Identifier: MIT
+// Edges of shadows where texels are wider than pixels, and on surfaces whose normals are interpolated over few
+// triangles. SPDX-License-Identifier: MIT
 #include "passes/shadows/edge_lines_reference.h"
 
 #include <cmath>
@@ -6,82 +7,13 @@
 
 #include <gtest/gtest.h>
 
-#include <glm/gtc/packing.hpp>
-
-#include "passes/shadows/draw_shadow_maps_reference.h"
+#include "base/angle.h"
+#include "passes/shadows/lit_wall.h"
 #include "support/noise.h"
-#include "support/shading.h"
+#include "support/occluders.h"
 
 namespace vesper::test::edge_lines_test {
 namespace {
-
-constexpr uint32_t kSide = 64;
-constexpr double kAway = 8, kLampAway = 3;  // of a wall from the eye, and of a lamp from the wall, m
-
-/// A wall across the view, a lamp before it whose map has walls of its own where `hides` a direction.
-struct Wall {
-    gpu_scene::View view;
-    Surfaces s;
-    gpu_scene::LampList list;
-    render::MapFrame turned =
-        render::map_frame(glm::mat4_cast(glm::angleAxis(0.5, glm::normalize(glm::dvec3(0.1, 0.2, 1)))));
-    reference::HemisphereMap map{kSide, {}};
-    double zoom;
-    bool flat;
-
-    template <class Hides>
-    Wall(const Hides& hides, double map_zoom, bool map_flat, float fov = 0.4f)
-        : view(gpu_scene::View::symmetric({203, 121}, fov, glm::mat4(1))),
-          s{view.extent, {}, {}, {}},
-          zoom(map_zoom),
-          flat(map_flat) {
-        for (uint32_t i = 0; i < view.extent.width * view.extent.height; ++i) {
-            s.reflectance.emplace_back(0.5f, 0.5f, 0.5f, 0.0f);
-            s.surface.emplace_back(glm::vec2(reference::octahedral_encode({0, 0, 1})), float(kAway), 1.0f);
-            s.emission.emplace_back(0);
-        }
-        shared::Lamp lamp{};
-        lamp.position = {0.3f, 0.2f, float(kLampAway - kAway)}, lamp.intensity = 1000, lamp.axis = {0, 0, -1};
-        lamp.lobe_b = 1, lamp.colour = glm::vec3(1);
-        list.lamps = {lamp}, list.indices = {0}, list.counts = {1, 0, 0, 0};
-        for (uint32_t y = 0; y < kSide; ++y)
-            for (uint32_t x = 0; x < kSide; ++x) map.norms.push_back(hides(x, y) ? 1.0 : 1e4);
-    }
-    double light(const std::vector<glm::vec4>& pixels, const std::vector<glm::vec4>& whole, size_t i) const {
-        return double(pixels[i].x / whole[i].x);
-    }
-    std::vector<glm::vec4> render(PassRig& rig, bool shadows) const {
-        std::vector<uint16_t> texels;
-        for (const double norm : map.norms) texels.push_back(glm::packHalf1x16(float(norm)));
-        const std::vector maps{render::shadow_map(
-            {.side = kSide, .hemispheres = 1, .zoom = float(zoom), .flat = flat, .range = 1, .radius = 0, .first = 0},
-            turned, view)};
-        graph::FrameGraph graph;
-        render::FrameShadowMaps seen;
-        if (shadows)
-            seen = {graph.upload("maps", maps, VK_FORMAT_R32G32B32A32_SFLOAT),
-                    graph.upload("distances", texels, VK_FORMAT_R16_SFLOAT)};
-        const LitBlocks lit = test::light(rig.frame(graph, view), upload(graph, s), list, no_tables(graph), {},
-                                          {.merge_error = 0, .maps = seen, .shadow_error = 0, .probe_error = 0});
-        const graph::Resource picture = keep<glm::vec4>(graph, lit.scene);
-        rig.run(graph);
-        return rig.got<glm::vec4>(picture);
-    }
-    glm::dvec3 point(glm::dvec2 pixel) const {
-        const glm::dvec2 ray = glm::dvec2(view.ray_scale()) * (pixel + 0.5) + glm::dvec2(view.ray_offset());
-        return kAway * glm::dvec3(ray, -1);
-    }
-    /// Whether the map reaches it; beyond, all is lit.
-    bool reached(glm::dvec2 pixel) const {
-        const glm::dvec2 at = texel(pixel);
-        return std::min(at.x, at.y) > 0.01 && std::max(at.x, at.y) < kSide - 0.01;
-    }
-    /// Its place in the map, texels.
-    glm::dvec2 texel(glm::dvec2 pixel) const {
-        const glm::dvec3 way = turned.rotation * (point(pixel) - glm::dvec3(list.lamps[0].position));
-        return reference::map_texel(way, kSide, zoom, flat);
-    }
-};
 
 // Spots of some texels: each pixel of blocks that are planes has the share of the reference.
 TEST(EdgeLines, WideTexelsHaveTheLinesOfTheReference) {
@@ -91,7 +23,7 @@ TEST(EdgeLines, WideTexelsHaveTheLinesOfTheReference) {
         Noise noise(7);
         std::vector<double> waves;
         for (int k = 0; k < 12; ++k) waves.push_back(noise.fine());
-        Wall wall(
+        LitWall wall(
             [&](uint32_t x, uint32_t y) {
                 double sum = 0;
                 for (size_t k = 0; k < waves.size(); k += 3)
@@ -112,7 +44,7 @@ TEST(EdgeLines, WideTexelsHaveTheLinesOfTheReference) {
             const glm::ivec2 first = glm::ivec2(wall.texel(glm::dvec2(corner) + glm::dvec2(3, 4))) - 8;
             reference::TexelWindow window{};
             for (int j = 0; j < 16; ++j)
-                for (int i = 0; i < 16; ++i) window[size_t(j)][size_t(i)] = wall.map.at(first.x + i, first.y + j) > 100;
+                for (int i = 0; i < 16; ++i) window[size_t(j)][size_t(i)] = wall.map.at(first.x + i, first.y + j) > 1;
             for (uint32_t k = 0; k < 64; ++k) {
                 const glm::dvec2 pixel = glm::dvec2(corner) + glm::dvec2(k % 8, k / 8), column(pixel.x, corner.y + 4);
                 const glm::dvec2 at = wall.texel(pixel) - 0.5 - glm::dvec2(first), half_right(0.5, 0),
@@ -145,8 +77,8 @@ TEST(EdgeLines, StraightEdgesHaveNoStairs) {
     for (const double angle : {0.18, 0.3, 0.5, 1.3, 1.4}) {
         SCOPED_TRACE(angle);
         const glm::dvec2 normal(-std::sin(angle), std::cos(angle));
-        const Wall wall([&](uint32_t x, uint32_t y) { return glm::dot(normal, glm::dvec2(x, y) + 0.5 - 31.3) > 0; },
-                        0.8, true, 0.1f);
+        const LitWall wall([&](uint32_t x, uint32_t y) { return glm::dot(normal, glm::dvec2(x, y) + 0.5 - 31.3) > 0; },
+                           0.8, true, 0.1f);
         const std::vector<glm::vec4> whole = wall.render(rig, false), got = wall.render(rig, true);
         size_t dark = 0, lit = 0;
         double farthest_lit = -1e3, nearest_dark = 1e3;  // beyond the edge, texels
@@ -166,7 +98,7 @@ TEST(EdgeLines, StraightEdgesHaveNoStairs) {
 // A pixel that is not finite changes no other.
 TEST(EdgeLines, NanStaysWhereItIs) {
     PassRig rig;
-    Wall wall([](uint32_t x, uint32_t y) { return 3 * x > y + 60; }, 0.8, true);
+    LitWall wall([](uint32_t x, uint32_t y) { return 3 * x > y + 60; }, 0.8, true);
     const std::vector<glm::vec4> whole = wall.render(rig, true);
     for (size_t i = 5; i < wall.s.surface.size(); i += 31)
         wall.s.surface[i].z = std::numeric_limits<float>::quiet_NaN();
@@ -175,6 +107,100 @@ TEST(EdgeLines, NanStaysWhereItIs) {
     for (size_t i = 0; i < got.size(); ++i)
         if (i % 31 != 5) others += got[i] == whole[i] ? 0 : 1;
     EXPECT_LT(others, got.size() / 100) << "in blocks whose probes are others";
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+constexpr int kSides = 8;
+constexpr double kRadius = 0.6, kHeight = 2, kSideAngle = 2 * kPi / kSides;  // of a column on the origin, m; rad
+
+/// Its sides are planes, its normals those of a cylinder.
+void add_column(scene::Scene& scene) {
+    scene::Primitive& p = scene.meshes.emplace_back().primitives.emplace_back();
+    for (int k = 0; k <= kSides; ++k)
+        for (const double y : {0.0, kHeight}) {
+            scene::Vertex& v = p.vertices.emplace_back();
+            v.normal = glm::vec3(std::cos(k * kSideAngle), 0, std::sin(k * kSideAngle));
+            v.position = glm::vec3(kRadius * glm::dvec3(v.normal) + glm::dvec3(0, y, 0));
+        }
+    for (uint32_t k = 0; k < 2 * kSides; k += 2)
+        for (const uint32_t i : {0u, 1u, 3u, 0u, 3u, 2u}) p.indices.push_back(k + i);
+    scene.nodes.emplace_back().mesh = uint32_t(scene.meshes.size() - 1);
+}
+
+// A wall whose normals turn away from it hides none of itself, at texels of many pixels.
+TEST(BentSurfaces, NormalsHideNothingOfAPlane) {
+    PassRig rig;
+    for (const auto& [tilt, flat] : {std::pair(0.3, false), {-1.1, false}, {1.1, true}}) {
+        SCOPED_TRACE(tilt);
+        LitWall wall([](uint32_t, uint32_t) { return false; }, 0.8, flat);
+        for (glm::vec4& surface : wall.s.surface) {
+            const glm::vec2 normal(reference::octahedral_encode({std::sin(tilt), 0, std::cos(tilt)}));
+            surface.x = normal.x, surface.y = normal.y;
+        }
+        wall.s.slope.assign(wall.s.surface.size(), 0);  // halves: its depth is the same everywhere
+        const std::vector<glm::vec4> whole = wall.render(rig, false), got = wall.render(rig, true);
+        size_t lit = 0;
+        for (size_t i = 0; i < got.size(); ++i) {
+            EXPECT_EQ(got[i], whole[i]) << wall.s.pixel(i).x << " " << wall.s.pixel(i).y;
+            lit += whole[i].x > 0 ? 1 : 0;
+        }
+        EXPECT_GT(lit, got.size() / 2);
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// Leaves of trees: their normals are those of the crown, and lamps behind them light them. Its own plane hides none of
+// it.
+TEST(BentSurfaces, TrianglesThatFaceAwayAreLitAsTheirNormalsSay) {
+    PassRig rig;
+    LitWall wall([](uint32_t, uint32_t) { return false; }, 0.8, true);
+    // Planes whose normals are (-20, 0, 1 - 20 x) at the view tangent x: left of the middle they face away from the
+    // lamp.
+    const float tilt = 20 * wall.view.ray_scale().x;
+    wall.s.slope.assign(wall.s.surface.size(), glm::packHalf2x16({tilt, 0}));
+    const std::vector<glm::vec4> whole = wall.render(rig, false), got = wall.render(rig, true);
+    for (size_t i = 0; i < got.size(); ++i)
+        if (wall.s.pixel(i).x < wall.view.extent.width / 2) {
+            EXPECT_EQ(got[i], whole[i]) << i;
+        }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// Sides that face the lamp are lit wherever their normals face it, without dark rows.
+TEST(BentSurfaces, SidesOfAColumnThatFaceTheLampAreLit) {
+    PassRig rig;
+    for (const double turn : {-0.5, -0.25, 0.15, 2.2, 2.45, 2.7}) {
+        SCOPED_TRACE(turn);
+        OccluderScene s;
+        add_column(s.scene());
+        scene::Lamp lamp;
+        lamp.kind = scene::Lamp::Kind::Point, lamp.intensity = 1e5f;
+        // Texels of its map are 8 cm there, and pixels 1 cm.
+        const glm::dvec3 place(60 * std::cos(turn), 1.3, 60 * std::sin(turn));
+        s.lamp(lamp, place);
+        Lit all(rig, s.scene());
+        const gpu_scene::View view = gpu_scene::View::symmetric(
+            {301, 203}, 0.55f, glm::lookAt(glm::vec3(2, 1.5f, 4), glm::vec3(0, 1, 0), glm::vec3(0, 1, 0)));
+        const Lit::Picture p = all.render(view);
+        const glm::dmat4 to_world = glm::inverse(glm::dmat4(view.world_to_view));
+        size_t lit = 0, wrong = 0;
+        for (size_t i = 0; i < p.pixels.size(); ++i) {
+            if (!(p.surfaces[i].z > 0)) continue;
+            const glm::dvec3 at(to_world * glm::dvec4(p.place(i, view.extent.width), 1)), to = place - at;
+            const double angle = std::atan2(at.z, at.x) / kSideAngle, part = angle - std::floor(angle);
+            if (std::min(part, 1 - part) < 0.04 || std::min(at.y, kHeight - at.y) < 0.05) continue;
+            const double middle = (std::floor(angle) + 0.5) * kSideAngle;
+            const double side = glm::dot(glm::dvec3(std::cos(middle), 0, std::sin(middle)), to) / glm::length(to);
+            const glm::dvec3 normal = glm::dmat3(to_world) * reference::octahedral_decode(glm::dvec2(p.surfaces[i]));
+            const double cosine = glm::dot(normal, to) / glm::length(to);
+            if (side < 0.01 || cosine < 0.01) continue;
+            const double seen = double(p.pixels[i].x) / (1e5 * cosine / glm::dot(to, to) / kPi);
+            ++lit;
+            wrong += std::abs(seen - 1) > 0.01 ? 1 : 0;
+        }
+        EXPECT_GT(lit, 2000u);
+        EXPECT_EQ(wrong, 0u);
+    }
     EXPECT_EQ(rig.complaints(), "");
 }
 

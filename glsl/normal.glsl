@@ -1,3 +1,5 @@
+#include "shared/gbuffer.h"
+
 // Octahedral map of a unit vector (Meyer et al. 2010): two numbers in [-1, 1], and back.
 
 vec2 encode_normal(vec3 n) {
@@ -15,7 +17,8 @@ vec3 decode_normal(vec2 p) {
 // The normal of the plane of a triangle, towards the eye, by GBuffer::slope. `ray`: through the pixel, z is -1; `ray_scale`: how it
 // changes with a step of a pixel. Where the interpolated normal is as near as rounding may be, or there is no slope, that one.
 vec3 plane_normal(uint slope, vec3 ray, vec2 ray_scale, vec3 interpolated) {
-    const vec2 tilt = unpackHalf2x16(slope) / ray_scale;
+    const vec2 tilt = unpackHalf2x16(slope) / (kSlopeScale * ray_scale);
     const vec3 n = normalize(vec3(-tilt, 1.0 - dot(tilt, ray.xy)));
-    return distance(n, interpolated) > 0.01 ? n : interpolated;
+    const float rounding = max(0.01, 4e-7 / min(abs(ray_scale.x), abs(ray_scale.y)));
+    return distance(n, interpolated) > rounding ? n : interpolated;
 }

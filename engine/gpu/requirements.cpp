@@ -141,7 +141,8 @@ std::string missing_support(VkPhysicalDevice device) {
                         std::to_string(kStorageBuffers) + " storage buffers per shader stage");
     if (limits.maxPerStageDescriptorStorageImages < kStorageImages)
         list(names, std::to_string(kStorageImages) + " storage images per shader stage");
-    if (limits.maxColorAttachments < kColourTargets || limits.maxFragmentOutputAttachments < kColourTargets)
+    if (std::min({limits.maxColorAttachments, limits.maxFragmentOutputAttachments,
+                  limits.maxFragmentCombinedOutputResources}) < kColourTargets)
         list(names, std::to_string(kColourTargets) + " colour attachments");
     if (limits.maxComputeWorkGroupInvocations < kInvocations || limits.maxComputeWorkGroupSize[0] < kInvocations)
         list(names, "workgroups of " + std::to_string(kInvocations) + " invocations");

@@ -4,6 +4,7 @@
 // G-buffer, fragments: the surface seen by each pixel. Variants without some texture never sample it.
 
 #include "normal.glsl"
+#include "shared/gbuffer.h"
 
 layout(constant_id = 0) const uint kBaseTexture = 1u;
 layout(constant_id = 1) const uint kMetallicRoughnessTexture = 1u;
@@ -52,6 +53,9 @@ vec4 texture_at(sampler2D image, uint number) {
 }
 
 void main() {
+    // Before any invocation is discarded.
+    const vec2 change = vec2(dFdx(gl_FragCoord.w), dFdy(gl_FragCoord.w)) / gl_FragCoord.w;
+    const uint slope = packHalf2x16(clamp(kSlopeScale * change, -6e4, 6e4));
     vec4 base = base_colour;
     if (kBaseTexture != 0u) base *= texture_at(base_texture, 0u);
     // Holes of a magnified texture begin at borders of texels, whatever part of a pixel these cover.
@@ -69,5 +73,5 @@ void main() {
     out_surface = vec4(encode_normal(normal), 1.0 / gl_FragCoord.w, m.y);
     out_emission = vec4(emission, 1.0);
     out_triangle = triangle;
-    out_slope = packHalf2x16(vec2(dFdx(gl_FragCoord.w), dFdy(gl_FragCoord.w)) / gl_FragCoord.w);
+    out_slope = slope;
 }

@@ -2,18 +2,42 @@
 // beside an edge a line from the middle of the step at one end to that at the other (Reshetov 2009, of pixels). Needs
 // shadows/lookup.glsl, lanes.glsl, and kLanes invocations.
 
-// The texels about a block of pixels, as its middle sees them: a bit each, by rows and by columns, 1 where the lamp sees it.
+// The texels about a block of pixels, compared with the plane of its middle: a bit each, by rows and by columns, 1 where the lamp sees it.
 const int kWindow = 16;
 shared uint window_rows[kWindow], window_columns[kWindow];
 
-// All invocations fill the window, whose first texel is `first`. `middle`: of the plane that the texels are compared with.
-void fill_window(FetchedMap map, MapPoint middle, ivec2 first) {
+// A plane as a map sees it, in all quadrants of a hemisphere.
+struct MapPlane {
+    vec3 inverse;   // times a direction of norm 1: the inverse distance of the plane, 1/m
+    float least;    // 1/m: at most twice as far as its point is it compared
+    int first;      // texel of the hemisphere
+};
+
+MapPlane map_plane(FetchedMap map, vec3 from, vec3 normal) {
+    const MapPoint p = map_point(map, from, normal);
+    const vec3 q = map.rotation * from, n = map.rotation * normal;
+    const float away = dot(n, q);
+    const vec3 inverse = abs(away) > 1e-4 * p.norm ? n / away : vec3(0.0);
+    return MapPlane(vec3(inverse.xy, q.z < 0.0 ? -inverse.z : inverse.z), 0.5 / p.norm, p.first);
+}
+
+bool sees_plane(FetchedMap map, MapPlane plane, ivec2 texel) {
+    const ivec2 at = clamp(texel, ivec2(0), ivec2(max(map.side, 1) - 1));
+    const float seen = half_at(distances, plane.first + at.y * map.side + at.x);
+    const vec2 square = ((vec2(at) + 0.5) * (2.0 / float(map.side)) - 1.0) / map.zoom;
+    const vec2 place = 0.5 * vec2(square.x + square.y, square.x - square.y);
+    const float inverse = dot(plane.inverse, vec3(place, 1.0 - map.fold * (abs(place.x) + abs(place.y))));
+    return (seen + kMapBias) * max(inverse, plane.least) + map.bias >= 1.0;
+}
+
+// All invocations fill the window, whose first texel is `first`.
+void fill_window(FetchedMap map, MapPlane plane, ivec2 first) {
     const uint lane = gl_LocalInvocationID.x;
     uint low = 0u, high = 0u;
     int x = 0;
     do {
-        low |= (sees(map, middle, first + ivec2(x, lane)) ? 1u : 0u) << x;
-        high |= (sees(map, middle, first + ivec2(x, lane + kLanes)) ? 1u : 0u) << x;
+        low |= (sees_plane(map, plane, first + ivec2(x, lane)) ? 1u : 0u) << x;
+        high |= (sees_plane(map, plane, first + ivec2(x, lane + kLanes)) ? 1u : 0u) << x;
         ++x;
     } while (x < kWindow);
     lanes_wait();
@@ -53,9 +77,8 @@ EdgeLine edge_line(uint row, uint next, float at, int i) {
                     ((near_end > 0.0 ? step_behind : 0.0) - (near_begin > 0.0 ? step_before : 0.0)) / reach);
 }
 
-// As visibility(), of a block that is a plane.
-float visibility_by_lines(FetchedMap map, vec3 from, vec3 normal, mat2 per_pixel, ivec2 first) {
-    const MapPoint p = map_point(map, from, normal);
+// As visibility(), of a point of the plane.
+float visibility_by_lines(FetchedMap map, MapPoint p, mat2 per_pixel, ivec2 first) {
     const vec2 at = clamp(p.texel - 0.5 - vec2(first), 1.0, float(kWindow) - 2.001);
     const ivec2 low_end = ivec2(1), high_end = ivec2(kWindow - 2);  // for places that are not finite
     const ivec2 corner = clamp(ivec2(floor(at)), low_end, high_end), middle = clamp(ivec2(floor(at + 0.5)), low_end, high_end);

@@ -40,7 +40,7 @@ layout(push_constant, scalar) uniform Push { VisibilityPush push; };
 #include "shadows/edge_lines.glsl"
 
 const float kMostSheen = 8.0;  // what a sheen or a wide lobe has, at most, in place of a cosine
-const uint kProbes = 16u, kFirstProbes = 4u, kMiddleProbe = 13u;
+const uint kProbes = 16u, kFirstProbes = 4u, kCornerProbes = 8u, kMiddleProbe = 13u;
 const float kMostTilt = 1e-3, kMostLift = 1e-3;  // of a plane's pixels: rad; and of their distance from the eye
 // Of the radius of a lamp: how far aside probes look up, and so the widest radius of a penumbra. It is that of what stops the
 // light after a quarter of the way.
@@ -200,12 +200,22 @@ float penumbra(FetchedMap map, vec3 lamp, float stops) {
     return width > max(pixel_size, 2.0 * map.bias * away) ? width : 0.0;
 }
 
-// Whether the block is a plane, where texels of a lamp's map are wider than two pixels, and a window holds those of all its pixels.
+// The plane of the middle of the block, compared with a lamp's map.
+vec3 middle_normal(vec3 lamp) { return compared(probe_facet[kMiddleProbe], probe_normal[kMiddleProbe], lamp - probe_position[kMiddleProbe]); }
+
+// Whether texels of a lamp's map are wider than two pixels, and the block is one plane whose texels a window holds.
 bool has_wide_texels(FetchedMap map, vec3 lamp) {
-    const vec3 middle = probe_position[kMiddleProbe];
-    const mat2 per_pixel = texels_per_pixel(map, middle - lamp, middle, probe_facet[kMiddleProbe], push.grid.ray_scale);
-    const float right = length(per_pixel[0]), down = length(per_pixel[1]);
-    return plane && probe_drawn[kMiddleProbe] && min(right, down) < 0.5 && right + down < 1.6;
+    const vec3 middle = probe_position[kMiddleProbe], n = middle_normal(lamp);
+    const mat2 per_pixel = texels_per_pixel(map, middle - lamp, middle, n, push.grid.ray_scale);
+    const MapPoint p = map_point(map, middle - lamp, n);
+    const float most_lift = 0.5 * (kMapBias + map.bias * p.norm);
+    bool same = plane && probe_drawn[kMiddleProbe] && p.inside;
+    [[unroll]] for (uint k = kCornerProbes; k < kCornerProbes + 4u; ++k) {
+        const MapPoint corner = map_point(map, probe_position[k] - lamp, n);
+        const bool near = corner.first == p.first && corner.inside && all(lessThan(abs(corner.texel - p.texel), vec2(5.4)));
+        same = same && (!probe_drawn[k] || (near && abs(dot(n, probe_position[k] - middle)) < most_lift));
+    }
+    return same && min(dot(per_pixel[0], per_pixel[0]), dot(per_pixel[1], per_pixel[1])) < 0.25;
 }
 
 // Shares of a lamp with hard edges that the pixels of the column see, four bits each.
@@ -225,14 +235,13 @@ uint look_up_edges(uint index) {
 uint look_up_lines(uint index) {
     const FetchedMap map = fetch_map(index);
     const vec3 lamp = texel_at(lamps, int(index * kTexelsPerLamp)).xyz;
-    const MapPoint middle = map_point(map, probe_position[kMiddleProbe] - lamp, probe_facet[kMiddleProbe]);
-    const ivec2 first = ivec2(clamp(middle.texel, -1e4, 1e4)) - kWindow / 2;
-    fill_window(map, middle, first);
-    const uint half_way = kBlockSize / 2u;
-    const mat2 per_pixel = texels_per_pixel(map, position[half_way] - lamp, position[half_way], facet_normal[half_way], push.grid.ray_scale);
+    const vec3 middle = probe_position[kMiddleProbe], n = middle_normal(lamp);
+    const ivec2 first = ivec2(floor(map_point(map, middle - lamp, n).texel)) - kWindow / 2;
+    fill_window(map, map_plane(map, middle - lamp, n), first);
+    const mat2 per_pixel = texels_per_pixel(map, middle - lamp, middle, n, push.grid.ray_scale);
     uint word = 0u;
     [[unroll]] for (uint r = 0u; r < kBlockSize; ++r)
-        word |= uint(visibility_by_lines(map, position[r] - lamp, facet_normal[r], per_pixel, first) * 15.0 + 0.5) << 4u * r;
+        word |= uint(visibility_by_lines(map, map_point(map, position[r] - lamp, n), per_pixel, first) * 15.0 + 0.5) << 4u * r;
     return word;
 }
 

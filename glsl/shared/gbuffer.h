@@ -29,5 +29,8 @@ struct Instance {
 SHARED_SIZE(Instance, 64)
 const uint kTexelsPerInstance = 4u;
 
+// The change of inverse depth with a step of a pixel, over itself, is held times this: small ones are whole halves, too.
+const float kSlopeScale = 1024.0;
+
 SHARED_END
 #endif

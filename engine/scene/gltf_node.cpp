@@ -156,7 +156,16 @@ void read_instances(GltfReader& reader, const JsonValue& instancing, uint32_t pa
     }
 }
 
-void read_node(GltfReader& reader, uint32_t index, uint32_t parent, const std::vector<uint32_t>& camera_uses) {
+/// Whether KHR_node_visibility hides a node itself.
+bool is_hidden(const JsonValue& node) {
+    const auto extensions = node.find("extensions");
+    const auto visibility = extensions ? extensions->find("KHR_node_visibility") : std::nullopt;
+    return visibility && !visibility->boolean_or("visible", true);
+}
+
+/// Of a `hidden` node the place and the camera.
+void read_node(GltfReader& reader, uint32_t index, uint32_t parent, bool hidden,
+               const std::vector<uint32_t>& camera_uses) {
     const auto source = reader.document.node(index);
     Node node;
     node.name = source->name;
@@ -164,7 +173,7 @@ void read_node(GltfReader& reader, uint32_t index, uint32_t parent, const std::v
     read_transform(node, source);
     const auto extensions = source.json.find("extensions");
     const auto instancing = extensions ? extensions->find("EXT_mesh_gpu_instancing") : std::nullopt;
-    const auto mesh = static_cast<uint32_t>(source->mesh);  // of a node without one kNone, as it is -1
+    const uint32_t mesh = hidden ? kNone : static_cast<uint32_t>(source->mesh);  // of a node without one -1, kNone
     const bool has_skin = mesh != kNone && source->skin >= 0,
                skinned = has_skin && !instancing && hangs_on_joints(reader, mesh);
     if (has_skin)
@@ -182,7 +191,7 @@ void read_node(GltfReader& reader, uint32_t index, uint32_t parent, const std::v
                         node.name.empty() ? "node " + std::to_string(index) : node.name, camera_uses[camera] > 1);
     }
     Node second;  // a node has one light: a measured one beside another becomes a child's
-    if (extensions) {
+    if (extensions && !hidden) {
         if (const auto lamp = extensions->find("KHR_lights_punctual"))
             if (const uint32_t used = lamp->at("light").index(reader.punctual_lights, "lights");
                 !reader.unknown_lights.contains(used))
@@ -246,13 +255,17 @@ void read_nodes(GltfReader& reader) {
     for (const tinygltf::Node& node : nodes)
         if (node.camera >= 0) ++camera_uses[static_cast<size_t>(node.camera)];
 
+    std::vector<bool> hidden(count);
     std::vector<uint32_t> waiting = read_roots(reader, parents);
     std::reverse(waiting.begin(), waiting.end());
     while (!waiting.empty()) {  // no recursion: a tree may be as deep as it has nodes
         const uint32_t index = waiting.back();
         waiting.pop_back();
         if (reader.node_of[index] != kNone || reader.skinned.contains(index)) continue;
-        read_node(reader, index, parents[index] == kNone ? kNone : reader.node_of[parents[index]], camera_uses);
+        const uint32_t parent = parents[index];
+        hidden[index] = (parent != kNone && hidden[parent]) || is_hidden(reader.document.node(index).json);
+        if (hidden[index]) reader.notes.add("a node that KHR_node_visibility hides is not shown");
+        read_node(reader, index, parent == kNone ? kNone : reader.node_of[parent], hidden[index], camera_uses);
         waiting.insert(waiting.end(), nodes[index].children.rbegin(), nodes[index].children.rend());
     }
     read_skinned(reader, parents);

@@ -41,6 +41,35 @@ TEST(GltfNode, ReadsFilesWithoutAnything) {
     EXPECT_TRUE(loaded.notes.empty());
 }
 
+// A hidden node hides all below it, whatever these say; cameras stay.
+TEST(GltfNode, HidesWhatKhrNodeVisibilityHides) {
+    const json hidden = {{"KHR_node_visibility", {{"visible", false}}}},
+               shown = {{"KHR_node_visibility", {{"visible", true}}}};
+    GltfFile file;
+    file.show({{"attributes", {{"POSITION", file.vec3(kTriangle)}}}});
+    file.root["cameras"] = json::array({{{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}});
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = json::array({{{"type", "point"}}});
+    const json lamp = {{"light", 0}};
+    file.root["nodes"] = {{{"mesh", 0}, {"extensions", shown}, {"children", {1}}},
+                          {{"mesh", 0}, {"extensions", hidden}, {"children", {2, 3}}},
+                          {{"mesh", 0}, {"extensions", shown}, {"camera", 0}},
+                          {{"extensions", {{"KHR_lights_punctual", lamp}}}},
+                          {{"mesh", 0}, {"extensions", {{"KHR_lights_punctual", lamp}}}}};
+    file.root["extensionsRequired"] = {"KHR_node_visibility"};
+    const scene::LoadedScene loaded = file.read();
+    std::vector<int> meshes, lamps, cameras;
+    for (const scene::Node& node : loaded.scene.nodes) {
+        meshes.push_back(node.mesh != scene::kNone), lamps.push_back(node.lamp != scene::kNone);
+        cameras.push_back(node.camera != scene::kNone);
+    }
+    EXPECT_EQ(meshes, (std::vector<int>{1, 0, 0, 0, 1}));
+    EXPECT_EQ(lamps, (std::vector<int>{0, 0, 0, 0, 1}));
+    EXPECT_EQ(cameras, (std::vector<int>{0, 0, 1, 0, 0}));
+    EXPECT_TRUE(mentions(loaded.notes, "a node that KHR_node_visibility hides is not shown (3 times)"));
+    file.root["nodes"][1]["extensions"]["KHR_node_visibility"]["visible"] = 0;
+    EXPECT_TRUE(contains(file.complaint(), "/nodes/1/extensions/KHR_node_visibility/visible"));
+}
+
 TEST(GltfNode, KeepsNegativeScaleAndMatrices) {
     GltfFile file;
     file.root["nodes"] = {{{"scale", {-1, 2, 3}}}, {{"matrix", {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1}}}};

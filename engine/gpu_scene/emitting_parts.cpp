@@ -31,7 +31,8 @@ public:
         luminance.fill(m.emission);
         if (!has_texture(m)) return luminance;
         std::array<dvec2, 3> uv;
-        for (size_t k = 0; k < 3; ++k) uv[k] = primitive.vertices[primitive.indices[3 * size_t(triangle) + k]].uv;
+        for (size_t k = 0; k < 3; ++k)
+            uv[k] = primitive.vertices[primitive.indices[3 * size_t(triangle) + k]].emission_uv();
         const auto parts = quarters(uv);
         for (size_t i = 0; i < 4; ++i) luminance[i] *= glm::vec3(mean(m, parts[i]));
         return luminance;

@@ -98,8 +98,11 @@ private:
         const scene::Vertex &one = primitive_.vertices[a], &other = primitive_.vertices[b];
         for (size_t c = 0; c < 4; ++c)
             if (std::abs(int(one.colour[c]) - int(other.colour[c])) > kSameColour) return false;
-        const glm::vec2 apart = glm::abs(one.uv - other.uv);
-        return !textured_ || std::max(apart.x, apart.y) <= kSameUv;
+        const auto near = [](glm::vec2 here, glm::vec2 there) {
+            const glm::vec2 apart = glm::abs(here - there);
+            return std::max(apart.x, apart.y) <= kSameUv;
+        };
+        return !textured_ || (near(one.uv, other.uv) && near(one.emission_uv(), other.emission_uv()));
     }
     // Whether what is drawn goes on across an edge.
     bool goes_on(const Edge& here, const Edge& there) const {

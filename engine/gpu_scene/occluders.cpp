@@ -45,7 +45,7 @@ void add_mesh(Digest& digest, const scene::Mesh& mesh) {
 }  // namespace
 
 Digest::Value occluder_digest(const scene::Scene& scene) {
-    static_assert(sizeof(scene::Vertex) == 40, "without padding");
+    static_assert(sizeof(scene::Vertex) == 48, "without padding");
     Digest digest;
     OpacityDigests opacities;
     digest.add_value(uint64_t{scene.materials.size()});

@@ -85,7 +85,7 @@ void add_area(const Primitive& primitive, const glm::dmat4& world, bool double_s
         for (size_t c = 0; c < 3; ++c) {
             const Vertex& vertex = primitive.vertices[primitive.indices[i + c]];
             p[c] = dvec3(world * glm::dvec4(vertex.position, 1));
-            uv[c] = glm::dvec2(vertex.uv);
+            uv[c] = glm::dvec2(vertex.emission_uv());
         }
         const dvec3 centre = (p[0] + p[1] + p[2]) / 3.0, area = 0.5 * side * glm::cross(p[1] - p[0], p[2] - p[0]);
         Placed* const nearest = *std::min_element(lamps.begin(), lamps.end(), [&](const Placed* a, const Placed* b) {

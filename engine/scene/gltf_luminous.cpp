@@ -48,15 +48,7 @@ void read_luminous(GltfReader& reader, const JsonValue& use) {
     material.emission_texture = {};
     material.emission = glm::vec3(factor);
 
-    // Vertices have one uv, the base colour's where there is one.
-    const UvMapping mapping = read_uv_mapping(use);
-    UvMapping& all = reader.uv_mappings[index];
-    const bool base = material.base_colour_texture.image != kNone,
-               others = base || material.metallic_roughness_texture.image != kNone;
-    if (others && all != mapping)
-        reader.notes.add(base ? "a material whose textures lie differently: all follow its base colour texture"
-                              : "a material whose textures lie differently: all follow its luminance picture");
-    if (!base) all = mapping;
+    reader.uv_mappings[index].emission = read_uv_mapping(use);
 }
 
 }  // namespace

@@ -217,19 +217,16 @@ void read_alpha(GltfReader& reader, Properties& p) {
             "a material of alpha mode BLEND is drawn as MASK: opaque from half opacity on, invisible below");
 }
 
-/// Vertices have one uv: the base colour's, or the first texture's there is. Without any, that of one
-/// that is not shown: a luminance picture may take its place.
-UvMapping common_uv(GltfReader& reader, const Properties& p) {
-    const bool base = p.made.base_colour_texture.image != kNone, emission = p.made.emission_texture.image != kNone;
+/// Vertices have one uv beside that of emission: the base colour's, or the roughness's without a base colour texture. A
+/// texture that is not shown gives one, too: a luminance picture may take the place of the emission's.
+MaterialUv uv_of(GltfReader& reader, const Properties& p) {
+    const bool base = p.made.base_colour_texture.image != kNone;
     const bool roughness = p.made.metallic_roughness_texture.image != kNone;
-    const UvMapping chosen = base                                      ? p.base_uv
-                             : emission                                ? p.emission_uv
-                             : roughness                               ? p.roughness_uv
-                             : p.material.json.find("emissiveTexture") ? p.emission_uv
-                                                                       : p.base_uv;
-    if ((emission && p.emission_uv != chosen) || (roughness && p.roughness_uv != chosen))
-        reader.notes.add("a material whose textures lie differently: all follow its base colour texture");
-    return chosen;
+    const bool emission = p.material.json.find("emissiveTexture").has_value();
+    if (base && roughness && p.roughness_uv != p.base_uv)
+        reader.notes.add("a metallic-roughness texture that lies differently follows its base colour texture");
+    const UvMapping otherwise = roughness ? p.roughness_uv : p.emission_uv, surface = base ? p.base_uv : otherwise;
+    return {surface, emission ? p.emission_uv : surface};
 }
 
 void read_material(GltfReader& reader, const GltfPart<tinygltf::Material>& material) {
@@ -252,7 +249,7 @@ void read_material(GltfReader& reader, const GltfPart<tinygltf::Material>& mater
     read_alpha(reader, p);
     if (material.json.find("normalTexture")) reader.notes.add("a normal texture is not read");
     if (material.json.find("occlusionTexture")) reader.notes.add("an occlusion texture is not read");
-    reader.uv_mappings.push_back(common_uv(reader, p));
+    reader.uv_mappings.push_back(uv_of(reader, p));
     reader.scene.materials.push_back(std::move(made));
 }
 

@@ -65,16 +65,38 @@ void take_normals(GltfReader& reader, Primitive& primitive, const Floats& normal
     fill_normals(primitive, missing);
 }
 
-void take_uv(GltfReader& reader, Primitive& primitive, const Floats& coordinates) {
-    const UvMapping& mapping = reader.uv_mappings[primitive.material];
+std::string uv_set(const UvMapping& mapping) { return "TEXCOORD_" + std::to_string(mapping.set); }
+
+/// Texture coordinates of vertices, (0, 0) where the file has none. Empty: it has none for any.
+std::vector<glm::vec2> read_uv(GltfReader& reader, const GltfPart<tinygltf::Primitive>& primitive,
+                               const UvMapping& mapping, size_t count) {
+    const auto coordinates = read_attribute(reader, primitive, uv_set(mapping), count, {TINYGLTF_TYPE_VEC2});
+    if (!coordinates) return {};
+    std::vector<glm::vec2> places(count, glm::vec2(0));
     bool all_finite = true;
-    for (size_t i = 0; i < primitive.vertices.size(); ++i) {
-        const glm::vec2 uv = mapping.apply({coordinates[i][0], coordinates[i][1]});
+    for (size_t i = 0; i < count; ++i) {
+        const glm::vec2 uv = mapping.apply({(*coordinates)[i][0], (*coordinates)[i][1]});
         const bool finite = std::isfinite(uv.x) && std::isfinite(uv.y);
-        if (finite) primitive.vertices[i].uv = uv;
+        if (finite) places[i] = uv;
         all_finite = all_finite && finite;
     }
     if (!all_finite) reader.notes.add("a primitive with texture coordinates that are not finite: those are read as 0");
+    return places;
+}
+
+void take_uv(GltfReader& reader, const GltfPart<tinygltf::Primitive>& source, Primitive& primitive) {
+    const auto& [surface, emission] = reader.uv_mappings[primitive.material];
+    const size_t count = primitive.vertices.size();
+    const std::vector<glm::vec2> uv = read_uv(reader, source, surface, count);
+    const std::vector<glm::vec2> emitted = emission == surface ? uv : read_uv(reader, source, emission, count);
+    for (size_t i = 0; i < count; ++i) {
+        Vertex& vertex = primitive.vertices[i];
+        vertex.uv = uv.empty() ? glm::vec2(0) : uv[i];
+        vertex.emission_shift = (emitted.empty() ? glm::vec2(0) : emitted[i]) - vertex.uv;
+    }
+    if (!emitted.empty()) return;
+    check_needs_no_uv(reader, primitive.material, source.json.at("attributes"), uv_set(emission));
+    reader.source.without_uv.emplace_back(static_cast<uint32_t>(reader.scene.meshes.size()), primitive.material);
 }
 
 void take_colours(GltfReader& reader, Primitive& primitive, const Floats& colours) {
@@ -158,12 +180,7 @@ std::optional<Primitive> read_primitive(GltfReader& reader, const GltfPart<tinyg
     made.indices = triangles(reader, read_corners(reader, source, count), mode);
     take(source.json, reader.indices, made.indices.size(), reader.limits.indices, "indices", sizeof(uint32_t));
 
-    const std::string uv_set = "TEXCOORD_" + std::to_string(reader.uv_mappings[made.material].set);
-    if (const auto uv = read_attribute(reader, source, uv_set, count, {TINYGLTF_TYPE_VEC2}))
-        take_uv(reader, made, *uv);
-    else
-        check_needs_no_uv(reader, made.material, source.json.at("attributes"), uv_set),
-            reader.source.without_uv.emplace_back(static_cast<uint32_t>(reader.scene.meshes.size()), made.material);
+    take_uv(reader, source, made);
     if (const auto colours = read_attribute(reader, source, "COLOR_0", count, {TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4}))
         take_colours(reader, made, *colours);
     auto normals = read_attribute(reader, source, "NORMAL", count, {TINYGLTF_TYPE_VEC3});

@@ -120,7 +120,8 @@ json patch_materials(GltfDocument& document, const GltfReader& reader, const Sce
         json& material = root["materials"][m];
         write_emission(document, root, material, reader.scene, before.materials[m], now);
         write_surface(document, material, before.materials[m], now);
-        if (now.emission_picture.image != kNone) luminous.push_back(luminous_of(root, m, now, reader.uv_mappings[m]));
+        if (now.emission_picture.image != kNone)
+            luminous.push_back(luminous_of(root, m, now, reader.uv_mappings[m].emission));
     }
     return luminous;
 }

@@ -35,6 +35,11 @@ struct UvMapping {
     bool operator==(const UvMapping&) const = default;
 };
 
+/// The same of a material: of its emission, and of its other textures.
+struct MaterialUv {
+    UvMapping surface, emission;
+};
+
 /// In `image_of`: not looked at. kNone there: a format we do not read.
 constexpr uint32_t kUnread = kNone - 1;
 
@@ -58,7 +63,7 @@ struct GltfReader {
     Scene scene{};
     SceneSource source{};
     Notes notes{};
-    std::vector<UvMapping> uv_mappings{};  ///< one per scene material
+    std::vector<MaterialUv> uv_mappings{};  ///< one per scene material
     std::vector<uint32_t> node_of{}, image_of{};
     /// Scene mesh for a mesh of the file, the skin that puts it in place or kNone, and the node's weights.
     std::map<std::tuple<uint32_t, uint32_t, std::vector<float>>, uint32_t> meshes{};

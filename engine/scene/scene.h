@@ -30,6 +30,9 @@ struct Vertex {
     glm::vec3 normal{0, 1, 0};  ///< unit length
     glm::vec2 uv{0};
     std::array<uint16_t, 4> colour{65535, 65535, 65535, 65535};  ///< linear, 65535 is 1; multiplies base_colour
+    glm::vec2 emission_shift{0};  ///< of the coordinates of emission textures and pictures from uv
+
+    glm::vec2 emission_uv() const { return uv + emission_shift; }
 };
 
 /// Triangles of one material.

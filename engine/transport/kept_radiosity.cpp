@@ -54,7 +54,7 @@ void add_lamps(Digest& digest, const scene::Scene& scene) {
 }
 
 void add_meshes(Digest& digest, const scene::Scene& scene) {
-    static_assert(sizeof(scene::Vertex) == 40, "without padding");
+    static_assert(sizeof(scene::Vertex) == 48, "without padding");
     digest.add_value(uint64_t{scene.meshes.size()});
     for (const scene::Mesh& mesh : scene.meshes) {
         digest.add_value(uint64_t{mesh.primitives.size()});

@@ -57,7 +57,7 @@ bool Surfaces::is_housing(uint32_t node, const std::array<glm::dvec3, 3>& corner
 struct Surfaces::Facet {
     const scene::Material& material;
     glm::dvec3 position{0}, normal{0}, colour{0};
-    glm::dvec2 uv{0};
+    glm::dvec2 uv{0}, emission_uv{0};
     bool front, housing;
 };
 
@@ -76,6 +76,7 @@ Surfaces::Facet Surfaces::facet(const rays::Hit& hit, glm::dvec3 from) const {
         corners[k] = glm::dvec3(to_world * glm::dvec4(vertex.position, 1));
         facet.position += weight * corners[k];
         facet.uv += weight * glm::dvec2(vertex.uv);
+        facet.emission_uv += weight * glm::dvec2(vertex.emission_uv());
         facet.colour += weight / 65535 * glm::dvec3(vertex.colour[0], vertex.colour[1], vertex.colour[2]);
     }
     const glm::dvec3 outwards = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -92,9 +93,9 @@ glm::dvec3 Surfaces::emission(const Facet& facet) const {
     const glm::dvec3 emission(material.emission);
     if (emission == glm::dvec3(0)) return emission;
     if (const uint32_t picture = material.emission_picture.image; picture != scene::kNone)
-        return emission * picture_at(scene_.luminance_pictures[picture], material.emission_picture, facet.uv);
+        return emission * picture_at(scene_.luminance_pictures[picture], material.emission_picture, facet.emission_uv);
     if (const uint32_t image = material.emission_texture.image; image != scene::kNone)
-        return emission * colour_at(scene_.images[image], material.emission_texture, facet.uv, emitted_);
+        return emission * colour_at(scene_.images[image], material.emission_texture, facet.emission_uv, emitted_);
     return emission;
 }
 

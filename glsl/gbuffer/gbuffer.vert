@@ -15,6 +15,7 @@ layout(location = 4) in vec4 row_x;
 layout(location = 5) in vec4 row_y;
 layout(location = 6) in vec4 row_z;
 layout(location = 7) in float dimming;
+layout(location = 8) in vec2 emission_shift;
 
 layout(push_constant, scalar) uniform Push { GBufferPush push; };
 
@@ -23,6 +24,7 @@ layout(location = 1) out vec2 texture_uv;
 layout(location = 2) out vec4 base_colour;
 layout(location = 3) flat out vec4 emission_cutoff;
 layout(location = 4) flat out vec2 metallic_roughness;
+layout(location = 6) out vec2 emission_uv;
 layout(location = 5) flat out uvec2 triangle;  // of the first vertex, which no other triangle has as its first
 
 void main() {
@@ -39,6 +41,7 @@ void main() {
     view_normal = dot(row_x.xyz, cofactor_x) < 0.0 ? -n : n;
 
     texture_uv = uv;
+    emission_uv = uv + emission_shift;
     base_colour = push.base_colour * colour;
     emission_cutoff = vec4(dimming * push.emission, push.alpha_cutoff);
     metallic_roughness = vec2(push.metallic, push.roughness);

@@ -20,7 +20,7 @@ const float kSameLuminance = 0.02f;
 // Words of the list of edges: arguments of its dispatches, then how many there are.
 const uint kEdgeCounts = 4u;
 
-const uint kTexelsPerVertex = 5u;   // of rg32f, in which a vertex lies; its position begins with the first
+const uint kTexelsPerVertex = 6u;   // of rg32f, in which a vertex lies; its position begins with the first
 const uint kUvTexel = 3u;
 
 // The facet of the triangle that a vertex is the first of.

@@ -157,6 +157,47 @@ TEST(GltfMaterial, ChoosesAndTransformsTextureCoordinates) {
     EXPECT_EQ(scene.images.at(use.image).rgba, (std::vector<uint8_t>{10, 20, 30, 255}));
 }
 
+// Windows of an atlas over a tiled wall.
+TEST(GltfMaterial, EmissionHasCoordinatesOfItsOwn) {
+    const json transform = {{"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0}}, {"scale", {2, 2}}}}}}};
+    json turned = transform;
+    turned["index"] = 0;
+    // Sets alone, a transform alone, one that names a set, and one texture.
+    turned["extensions"]["KHR_texture_transform"]["texCoord"] = 1;
+    const json cases[] = {{{"index", 0}, {"texCoord", 1}},
+                          {{"index", 0}, {"extensions", transform["extensions"]}},
+                          turned,
+                          {{"index", 0}}};
+    const glm::vec2 want[] = {{0.25f, 0.5f}, {2.5f, 0}, {1, 1}, {1, 0}};
+    for (size_t k = 0; k < 4; ++k) {
+        SCOPED_TRACE(k);
+        GltfFile file = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                                       {"emissiveFactor", {1, 1, 1}},
+                                       {"emissiveTexture", cases[k]}});
+        add_texture(file, png_uri({10, 20, 30, 255}));
+        const scene::LoadedScene loaded = file.read();
+        const scene::Vertex& second = loaded.scene.meshes[0].primitives[0].vertices[1];
+        EXPECT_EQ(second.uv, glm::vec2(1, 0));
+        EXPECT_EQ(second.emission_uv(), want[k]);
+        EXPECT_FALSE(mentions(loaded.notes, "differently"));
+    }
+}
+
+TEST(GltfMaterial, NotesARoughnessThatLiesDifferently) {
+    json material = {
+        {"pbrMetallicRoughness",
+         {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 0}, {"texCoord", 1}}}}}};
+    GltfFile file = with_material(material);
+    add_texture(file, png_uri({10, 20, 30, 255}));
+    EXPECT_TRUE(mentions(file.read().notes, "metallic-roughness texture that lies differently"));
+    material["pbrMetallicRoughness"].erase("baseColorTexture");
+    GltfFile alone = with_material(material);
+    add_texture(alone, png_uri({10, 20, 30, 255}));
+    const scene::LoadedScene loaded = alone.read();
+    EXPECT_EQ(loaded.scene.meshes[0].primitives[0].vertices[1].uv, glm::vec2(0.25f, 0.5f));
+    EXPECT_FALSE(mentions(loaded.notes, "differently"));
+}
+
 TEST(GltfMaterial, ReadsAPictureOnceAndOnlyWhenUsed) {
     GltfFile file = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
                                    {"emissiveFactor", {1, 1, 1}},

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "io/exr_layers.h"
 
+#include <functional>
+#include <initializer_list>
+#include <map>
+#include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include <ImfChannelList.h>
@@ -9,32 +14,80 @@
 #include <ImfPartType.h>
 
 #include "base/error.h"
+#include "base/lower.h"
 
 namespace vesper::io::hdr {
 namespace {
+
+/// The channels of a layer by the words for them.
+class ChannelNames {
+public:
+    /// `local`: a name without that of the layer. In the order of a file: of R and r, R counts.
+    void add(const std::string& local) {
+        exact_.insert(local);
+        by_word_.try_emplace(lower(local), local);
+    }
+    bool has(const char* standard) const { return exact_.contains(standard); }
+    bool has_word(const char* word) const { return by_word_.contains(word); }
+    /// The name of the first word that there is, or the standard one, which no channel may have.
+    std::string of(std::initializer_list<const char*> words, const char* standard) const {
+        if (has(standard)) return standard;
+        for (const char* word : words)
+            if (const auto found = by_word_.find(word); found != by_word_.end()) return found->second;
+        return standard;
+    }
+
+private:
+    std::set<std::string, std::less<>> exact_;
+    std::map<std::string, std::string, std::less<>> by_word_;  // in small letters
+};
+
+/// The picture of a layer: kind and local names of channels; nothing where there is none.
+std::optional<ExrLayer> picture_of(const ChannelNames& names) {
+    using Kind = ExrLayer::Kind;
+    const auto one_of = [&](const char* letter, const char* word) {
+        return names.has_word(letter) || names.has_word(word);
+    };
+    ExrLayer layer;
+    if (names.has("R") || names.has("G") || names.has("B") ||
+        (one_of("r", "red") && one_of("g", "green") && one_of("b", "blue"))) {
+        layer.channels = {names.of({"r", "red"}, "R"), names.of({"g", "green"}, "G"), names.of({"b", "blue"}, "B")};
+        return layer;
+    }
+    const bool vector = names.has_word("x") || names.has_word("z");
+    if (!names.has("Y") && !names.has_word("luminance") && !(names.has_word("y") && !vector)) return std::nullopt;
+    if (names.has("X") && names.has("Y") && names.has("Z")) {
+        layer.kind = Kind::Xyz, layer.channels = {"X", "Y", "Z"};
+        return layer;
+    }
+    layer.kind = names.has_word("ry") || names.has_word("by") ? Kind::Chroma : Kind::Grey;
+    layer.channels = {vector ? names.of({"luminance"}, "Y") : names.of({"luminance", "y"}, "Y"), names.of({"ry"}, "RY"),
+                      names.of({"by"}, "BY")};
+    return layer;
+}
 
 std::vector<ExrLayer> layers_of(const Imf::MultiPartInputFile& file) {
     std::vector<ExrLayer> found;
     for (int part = 0; part < file.parts(); ++part) {
         const Imf::Header& exr = file.header(part);
         if (exr.hasType() && Imf::isDeepData(exr.type())) continue;
-        const Imf::ChannelList& channels = exr.channels();
         const std::string part_name = file.parts() > 1 && exr.hasName() ? exr.name() : "";
-        std::set<std::string> names;
-        channels.layers(names);
-        names.insert("");
-        for (const std::string& name : names) {
-            const std::string prefix = name.empty() ? "" : name + ".";
-            const auto has = [&](const char* channel) { return channels.findChannel(prefix + channel) != nullptr; };
-            using Kind = ExrLayer::Kind;
-            const bool colour = has("R") || has("G") || has("B");
-            if (!colour && !has("Y")) continue;
-            const Kind kind = colour                   ? Kind::Colour
-                              : has("X") && has("Z")   ? Kind::Xyz
-                              : has("RY") || has("BY") ? Kind::Chroma
-                                                       : Kind::Grey;
-            const std::string whole = part_name + (part_name.empty() || name.empty() ? "" : ".") + name;
-            found.push_back({part, prefix, whole, kind == Kind::Xyz && !whole.empty(), kind});
+        std::map<std::string, ChannelNames> layers;
+        for (auto it = exr.channels().begin(); it != exr.channels().end(); ++it) {
+            const std::string whole = it.name();
+            const size_t dot = whole.rfind('.');
+            const bool in_layer = dot != whole.npos && dot > 0;
+            layers[in_layer ? whole.substr(0, dot) : ""].add(in_layer ? whole.substr(dot + 1) : whole);
+        }
+        for (const auto& [name, names] : layers) {
+            std::optional<ExrLayer> layer = picture_of(names);
+            if (!layer) continue;
+            layer->part = part;
+            layer->prefix = name.empty() ? "" : name + ".";
+            layer->name = part_name + (part_name.empty() || name.empty() ? "" : ".") + name;
+            layer->vector = layer->kind == ExrLayer::Kind::Xyz && !layer->name.empty();
+            for (std::string& channel : layer->channels) channel = layer->prefix + channel;
+            found.push_back(std::move(*layer));
         }
     }
     return found;

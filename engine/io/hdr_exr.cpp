@@ -87,14 +87,13 @@ void read_rows(HdrImage& image, const Window& data, const Window& display, std::
 /// R, G and B or X, Y and Z as they are, or Y three times.
 void read_channels(HdrImage& image, Imf::InputPart& part, const ExrLayer& layer, const Window& data,
                    const Window& display) {
-    const bool grey = layer.kind == ExrLayer::Kind::Grey, xyz = layer.kind == ExrLayer::Kind::Xyz;
+    const bool grey = layer.kind == ExrLayer::Kind::Grey;
     std::vector<float> block;
     read_rows(image, data, display, block, [&](int first, int last) {
         const int64_t x_stride = 3 * sizeof(float), y_stride = x_stride * data.width();
         Imf::FrameBuffer pixels;
-        const char* names[] = {grey ? "Y" : xyz ? "X" : "R", xyz ? "Y" : "G", xyz ? "Z" : "B"};
-        for (int c = 0; c < (grey ? 1 : 3); ++c)
-            pixels.insert(layer.prefix + names[c],
+        for (size_t c = 0; c < (grey ? 1 : 3); ++c)
+            pixels.insert(layer.channels[c],
                           Imf::Slice(Imf::FLOAT, origin(block.data() + c, data.x0, first, x_stride, y_stride),
                                      static_cast<size_t>(x_stride), static_cast<size_t>(y_stride)));
         part.setFrameBuffer(pixels);
@@ -111,10 +110,9 @@ void read_chroma(HdrImage& image, Imf::InputPart& part, const ExrLayer& layer, c
     const Imath::V3f weights =
         Imf::RgbaYca::computeYw(Imf::hasChromaticities(exr) ? Imf::chromaticities(exr) : Imf::Chromaticities());
     const glm::dvec3 yw(weights.x, weights.y, weights.z);
-    const char* names[] = {"RY", "BY"};
     ChromaPlane planes[2];
-    for (int c = 0; c < 2; ++c)
-        if (const Imf::Channel* channel = exr.channels().findChannel(layer.prefix + names[c]))
+    for (size_t c = 0; c < 2; ++c)
+        if (const Imf::Channel* channel = exr.channels().findChannel(layer.channels[c + 1]))
             planes[c].step = {channel->xSampling, channel->ySampling};
     for (const ChromaPlane& plane : planes)
         if (!plane.is_sound())
@@ -130,15 +128,15 @@ void read_chroma(HdrImage& image, Imf::InputPart& part, const ExrLayer& layer, c
         const int64_t width = data.width(), size = sizeof(float);
         luminance.resize(static_cast<size_t>(width * (to - from + 1)));
         Imf::FrameBuffer pixels;
-        pixels.insert(layer.prefix + "Y",
+        pixels.insert(layer.channels[0],
                       Imf::Slice(Imf::FLOAT, origin(luminance.data(), data.x0, from, size, size * width),
                                  static_cast<size_t>(size), static_cast<size_t>(size * width)));
-        for (int c = 0; c < 2; ++c) {
+        for (size_t c = 0; c < 2; ++c) {
             ChromaPlane& plane = planes[c];
             plane.resize(width, to - from + 1);
             const int64_t row = size * plane.width;
             pixels.insert(
-                layer.prefix + names[c],
+                layer.channels[c + 1],
                 Imf::Slice(Imf::FLOAT,
                            origin(plane.values.data(), data.x0 / plane.step.x, from / plane.step.y, size, row),
                            static_cast<size_t>(size), static_cast<size_t>(row), plane.step.x, plane.step.y, 0.0));

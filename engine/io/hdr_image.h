@@ -32,10 +32,12 @@ struct HdrLimits {
 /// Reads an OpenEXR picture of any compression that the OpenEXR library it is built with knows, in scan lines or tiles
 /// (the largest level), of half, float or integer values; channels R, G, B (missing ones are 0), or Y (grey), or Y, RY,
 /// BY (chroma of every pixel or of one in two), or X, Y, Z in no layer and no named part (CIE 1931; there they are
-/// normals or places). `layer` names a part, or a layer (channels LAYER.R and so on); without it those of the first
-/// part that are in no layer are read, or the only picture there is. Deep pictures are refused. The result covers the
-/// display window and is 0 outside of the data window. Other primaries (attribute chromaticities) become Rec. 709 of
-/// the same tristimulus values: no adaptation to white. Alpha is ignored. Throws Error with file and reason.
+/// normals or places). Channels named r, g, b, y, red, green, blue or luminance in letters of any case are read as
+/// well, where no standard name says otherwise. `layer` names a part, or a layer (channels LAYER.R and so on); without
+/// it those of the first part that are in no layer are read, or the only picture there is. Deep pictures are refused.
+/// The result covers the display window and is 0 outside of the data window. Other primaries (attribute chromaticities)
+/// become Rec. 709 of the same tristimulus values: no adaptation to white. Alpha is ignored. Throws Error with file and
+/// reason.
 HdrImage read_exr(const std::filesystem::path& file, const HdrLimits& = {}, const std::string& layer = {});
 
 /// Reads a Radiance picture (RGBE or XYZE, run-length coded or not, in any of the eight orders of pixels). EXPOSURE is

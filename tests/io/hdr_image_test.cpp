@@ -142,6 +142,47 @@ TEST(HdrExr, ReadsGreyMissingChannelsAndChroma) {
     expect_values(read_exr(folder / "yc.exr"), wanted, 0.005);
 }
 
+// As programs that do not follow the standard's capitals name them.
+TEST(HdrExr, ReadsOtherNamesOfColours) {
+    const TempFolder folder;
+    const auto read = [&](const std::vector<std::string>& names, Values values, const std::string& layer = {}) {
+        write(folder / "x.exr", Imf::Header(1, 1), std::move(values), names);
+        return read_exr(folder / "x.exr", {}, layer);
+    };
+    expect_values(read({"r", "g", "b", "a"}, {4, 3, 2, 1}), {4, 3, 2});
+    expect_values(read({"red", "green", "blue"}, {4, 3, 2}), {4, 3, 2});
+    expect_values(read({"Red", "GREEN", "bLUE", "Alpha"}, {4, 3, 2, 1}), {4, 3, 2});
+    expect_values(read({"R", "green", "b"}, {4, 3, 2}), {4, 3, 2});
+    expect_values(read({"R", "G", "B", "r", "g", "b"}, {4, 3, 2, 9, 9, 9}), {4, 3, 2});
+    expect_values(read({"R", "red", "green"}, {4, 9, 3}), {4, 3, 0});
+    for (const char* name : {"y", "luminance", "Luminance", "LUMINANCE"})
+        expect_values(read({name, "a"}, {4, 1}), {4, 4, 4});
+    expect_values(read({"x", "z", "luminance"}, {8, 9, 4}), {4, 4, 4});
+    expect_values(read({"Y", "y", "luminance"}, {4, 8, 9}), {4, 4, 4});
+    expect_values(read({"y", "ry", "by"}, {4, 0.5f, -0.5f}), {6, (4 - 6 * 0.2126f - 2 * 0.0722f) / 0.7152f, 2}, 1e-3);
+
+    const std::vector<std::string> layers{"depth.Z", "key.fill.red", "key.fill.green", "key.fill.blue"};
+    expect_values(read(layers, {8, 4, 3, 2}), {4, 3, 2});
+    expect_values(read(layers, {8, 4, 3, 2}, "key.fill"), {4, 3, 2});
+    expect_values(read({"r", "g", "b", "key.luminance"}, {4, 3, 2, 7}, "key"), {7, 7, 7});
+    expect_values(read({"r", "g", "b", "key.luminance"}, {4, 3, 2, 7}), {4, 3, 2});
+    expect_values(read({"key.r", "key.g", "key.b", "fill.y"}, {4, 3, 2, 7}, "fill"), {7, 7, 7});
+    EXPECT_TRUE(contains(refusal(folder / "x.exr"), "choose one of fill, key"));
+}
+
+// Normals, speeds, places and colours of other kinds.
+TEST(HdrExr, TakesNoVectorForAColourByItsLetters) {
+    const TempFolder folder;
+    for (const std::vector<std::string>& names : {std::vector<std::string>{"x", "y", "z"},
+                                                  {"speed.x", "speed.y"},
+                                                  {"a", "b", "l"},
+                                                  {"r", "g"},
+                                                  {"N.y", "N.z"}}) {
+        write(folder / "x.exr", Imf::Header(1, 1), {1, 2, 3}, names);
+        EXPECT_TRUE(contains(refusal(folder / "x.exr"), "no channels R, G, B or Y of a picture")) << names.front();
+    }
+}
+
 TEST(HdrExr, ReadsLayersByName) {
     const TempFolder folder;
     write(folder / "one.exr", Imf::Header(1, 1), {5, 9, 7, 8}, {"key.Z", "key.light.R", "key.light.G", "key.light.B"});

@@ -9,8 +9,8 @@ namespace vesper::io {
 
 /// Positive and finite where present.
 struct CameraExposure {
-    std::optional<double> seconds;   ///< ExposureTime
-    std::optional<double> f_number;  ///< FNumber; lenses that the camera does not know have none
+    std::optional<double> seconds;   ///< ExposureTime, or 2^-ShutterSpeedValue (APEX)
+    std::optional<double> f_number;  ///< FNumber, or 2^(ApertureValue / 2); unknown lenses have none
     std::optional<double> iso;       ///< ISOSpeedRatings
 };
 

@@ -1,6 +1,7 @@
 // What cameras say, out of JPEG files made here. SPDX-License-Identifier: MIT
 #include "io/exif.h"
 
+#include <cmath>
 #include <filesystem>
 
 #include <gtest/gtest.h>
@@ -27,6 +28,37 @@ TEST(Exif, ReadsExposureOfBothByteOrders) {
         EXPECT_DOUBLE_EQ(*camera.seconds, 1.0 / 60);
         EXPECT_DOUBLE_EQ(*camera.f_number, 2.8);
         EXPECT_DOUBLE_EQ(*camera.iso, 400);
+    }
+}
+
+// Tv = -log2 t, Av = 2 log2 N (Exif 2.32, annex C).
+TEST(Exif, TakesTimesAndAperturesInApexWhereThereAreNoOthers) {
+    const ExifTags apex{0x9201, 10, 0x9202, 5};
+    const auto read = [](int32_t over, uint32_t under, int32_t f_over, uint32_t f_under, const ExifTags& tags,
+                         bool big = false) {
+        const auto exif =
+            exif_of(static_cast<uint32_t>(over), under, static_cast<uint32_t>(f_over), f_under, 100, big, tags);
+        return read_exif(jpeg_with(8, 8, kGrey, exif));
+    };
+    for (const bool big : {false, true}) {
+        const io::CameraExposure camera = read(6, 1, 3, 1, apex, big);
+        ASSERT_TRUE(camera.seconds && camera.f_number);
+        EXPECT_DOUBLE_EQ(*camera.seconds, 1.0 / 64);
+        EXPECT_DOUBLE_EQ(*camera.f_number, std::sqrt(8.0));
+    }
+    const io::CameraExposure phone = read(5906, 1000, 169, 100, apex);
+    EXPECT_NEAR(phone.seconds.value_or(0), 1.0 / 60, 1e-4);
+    EXPECT_NEAR(phone.f_number.value_or(0), 1.8, 0.01);
+    const io::CameraExposure night = read(-3, 1, 0, 1, apex);
+    EXPECT_DOUBLE_EQ(night.seconds.value_or(0), 8);
+    EXPECT_DOUBLE_EQ(night.f_number.value_or(0), 1);
+    const io::CameraExposure second = read(0, 10, 4, 1, {0x9201, 10, 0x829d, 5});
+    EXPECT_DOUBLE_EQ(second.seconds.value_or(0), 1);
+    EXPECT_DOUBLE_EQ(second.f_number.value_or(0), 4) << "FNumber is no APEX value";
+    EXPECT_DOUBLE_EQ(read(1, 60, 4, 1, {0x829a, 5, 0x9202, 5}).f_number.value_or(0), 4);
+    for (const auto& [over, under] : {std::pair<int32_t, uint32_t>(1, 0), {0, 0}, {2000, 1}, {-2000000000, 1}}) {
+        EXPECT_FALSE(read(over, under, 0, 0, apex).seconds) << over;
+        EXPECT_FALSE(read(1, 1, over < 0 ? 90 : over, under, apex).f_number) << over;
     }
 }
 

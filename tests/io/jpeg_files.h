@@ -11,9 +11,16 @@
 
 namespace vesper::test {
 
-/// The payload of an APP1 marker: a TIFF structure of ExposureTime, FNumber and ISOSpeedRatings (Exif 2.32, 4.6).
+/// Tags of a time and of an aperture, with their types: 5 is a ratio, 10 one with a sign.
+struct ExifTags {
+    uint32_t time = 0x829a, time_type = 5;  ///< ExposureTime; ShutterSpeedValue is 0x9201, 10
+    uint32_t f = 0x829d, f_type = 5;        ///< FNumber; ApertureValue is 0x9202, 5
+};
+
+/// The payload of an APP1 marker: a TIFF structure of ExposureTime, FNumber and ISOSpeedRatings (Exif 2.32, 4.6), or of
+/// other tags in place of the first two.
 inline std::vector<uint8_t> exif_of(uint32_t seconds_over, uint32_t seconds_under, uint32_t f_over, uint32_t f_under,
-                                    uint16_t iso, bool big_endian = false) {
+                                    uint16_t iso, bool big_endian = false, const ExifTags& tags = {}) {
     std::vector<uint8_t> bytes;
     const auto put = [&](uint32_t value, int size) {
         for (int i = 0; i < size; ++i)
@@ -24,8 +31,9 @@ inline std::vector<uint8_t> exif_of(uint32_t seconds_over, uint32_t seconds_unde
     };
     put(big_endian ? 0x4d4d : 0x4949, 2), put(42, 2), put(8, 4);
     put(1, 2), entry(0x8769, 4, 26, 4), put(0, 4);  // IFD0 at 8: where the Exif IFD is
-    put(3, 2), entry(0x829a, 5, 68, 4), entry(0x829d, 5, 76, 4), entry(0x8827, 3, iso, 2), put(0, 4);  // at 26
-    put(seconds_over, 4), put(seconds_under, 4), put(f_over, 4), put(f_under, 4);                      // at 68 and 76
+    put(3, 2), entry(tags.time, tags.time_type, 68, 4), entry(tags.f, tags.f_type, 76, 4), entry(0x8827, 3, iso, 2),
+        put(0, 4);                                                                 // at 26
+    put(seconds_over, 4), put(seconds_under, 4), put(f_over, 4), put(f_under, 4);  // at 68 and 76
     const std::string start("Exif\0\0", 6);
     bytes.insert(bytes.begin(), start.begin(), start.end());
     return bytes;

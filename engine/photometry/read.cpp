@@ -1,6 +1,4 @@
 // Which reader a file is for. SPDX-License-Identifier: MIT
-#include <algorithm>
-
 #include "base/lower.h"
 #include "io/read_file.h"
 #include "photometry/distribution.h"
@@ -14,11 +12,11 @@ namespace {
 
 /// A format by what a file begins with, as its usual extension.
 std::string format_of(std::span<const uint8_t> bytes) {
-    const std::string_view start(reinterpret_cast<const char*>(bytes.data()), std::min<size_t>(bytes.size(), 1u << 16));
+    LineReader lines(bytes, "");
+    const std::string_view start = lines.rest().substr(0, 1u << 16);
     if (start.starts_with("\x76\x2f\x31\x01")) return ".exr";
     if (start.starts_with("IES") || start.find("\nTILT=") != start.npos || start.find("\rTILT=") != start.npos)
         return ".ies";
-    LineReader lines(bytes, "");
     lines.next();
     for (int i = 0; i < 5; ++i) {  // EULUMDAT: type, symmetry, planes, spacing, angles
         const auto line = lines.next();

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,7 +19,8 @@ constexpr uint64_t kMaxTableBytes = 64u << 20;
 constexpr size_t kMaxAngles = 4096;      ///< of either list, as the file has it
 constexpr size_t kMaxCells = 8'000'000;  ///< of the table with its symmetry expanded
 
-/// A text file line by line: CR, LF or CRLF, with or without a byte order mark.
+/// A text file line by line: CR, LF or CRLF, with or without a byte order mark. Texts in UTF-16 have one, and become
+/// UTF-8.
 class LineReader {
 public:
     LineReader(std::span<const uint8_t> bytes, std::string name);
@@ -34,6 +36,7 @@ public:
 
 private:
     std::string name_;
+    std::shared_ptr<const std::string> converted_;  // from UTF-16
     std::string_view text_;
     size_t at_ = 0, line_ = 0;
 };

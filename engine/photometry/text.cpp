@@ -23,6 +23,40 @@ size_t utf8_length(std::string_view text) {
     return length;
 }
 
+void append_utf8(std::string& text, uint32_t code) {
+    const auto add = [&](uint32_t byte) { text += static_cast<char>(byte); };
+    if (code < 0x80) {
+        add(code);
+    } else if (code < 0x800) {
+        add(0xc0 | code >> 6), add(0x80 | (code & 0x3f));
+    } else if (code < 0x10000) {
+        add(0xe0 | code >> 12), add(0x80 | (code >> 6 & 0x3f)), add(0x80 | (code & 0x3f));
+    } else {
+        add(0xf0 | code >> 18), add(0x80 | (code >> 12 & 0x3f)), add(0x80 | (code >> 6 & 0x3f));
+        add(0x80 | (code & 0x3f));
+    }
+}
+
+/// UTF-16 behind its byte order mark as UTF-8, of at most 1.5 times the size; half a pair becomes U+FFFD, an odd byte
+/// at the end nothing.
+std::string utf8_of(std::span<const uint8_t> bytes, bool big_endian) {
+    constexpr uint32_t kNone = 0xfffd;
+    const auto unit = [&](size_t i) -> uint32_t { return bytes[i + !big_endian] << 8 | bytes[i + big_endian]; };
+    std::string text;
+    text.reserve(bytes.size() / 2);
+    for (size_t i = 0; i + 1 < bytes.size(); i += 2) {
+        uint32_t code = unit(i);
+        if (code >= 0xd800 && code < 0xe000) {
+            const uint32_t low = code < 0xdc00 && i + 3 < bytes.size() ? unit(i + 2) : 0;
+            const bool pair = low >= 0xdc00 && low < 0xe000;
+            code = pair ? 0x10000 + ((code - 0xd800) << 10 | (low - 0xdc00)) : kNone;
+            if (pair) i += 2;
+        }
+        append_utf8(text, code);
+    }
+    return text;
+}
+
 /// Whether a number beyond what a double can be is too small for it, not too large.
 bool vanishes(std::string_view number) {
     const size_t e = std::min(number.find_first_of("eE"), number.size());
@@ -41,7 +75,13 @@ bool vanishes(std::string_view number) {
 
 LineReader::LineReader(std::span<const uint8_t> bytes, std::string name)
     : name_(std::move(name)), text_(reinterpret_cast<const char*>(bytes.data()), bytes.size()) {
-    if (text_.starts_with("\xef\xbb\xbf")) text_.remove_prefix(3);
+    const bool big_endian = text_.starts_with("\xfe\xff");
+    if (text_.starts_with("\xef\xbb\xbf")) {
+        text_.remove_prefix(3);
+    } else if (big_endian || text_.starts_with("\xff\xfe")) {
+        converted_ = std::make_shared<const std::string>(utf8_of(bytes.subspan(2), big_endian));
+        text_ = *converted_;
+    }
 }
 
 std::optional<std::string_view> LineReader::next() {

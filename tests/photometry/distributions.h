@@ -19,6 +19,18 @@ inline std::span<const uint8_t> bytes_of(const std::string& text) {
     return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
 }
 
+/// Text of ASCII and Latin-1 as UTF-16 with a byte order mark.
+inline std::string utf16_of(const std::string& text, bool big_endian) {
+    std::string made;
+    const auto put = [&](uint8_t high, uint8_t low) {
+        made += static_cast<char>(big_endian ? high : low);
+        made += static_cast<char>(big_endian ? low : high);
+    };
+    put(0xfe, 0xff);
+    for (const char c : text) put(0, static_cast<uint8_t>(c));
+    return made;
+}
+
 /// Angles from first to last.
 inline std::vector<double> steps(double first, double last, double step) {
     std::vector<double> angles;

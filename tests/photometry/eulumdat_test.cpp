@@ -47,6 +47,15 @@ File plain() {
     return file;
 }
 
+TEST(Eulumdat, ReadsUtf16OfBothByteOrders) {
+    const std::string text = plain().text();
+    for (const bool big : {false, true}) {
+        EXPECT_EQ(parsed_ldt(utf16_of(text, big)).candela, parsed_ldt(text).candela);
+        EXPECT_TRUE(
+            contains(ldt_complaint(utf16_of(replaced(text, "0\n45\n90", "0\nwide\n90"), big)), "'wide' stands"));
+    }
+}
+
 // With no symmetry stated all planes are there.
 TEST(Eulumdat, PlanesGoRound) {
     File file = plain();

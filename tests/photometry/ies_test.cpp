@@ -170,6 +170,31 @@ TEST(Ies, TextBecomesUtf8) {
     EXPECT_EQ(d.name, "réseau");
 }
 
+// As Windows programs save "Unicode" text.
+TEST(Ies, ReadsUtf16OfBothByteOrders) {
+    const TempFolder folder;
+    for (const bool big : {false, true}) {
+        const std::string text = replaced(kPlainIes, "[MANUFAC] M", "[MANUFAC] R\xe9verb\xe8re");
+        const Distribution d = parsed_ies(utf16_of(text, big));
+        EXPECT_EQ(d.candela, (std::vector<double>{100, 50, 25}));
+        EXPECT_EQ(d.metadata.at(1).second, "R\u00e9verb\u00e8re");
+        EXPECT_TRUE(contains(ies_complaint(utf16_of(replaced(kPlainIes, "50 25", "fifty 25"), big)),
+                             "x.ies: line 9: 'fifty' stands where an intensity is expected"));
+        std::string windows;
+        for (const char c : kPlainIes) windows += c == '\n' ? std::string("\r\n") : std::string(1, c);
+        EXPECT_EQ(parsed_ies(utf16_of(windows, big) + "\x01").candela.size(), 3u) << "an odd byte at the end";
+        EXPECT_EQ(photometry::read_distribution(folder.write("profile.txt", utf16_of(text, big))).candela, d.candela);
+    }
+    // A name of two units, and halves of such pairs.
+    const std::string start = utf16_of("TEST\n[LUMINAIRE] ", true), rest = utf16_of(kPlainIes, true).substr(2);
+    const auto name = [&](const std::string& units) {
+        return parsed_ies(start + units + std::string("\0\n", 2) + rest).name;
+    };
+    EXPECT_EQ(name(std::string("\xd8\x3d\xde\x00", 4)), "\U0001f600");
+    EXPECT_EQ(name("\xd8\x3d"), "\ufffd");
+    EXPECT_EQ(name(std::string("\xde\x00", 2)), "\ufffd");
+}
+
 TEST(Ies, AppliesTiltForTheLampAsMeasured) {
     const std::string table = "1\n3\n-30 10 20\n0.6 1.0 0.9\n";
     EXPECT_NEAR(parsed_ies(replaced(kPlainIes, "TILT=NONE\n", "TILT=INCLUDE\n" + table)).candela[0], 90, 1e-9);

@@ -5,6 +5,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -15,6 +16,7 @@
 #include <deque>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 #include "base/error.h"
 #include "base/one_line.h"
@@ -29,6 +31,7 @@ constexpr uint64_t kMostQueued = uint64_t{64} << 20;  // bytes
 constexpr size_t kLargestDatagram = 65536;
 constexpr int kBuffer = 4 << 20, kWake = 50;        // bytes that the system keeps; ms between looks at the end
 constexpr auto kSilence = std::chrono::seconds(5);  // of a sender, after which another is listened to
+constexpr size_t kMostSources = 8;                  // of datagrams that are no message yet, whose packets are kept
 constexpr double kBack = 1, kAhead = 10;            // s: further from the latest message is another run
 constexpr int kAstrayInTurn = 5;                    // messages of that, which goes on after the one before by
 constexpr int64_t kStep = 50'000'000;               // ns
@@ -40,6 +43,17 @@ sockaddr_in socket_address(const Address& address) {
         throw Error("--osi-udp " + one_line(address.host) + ": an address such as 127.0.0.1 is expected");
     return made;
 }
+
+bool is_same(const sockaddr_in& a, const sockaddr_in& b) {
+    return a.sin_addr.s_addr == b.sin_addr.s_addr && a.sin_port == b.sin_port;
+}
+
+// An address that datagrams came from.
+struct Source {
+    sockaddr_in from{};
+    DatagramReader datagrams = {};
+    Clock::time_point heard = {};
+};
 
 }  // namespace
 
@@ -88,26 +102,46 @@ struct Receiver::Impl {
 
     void hear(std::span<const uint8_t> datagram, const sockaddr_in& from) {
         const Clock::time_point now = Clock::now();
-        const bool same =
-            sender && sender->sin_addr.s_addr == from.sin_addr.s_addr && sender->sin_port == from.sin_port;
-        if (!same && sender && now - heard < kSilence) {
+        if (sender && !is_same(*sender, from) && now - heard < kSilence) {
             const std::lock_guard lock(mutex);
             ++counts.foreign;
             return;
         }
-        if (!same) sender = from, dropped += datagrams.incomplete(), datagrams = {};
-        heard = now;
+        Source& source = source_of(from, now);
+        const uint64_t before = source.datagrams.incomplete();
+        std::string problem;
         try {
-            const auto bytes = datagrams.take(datagram);
-            {
-                const std::lock_guard lock(mutex);
-                counts.incomplete = dropped + datagrams.incomplete();
+            const auto bytes = source.datagrams.take(datagram);
+            incomplete += source.datagrams.incomplete() - before;
+            if (bytes) {
+                Message message = parse_message(*bytes);
+                if (!sender || !is_same(*sender, from)) sender = from;
+                heard = now;
+                hear_message(std::move(message), now);
             }
-            if (bytes) hear_message(parse_message(*bytes), now);
-        } catch (const std::exception&) {  // also of memory: nothing that comes ends the drive
-            const std::lock_guard lock(mutex);
-            ++counts.malformed;
+        } catch (const std::exception& error) {  // also of memory: nothing that comes ends the drive
+            problem = error.what();
         }
+        const std::lock_guard lock(mutex);
+        counts.incomplete = incomplete;
+        if (problem.empty()) return;
+        ++counts.malformed;
+        last_problem = std::move(problem);
+    }
+
+    // Where the datagrams of an address are put together. The source that was silent for the longest time gives way.
+    Source& source_of(const sockaddr_in& from, Clock::time_point now) {
+        auto source =
+            std::find_if(sources.begin(), sources.end(), [&](const Source& s) { return is_same(s.from, from); });
+        if (source == sources.end() && sources.size() < kMostSources) {
+            source = sources.insert(sources.end(), Source{.from = from});
+        } else if (source == sources.end()) {
+            source = std::min_element(sources.begin(), sources.end(),
+                                      [](const Source& a, const Source& b) { return a.heard < b.heard; });
+            *source = Source{.from = from};
+        }
+        source->heard = now;
+        return *source;
     }
 
     void hear_message(Message message, Clock::time_point now) {
@@ -155,10 +189,10 @@ struct Receiver::Impl {
     io::Descriptor socket;
     uint16_t port = 0;
     // Of the listener.
-    std::optional<sockaddr_in> sender;
-    Clock::time_point heard;
-    DatagramReader datagrams;
-    uint64_t dropped = 0;
+    std::optional<sockaddr_in> sender;  // of the latest message
+    Clock::time_point heard;            // that message
+    std::vector<Source> sources;
+    uint64_t incomplete = 0;
     std::optional<int64_t> latest;
     int64_t moved = 0;
     int astray_in_turn = 0;
@@ -169,6 +203,7 @@ struct Receiver::Impl {
     std::deque<Queued> queue;
     uint64_t queued = 0;
     StreamCounts counts;
+    std::string last_problem;
     std::atomic<bool> ends{false};
     std::thread listener;
 };
@@ -190,6 +225,11 @@ uint16_t Receiver::port() const { return impl_->port; }
 StreamCounts Receiver::counts() const {
     const std::lock_guard lock(impl_->mutex);
     return impl_->counts;
+}
+
+std::string Receiver::last_problem() const {
+    const std::lock_guard lock(impl_->mutex);
+    return impl_->last_problem;
 }
 
 }  // namespace vesper::osi

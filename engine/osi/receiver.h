@@ -21,9 +21,10 @@ struct Address {
 /// "PORT" or "ADDRESS:PORT". Throws Error.
 Address parse_address(const std::string& text);
 
-/// Listens on a thread of its own and keeps what came until it is taken, at most 64 MiB of it. The first sender is
-/// listened to, and another once that one has been silent for 5 s. A sender whose time begins again goes on where it
-/// was: its later times are moved. Throws Error.
+/// Listens on a thread of its own and keeps what came until it is taken, at most 64 MiB of it. A sender is an address
+/// of which a message was read. The first one is listened to, and another once no message of that one has come for 5 s.
+/// Packets of eight addresses are put together at a time. A sender whose time begins again goes on where it was: its
+/// later times are moved. Throws Error.
 class Receiver {
 public:
     explicit Receiver(const Address&);
@@ -39,7 +40,8 @@ public:
     std::optional<Arrival> take(std::chrono::milliseconds longest = {});
 
     uint16_t port() const;
-    StreamCounts counts() const;  ///< without late and repeated, which a Timeline tells
+    StreamCounts counts() const;       ///< without late and repeated, which a Timeline tells
+    std::string last_problem() const;  ///< why the latest of the malformed messages cannot be read; empty: none is
 
 private:
     struct Impl;

@@ -338,6 +338,20 @@ TEST_F(OsiDriveProgram, DrivesAlongWithWhatIsSent) {
     same_pictures("a", "c", 7);
 }
 
+// The wait for a first message ends, and says what came instead.
+TEST_F(OsiDriveProgram, WaitsNoLongerThanStated) {
+    const std::string arguments = common_ + kScene + " --osi-udp 0 --seconds 0.1 --log l.csv";
+    for (const std::string noise : {"", "x", "\x1a\x02\x08\x07"}) {
+        const int code = run_along(arguments + " --osi-wait 1", [&](const UdpSender& sender) {
+            if (!noise.empty()) sender.send(noise);
+        });
+        EXPECT_EQ(code, 2);
+        EXPECT_TRUE(contains(said, "no message came in 1 s (--osi-wait)")) << said;
+        EXPECT_EQ(contains(said, "1 malformed"), !noise.empty()) << said;
+    }
+    expect_refused(common_ + kScene + " --osi-wait 1 --log l.csv", {"--osi-wait", "--osi-udp"});
+}
+
 // More objects than there are bodies, away from the roads, of a sender that falls silent; an older trace has the name.
 TEST_F(OsiDriveProgram, EndsWithItsSenderAndIsReplayed) {
     const std::string roads = std::string(VESPER_SOURCE_DIR) + "/data/rivoli/rivoli.xodr";

@@ -2,6 +2,7 @@
 #include "osi/receiver.h"
 
 #include <algorithm>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -48,6 +49,64 @@ TEST(Receiver, HearsWhatIsSentAndCountsTheRest) {
     EXPECT_EQ(accepted, 89u) << "one came before the first";
     EXPECT_NEAR(timeline.latest(), 1.94, 1e-9);
     EXPECT_FALSE(receiver.take());
+}
+
+// Only an address of which a message was read is a sender: nothing else keeps the simulator out.
+TEST(Receiver, DatagramsThatAreNoMessagesMakeNoSender) {
+    const std::string whole = osi::bytes_of(at(0)), without_time = std::string("\x1a\x02\x08\x07", 4);
+    for (const std::string& noise :
+         {std::string("x"), std::string(), without_time, whole.substr(0, whole.size() - 3)}) {
+        osi::Receiver receiver({.port = 0});
+        UdpSender squatter(receiver.port()), sender(receiver.port());
+        squatter.send(noise);
+        sender.send(whole);
+        squatter.send(noise);
+        squatter.send(whole);
+        sender.send_packets(osi::bytes_of(at(20)), 10);
+        size_t heard = 0;
+        while (receiver.take(300ms)) ++heard;
+        EXPECT_EQ(heard, 2u) << noise.size();
+        EXPECT_EQ(receiver.counts().malformed, 1u) << noise.size();
+        EXPECT_EQ(receiver.counts().foreign, 2u) << "once there is a sender; " << noise.size();
+        EXPECT_FALSE(receiver.last_problem().empty());
+    }
+}
+
+// Packets are put together by their address, also between others', and of more addresses than are kept.
+TEST(Receiver, PacketsOfTheFirstMessageComeBetweenOthers) {
+    osi::Receiver receiver({.port = 0});
+    UdpSender squatter(receiver.port()), sender(receiver.port());
+    const std::string bytes = osi::bytes_of(at(0));
+    std::vector<std::string> packets;
+    for (size_t from = 0; from < bytes.size(); from += 10) {
+        const std::string part = bytes.substr(from, 10);
+        const auto count = int32_t(packets.size() + 1);
+        std::string packet;
+        for (const uint32_t word : {uint32_t(from + 10 >= bytes.size() ? -count : count), uint32_t(part.size())})
+            for (int i = 0; i < 4; ++i) packet += char(word >> 8 * i & 0xff);
+        packets.push_back(packet + part);
+    }
+    for (int i = 0; i < 20; ++i) UdpSender(receiver.port()).send(packets[0]);
+    for (const std::string& packet : packets) {
+        squatter.send("x");
+        sender.send(packet);
+        squatter.send(packets[0]);
+    }
+    EXPECT_TRUE(receiver.take(500ms));
+}
+
+// A sender that goes on without messages is silent.
+TEST(Receiver, NoiseDoesNotKeepASendersPlace) {
+    osi::Receiver receiver({.port = 0});
+    UdpSender first(receiver.port()), second(receiver.port());
+    first.send(osi::bytes_of(at(0)));
+    EXPECT_TRUE(receiver.take(500ms));
+    for (int i = 0; i < 26; ++i) {
+        std::this_thread::sleep_for(200ms);
+        first.send("x");
+    }
+    second.send(osi::bytes_of(at(20)));
+    EXPECT_TRUE(receiver.take(500ms));
 }
 
 // A simulation that begins again has earlier times: it goes on where the one before ended.

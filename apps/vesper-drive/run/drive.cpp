@@ -48,13 +48,15 @@ void refuse_idle(const apps::Command& program, const DriveArguments& a) {
     const Rule rules[]{
         {replays, {"scene"}, "the recording names its scene (--replay)"},
         {replays,
-         {"--scenario", "--osi", "--osi-udp", "--osi-delay", "--osi-origin", "--models", "--host"},
+         {"--scenario", "--osi", "--osi-udp", "--osi-delay", "--osi-wait", "--osi-origin", "--models", "--host"},
          "the recording has its messages (--replay)"},
         {replays, {"--autopilot", "--seconds", "--seed"}, "a recording is driven as it was (--replay)"},
         {replays, {"--record"}, "a replay is not recorded"},
         {!a.messages.any(), {"--models", "--host", "--osi-origin"}, "of what? give --osi, --osi-udp or --scenario"},
-        {!a.messages.live, {"--osi-delay"}, "of what? give --osi-udp"},
-        {!a.headless, {"--seconds", "--video", "--fps"}, "has a meaning only without a window (--headless)"},
+        {!a.messages.live, {"--osi-delay", "--osi-wait"}, "of what? give --osi-udp"},
+        {!a.headless,
+         {"--osi-wait", "--seconds", "--video", "--fps"},
+         "has a meaning only without a window (--headless)"},
         {a.headless,
          {"--window", "--fullscreen", "--vsync", "--limit", "--scaling", "--controllers"},
          "has a meaning only in a window, not with --headless"},
@@ -152,6 +154,9 @@ void add_drive(apps::Command program) {
     trace.excludes(table);
     program.add_option("--osi-delay", a->osi_delay, "How far what is shown is behind what is sent, s")
         .check(apps::between(0.0, 10.0))
+        .shows_default();
+    program.add_option("--osi-wait", a->osi_wait, "Headless: how long to wait for the first message, s")
+        .check(apps::between(0.1, 86400.0))
         .shows_default();
     program.add_option("--osi-origin", a->origin,
                        "X,Y,Z,YAW: where the origin of the messages is on the roads, m and degrees");

@@ -246,12 +246,15 @@ VkExtent2D extent_of(const Channels& channels) {
 class Live {
 public:
     Live(const DriveArguments& a, Session& session, Playback& playback)
-        : feed_(osi::parse_address(a.osi_udp), a.osi_delay) {
+        : feed_(osi::parse_address(a.osi_udp), a.osi_delay), first_(a.osi_wait) {
         apps::print_note("listening at " + feed_.place());
-        if (!feed_.wait_for(session, 0, kFirst)) throw Error("--osi-udp " + a.osi_udp + ": no message came in 30 s");
+        if (!feed_.wait_for(session, 0, first_))
+            throw Error("--osi-udp " + one_line(a.osi_udp) +
+                        apps::format(": no message came in %g s (--osi-wait); of what came: ", first_) +
+                        feed_.report());
         playback.live_moment = [this, &session] {
             moment_ += session.options().time_step;
-            if (!feed_.wait_for(session, moment_, kFirst)) over_ = true;
+            if (!feed_.wait_for(session, moment_, first_)) over_ = true;
             return std::optional(moment_);
         };
     }
@@ -259,8 +262,8 @@ public:
     void finish() { apps::print_note(feed_.report() + (over_ ? "; the sender is silent, and the drive is over" : "")); }
 
 private:
-    static constexpr std::chrono::seconds kFirst{30};
     MessageFeed feed_;
+    double first_;  // s
     double moment_ = 0;
     bool over_ = false;
 };

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/one_line.h"
+
 namespace vesper::drive {
 namespace {
 
-constexpr auto kSilence = std::chrono::seconds(5);
+constexpr double kSilence = 5;  // s
 constexpr auto kLook = std::chrono::milliseconds(50);
 
 }  // namespace
@@ -39,11 +41,14 @@ std::optional<double> MessageFeed::shown(Clock::time_point now) {
     return clock_.shown(std::chrono::duration<double>(now - began_).count());
 }
 
-bool MessageFeed::wait_for(Session& session, double moment, std::chrono::seconds first) {
+bool MessageFeed::wait_for(Session& session, double moment, double first) {
     const Clock::time_point begins = Clock::now();
+    const auto seconds_since = [](Clock::time_point time) {
+        return std::chrono::duration<double>(Clock::now() - time).count();
+    };
     while (!begun_ || session.latest_message() < moment + delay_) {
         if (hear(session, silent_ ? std::chrono::milliseconds(0) : kLook)) continue;
-        if (!silent_ && Clock::now() - (begun_ ? std::max(heard_, begins) : begins) < (begun_ ? kSilence : first))
+        if (!silent_ && seconds_since(begun_ ? std::max(heard_, begins) : begins) < (begun_ ? kSilence : first))
             continue;
         silent_ = true;  // until something new is heard
         return begun_ && session.latest_message() >= moment;
@@ -66,6 +71,8 @@ std::string MessageFeed::report() const {
           std::pair(c.astray, "with a time far from the others"), std::pair(c.foreign, "datagrams of another sender"),
           std::pair(c.restarts, "restarts of the sender")})
         if (number > 0) text += ", " + std::to_string(number) + " " + what;
+    if (const std::string problem = receiver_.last_problem(); !problem.empty())
+        text += " (the last malformed one " + one_line(problem) + ")";
     return text + (weather_ ? std::string("; they state ") + kWeather : "");
 }
 

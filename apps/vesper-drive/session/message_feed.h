@@ -24,11 +24,11 @@ public:
     /// The moment that is shown at that time; none before the first message.
     std::optional<double> shown(Clock::time_point);
     /// Without a window: waits until messages go beyond that moment by the delay. False where the sender has been
-    /// silent for 5 s and has not reached it; the first message is waited for as long as `first`.
-    bool wait_for(Session&, double moment, std::chrono::seconds first);
+    /// silent for 5 s and has not reached it; the first message is waited for as long as `first`, s.
+    bool wait_for(Session&, double moment, double first);
 
     osi::StreamCounts counts() const;
-    /// "1204 messages, 3 of them late, 1 malformed".
+    /// "1204 messages, 3 late, 1 malformed (the last malformed one has no timestamp)".
     std::string report() const;
     std::string place() const;  ///< where it listens
 

@@ -15,11 +15,6 @@ namespace {
 
 constexpr double kHalfPi = std::numbers::pi / 2;
 
-glm::dvec3 turned(const glm::dvec3& p, double yaw) {
-    const double c = std::cos(yaw), s = std::sin(yaw);
-    return {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
-}
-
 traffic::Actor actor_of(const osi::ObjectNow& now, const MessageFrame& frame) {
     const osi::MovingObject& o = now.object;
     const double height = ExternalBodies::size_of(o).z;
@@ -37,24 +32,9 @@ bool is_person(osi::MovingObject::Kind kind) {
 
 }  // namespace
 
-glm::dvec3 MessageFrame::point(const glm::dvec3& p) const {
-    const glm::dvec3 t = turned(p, yaw);
-    return at + glm::dvec3(t.x, t.z, -t.y);
-}
-
-glm::dvec3 MessageFrame::back(const glm::dvec3& world) const {
-    const glm::dvec3 p = world - at;
-    return turned({p.x, -p.z, p.y}, -yaw);
-}
-
-MessageFrame frame_of(const MessageSource& source, const glm::dvec3& roads) {
-    const glm::dvec3 at = glm::dvec3(source.origin) - roads;
-    return {.yaw = source.origin.w, .at = {at.x, at.z, -at.y}};
-}
-
 ExternalPlaces::ExternalPlaces(const ExternalBodies& bodies, const std::vector<SignalLens>& lenses,
-                               const MessageFrame& frame, std::string host)
-    : bodies_(&bodies), lenses_(&lenses), frame_(frame), host_(std::move(host)) {
+                               const MessageFrame& frame, std::string host, HeightJudge judge)
+    : bodies_(&bodies), lenses_(&lenses), frame_(frame), host_(std::move(host)), judge_(std::move(judge)) {
     for (size_t i = 0; i < bodies.all().size(); ++i) free_[bodies.all()[i].kind].insert(i);
 }
 
@@ -87,8 +67,10 @@ ExternalState ExternalPlaces::place(const osi::Moment& moment) {
             ++taken;
         }
     }
-    for (const osi::ObjectNow& now : moment.objects) {
-        const osi::MovingObject& object = now.object;
+    const bool at_ground = judge_.take(moment, frame_);
+    for (osi::ObjectNow now : moment.objects) {
+        osi::MovingObject& object = now.object;
+        if (at_ground) raise(object);
         if (here.erase(object.id) == 0) continue;  // of two with one id the first counts
         traffic::Actor actor = actor_of(now, frame_);
         const bool is_host = host_.empty() ? moment.host == object.id : host_ == std::to_string(object.id);

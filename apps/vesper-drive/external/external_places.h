@@ -8,21 +8,12 @@
 #include <vector>
 
 #include "external/external_bodies.h"
+#include "external/height_reading.h"
+#include "external/message_frame.h"
 #include "external/signal_lens.h"
 #include "traffic/world.h"
 
 namespace vesper::drive {
-
-/// From the frame of messages to the world: m, rad.
-struct MessageFrame {
-    double yaw = 0;    ///< of its x axis against that of the roads
-    glm::dvec3 at{0};  ///< of its origin, in the world
-    glm::dvec3 point(const glm::dvec3&) const;
-    glm::dvec3 back(const glm::dvec3&) const;  ///< from the world
-};
-
-/// `roads`: the world's origin in the frame of the roads.
-MessageFrame frame_of(const MessageSource&, const glm::dvec3& roads);
 
 /// What another program says of a moment, in the world.
 struct ExternalState {
@@ -39,9 +30,12 @@ struct ExternalState {
 class ExternalPlaces {
 public:
     /// `host`: of MessageSource. Bodies and lenses stay with the caller.
-    ExternalPlaces(const ExternalBodies&, const std::vector<SignalLens>&, const MessageFrame&, std::string host);
+    ExternalPlaces(const ExternalBodies&, const std::vector<SignalLens>&, const MessageFrame&, std::string host,
+                   HeightJudge = HeightJudge());
 
     ExternalState place(const osi::Moment&);
+    /// Whether the latest moment had its objects' places at the ground.
+    bool at_ground() const { return judge_.at_ground(); }
 
 private:
     struct Taken {
@@ -56,6 +50,7 @@ private:
     const std::vector<SignalLens>* lenses_;
     MessageFrame frame_;
     std::string host_;
+    HeightJudge judge_;
     std::unordered_map<std::string, std::set<size_t>> free_;  // by kind
     std::unordered_map<uint64_t, Taken> taken_;               // by the object's id
     LensFinder finder_;

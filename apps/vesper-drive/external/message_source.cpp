@@ -19,6 +19,12 @@ std::string host_of(const std::string& text) {
     return std::to_string(id);
 }
 
+HeightReading height_reading_of(const std::string& name) {
+    const auto known = std::find(kHeightReadings.begin(), kHeightReadings.end(), name);
+    if (known == kHeightReadings.end()) throw Error(one_line(name) + ": auto, middle or ground is expected");
+    return HeightReading(known - kHeightReadings.begin());
+}
+
 std::vector<osi::Message> read_messages(const MessageSource& source, std::vector<std::string>& notes) {
     if (source.file.empty()) return {};
     const std::filesystem::path named =

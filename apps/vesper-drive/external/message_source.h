@@ -1,6 +1,7 @@
 // Where the objects come from that another program moves. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -11,6 +12,12 @@
 
 namespace vesper::drive {
 
+/// Part of an object's box that its base.position is (--osi-z). Auto: as the ground below the objects tells.
+enum class HeightReading : uint8_t { Auto, Middle, Ground };
+inline constexpr std::array<const char*, 3> kHeightReadings{"auto", "middle", "ground"};  ///< in its order
+/// Throws Error.
+HeightReading height_reading_of(const std::string& name);
+
 /// Of a recorded drive, too: its file says all of this.
 struct MessageSource {
     std::filesystem::path file;    ///< an OSI trace (.osi), or a table of esmini (.csv); empty: none
@@ -19,6 +26,7 @@ struct MessageSource {
     std::string host;              ///< id of the object that is the driver's car; empty: as messages say; "none"
     glm::dvec4 origin{0};  ///< of the frame of the messages, in that of the roads: x, y, z (m) and yaw (rad). Of a
                            ///< scene the latter is X, -Z, Y
+    HeightReading heights = HeightReading::Auto;
 
     bool any() const { return live || !file.empty(); }
 };

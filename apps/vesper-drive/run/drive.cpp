@@ -53,6 +53,7 @@ void refuse_idle(const apps::Command& program, const DriveArguments& a) {
         {replays, {"--autopilot", "--seconds", "--seed"}, "a recording is driven as it was (--replay)"},
         {replays, {"--record"}, "a replay is not recorded"},
         {!a.messages.any(), {"--models", "--host", "--osi-origin"}, "of what? give --osi, --osi-udp or --scenario"},
+        {a.trace.empty() && !a.messages.live, {"--osi-z"}, "of what? give --osi or --osi-udp"},
         {!a.messages.live, {"--osi-delay", "--osi-wait"}, "of what? give --osi-udp"},
         {!a.headless,
          {"--osi-wait", "--seconds", "--video", "--fps"},
@@ -97,6 +98,7 @@ void take_messages(const apps::Command& program, DriveArguments& a) {
         throw Error("--host " + std::string(error.what()));
     }
     if (!a.origin.empty()) a.messages.origin = origin_of(a.origin);
+    a.messages.heights = height_reading_of(a.osi_z);
 }
 
 void check(const apps::Command& program, DriveArguments& a) {
@@ -160,6 +162,11 @@ void add_drive(apps::Command program) {
         .shows_default();
     program.add_option("--osi-origin", a->origin,
                        "X,Y,Z,YAW: where the origin of the messages is on the roads, m and degrees");
+    program
+        .add_option("--osi-z", a->osi_z,
+                    "Height of objects' places: middle of their boxes, ground below them, or auto: as the ground tells")
+        .check(apps::one_of(std::vector<std::string>(kHeightReadings.begin(), kHeightReadings.end())))
+        .shows_default();
     program.add_option("--models", a->models, "Which meshes and lamps the objects have (.json; default: boxes)");
     program.add_option("--host", a->messages.host,
                        "id of the object that one drives in, or none (default: as the messages say)");

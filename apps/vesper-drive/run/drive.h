@@ -25,8 +25,9 @@ struct DriveArguments {
     std::string table, trace, models, origin;
     std::string osi_udp, osi_out;  ///< [ADDRESS:]PORT to listen at; a trace to write
     double osi_delay = 0.1;        ///< s
-    double osi_wait = 30;          ///< s until the first message, without a window
-    unsigned latency = 0;          ///< moments, of what the eye sees of channels: 0 or 1
+    std::string osi_z = kHeightReadings[0];
+    double osi_wait = 30;  ///< s until the first message, without a window
+    unsigned latency = 0;  ///< moments, of what the eye sees of channels: 0 or 1
     bool headless = false, autopilot = false;
     double seconds = 20;                           ///< of a drive without a window, s
     double scale = render::LightSettings{}.scale;  ///< of each side of pictures, rendered and then enlarged

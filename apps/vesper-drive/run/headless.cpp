@@ -259,7 +259,10 @@ public:
         };
     }
     bool is_over() const { return over_; }
-    void finish() { apps::print_note(feed_.report() + (over_ ? "; the sender is silent, and the drive is over" : "")); }
+    void finish(const Session& session) {
+        apps::print_note(feed_.report() + (over_ ? "; the sender is silent, and the drive is over" : ""));
+        if (session.raises_objects()) apps::print_note(kRaised);
+    }
 
 private:
     MessageFeed feed_;
@@ -386,7 +389,7 @@ void run_headless(const DriveArguments& a) {
     session.finish_trace();
     if (!a.obstacles.empty()) apps::print_text(detections.table());
     if (!a.detection_plot.empty()) apps::save_plot(a.detection_plot, detections.plot());
-    if (live) live->finish();
+    if (live) live->finish(session);
     if (playback.strayed())
         apps::print_note(
             one_line(a.replay) +

@@ -82,6 +82,7 @@ json messages_json(const MessageSource& source, const std::filesystem::path& fol
     if (!source.host.empty()) made["host"] = source.host;
     if (source.origin != glm::dvec4(0))
         made["origin"] = {source.origin.x, source.origin.y, source.origin.z, source.origin.w};
+    if (source.heights != HeightReading::Auto) made["osi_z"] = kHeightReadings[size_t(source.heights)];
     return made;
 }
 
@@ -118,7 +119,7 @@ std::filesystem::path trace_of(const std::filesystem::path& file, const std::fil
 
 MessageSource read_source(const scene::JsonValue& value, const std::filesystem::path& drive) {
     const std::filesystem::path folder = drive.parent_path();
-    value.allow_only({"file", "live", "models", "host", "origin"});
+    value.allow_only({"file", "live", "models", "host", "origin", "osi_z"});
     MessageSource source{.file = seen_path(value, "file", folder),
                          .live = value.boolean_or("live", false),
                          .models = seen_path(value, "models", folder),
@@ -129,6 +130,11 @@ MessageSource read_source(const scene::JsonValue& value, const std::filesystem::
         source.host = host_of(source.host);
     } catch (const Error& error) {
         value.at("host").fail(error.what());
+    }
+    try {
+        source.heights = height_reading_of(value.text_or("osi_z", kHeightReadings[0]));
+    } catch (const Error& error) {
+        value.at("osi_z").fail(error.what());
     }
     if (const auto origin = value.find("origin")) {
         constexpr double kFar = 1e9;

@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 #include "external/lamp_name.h"
+#include "print.h"
 #include "roads/convert_roads.h"
 #include "scene/apply_photometry.h"
 #include "scene/colour.h"
@@ -143,6 +144,43 @@ Scenery::Scenery(const fs::path& file, const MessageSource& source) : source_(so
     }
     note(bodies_.notes());
     message_frame_ = frame_of(source, origin);
+    read_heights();
+}
+
+// None where the scene is too large for it.
+std::shared_ptr<const GroundBelow> Scenery::ground_below() const {
+    std::vector<uint32_t> moving;
+    for (const Rider& rider : riders_) moving.push_back(rider.node);
+    try {
+        return std::make_shared<const GroundBelow>(scene_, rest_, std::move(moving));
+    } catch (const Error&) {
+        return nullptr;
+    }
+}
+
+ExternalPlaces Scenery::external_places() const {
+    HeightJudge judge(source_.live && source_.heights == HeightReading::Ground);
+    if (source_.live && source_.heights == HeightReading::Auto) judge = HeightJudge(ground_below());
+    return {bodies_, lenses_, message_frame_, source_.host, std::move(judge)};
+}
+
+void Scenery::read_heights() {
+    if (!source_.any() || source_.live || source_.file.extension() == ".csv") return;
+    bool at_ground = source_.heights == HeightReading::Ground;
+    if (source_.heights == HeightReading::Auto) {
+        const auto below = ground_below();
+        const HeightVotes votes = below ? votes_of(messages_, message_frame_, *below) : HeightVotes();
+        at_ground = are_at_ground(votes);
+        if (votes.ground > 0)
+            notes_.push_back(one_line(source_.file.string()) +
+                             apps::format(": base.position of %.0f %% of the objects lies on the ground, and not half "
+                                          "their height above it: taken as the %s of all boxes (--osi-z)",
+                                          100 * double(votes.ground) / double(votes.all()),
+                                          at_ground ? "ground" : "middle"));
+    }
+    if (!at_ground) return;
+    for (osi::Message& message : messages_)
+        for (osi::MovingObject& object : message.objects) raise(object);
 }
 
 void Scenery::adopt(traffic::WorldFile& file, uint32_t eye) {

@@ -34,7 +34,7 @@ public:
     /// Gives away those of the source's file.
     std::vector<osi::Message> take_messages() { return std::move(messages_); }
     /// For the objects of messages.
-    ExternalPlaces external_places() const { return {bodies_, lenses_, message_frame_, source_.host}; }
+    ExternalPlaces external_places() const;
     const MessageFrame& message_frame() const { return message_frame_; }
     const std::vector<SignalLens>& lenses() const { return lenses_; }
     /// The lamps there are by name, as "lamp:NAME" settings have them, sorted.
@@ -67,6 +67,9 @@ private:
     /// Throws Error, which begins with `place`, where no lamp of the scene has that name.
     void require_lamp(const std::string& name, const std::string& place) const;
     void require_lamps(const std::vector<std::string>& names, const std::string& place) const;
+    std::shared_ptr<const GroundBelow> ground_below() const;
+    /// Makes the places of all messages of a trace the middles of boxes.
+    void read_heights();
     void find_lamps(const traffic::LampRoles&, const std::vector<std::string>& by_day);
     bool shines(const SwitchedLamp&, const std::vector<traffic::Actor>&, bool bright) const;
 

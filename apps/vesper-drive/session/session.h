@@ -52,6 +52,8 @@ public:
     void step(const traffic::DriverInput&, std::optional<double> shown = {});
     /// A message of a live source, from now on known.
     osi::Timeline::Added hear(osi::Message);
+    /// Whether the places of messages that are heard lie at the ground, and are raised (--osi-z).
+    bool raises_objects() const { return places_.at_ground(); }
     /// Time of the latest message, s after the first.
     double latest_message() const { return timeline_.latest(); }
     /// What another program says of the present moment.

@@ -292,6 +292,10 @@ void WindowedDrive::open_feed() {
 void WindowedDrive::listen() {
     if (!feed_ || paused_) return;  // what comes meanwhile waits, within the bounds of a Receiver
     feed_->listen(*session_);
+    if (const bool raises = session_->raises_objects(); raises != raises_) {
+        raises_ = raises;
+        say(raises ? kRaised : "base.position of the objects is taken as the middle of their boxes");
+    }
     const uint64_t count = feed_->counts().unusable();
     if (count == troubles_ || Clock::now() - troubles_said_ < std::chrono::seconds(5)) return;
     troubles_ = count, troubles_said_ = Clock::now();

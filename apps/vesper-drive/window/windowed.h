@@ -90,6 +90,7 @@ private:
     std::shared_ptr<Cache> map_cache_;
     std::unique_ptr<Session> session_;
     std::unique_ptr<MessageFeed> feed_;     // of a simulator that sends
+    bool raises_ = false;                   // objects, as the window said last
     std::unique_ptr<LightGatherer> light_;  // of its scene; none before it is wanted
     std::unique_ptr<Screen> screen_;
     bool shown_ = false;  // a picture, since the device is there

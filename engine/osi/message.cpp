@@ -21,6 +21,12 @@ bool is_turn(const wire::Orientation3d& o) {
     return std::abs(o.yaw()) < kMostTurned && std::abs(o.pitch()) < kMostTurned && std::abs(o.roll()) < kMostTurned;
 }
 glm::dvec3 vector_of(const wire::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+glm::dvec3 size_of(const wire::Dimension3d& d) {
+    glm::dvec3 size(d.length(), d.width(), d.height());
+    for (int i = 0; i < 3; ++i)
+        if (!(size[i] > 0 && size[i] < kLargest)) size[i] = 0;
+    return size;
+}
 void set(wire::Vector3d& to, const glm::dvec3& v) { to.set_x(v.x), to.set_y(v.y), to.set_z(v.z); }
 
 // Numbers of enumerations, as OSI 3 has them.
@@ -133,8 +139,7 @@ std::optional<MovingObject> object_of(const wire::MovingObject& from) {
                         .roll = base.orientation().roll(),
                         .velocity = {},
                         .lights = lights_of(from.vehicle_classification().light_state())};
-    const glm::dvec3 size(base.dimension().length(), base.dimension().width(), base.dimension().height());
-    for (int i = 0; i < 3; ++i) object.size[i] = size[i] > 0 && size[i] < kLargest ? size[i] : 0;
+    object.size = size_of(base.dimension());
     if (base.has_velocity() && is_place(base.velocity())) object.velocity = vector_of(base.velocity());
     return object;
 }
@@ -202,6 +207,37 @@ void add(wire::GroundTruth& truth, const TrafficLight& light) {
     if (light.signal.empty()) return;
     wire::ExternalReference& source = *to.add_source_reference();
     source.set_type(kOpenDrive), source.add_identifier(kSignalId + light.signal);
+}
+
+void add_stationary(Message& to, uint64_t id, StationaryObject::Kind kind, const wire::BaseStationary& base,
+                    uint32_t plate = 0) {
+    const bool known = base.has_position() && is_place(base.position()) && is_turn(base.orientation());
+    if (!known || to.stationary.size() >= size_t(kMostObjects)) {
+        ++to.stationary_left_out;
+        return;
+    }
+    to.stationary.push_back({.id = id,
+                             .plate = plate,
+                             .kind = kind,
+                             .size = size_of(base.dimension()),
+                             .centre = vector_of(base.position()),
+                             .yaw = base.orientation().yaw(),
+                             .pitch = base.orientation().pitch(),
+                             .roll = base.orientation().roll()});
+}
+
+void add_stationary(Message& to, const wire::GroundTruth& truth) {
+    using Kind = StationaryObject::Kind;
+    for (const wire::StationaryObject& each : truth.stationary_object()) {
+        const int type = each.classification().type();
+        add_stationary(to, each.id().value(), type > 0 && type < int(Kind::Sign) ? Kind(type) : Kind::Unknown,
+                       each.base());
+    }
+    for (const wire::TrafficSign& each : truth.traffic_sign()) {
+        add_stationary(to, each.id().value(), Kind::Sign, each.main_sign().base());
+        for (int i = 0; i < each.supplementary_sign_size(); ++i)
+            add_stationary(to, each.id().value(), Kind::Sign, each.supplementary_sign(i).base(), uint32_t(i + 1));
+    }
 }
 
 Environment environment_of(const wire::EnvironmentalConditions& from) {
@@ -295,13 +331,20 @@ Message parse_message(std::span<const uint8_t> bytes) {
         if (auto object = object_of(each)) message.objects.push_back(std::move(*object));
     for (const wire::TrafficLight& each : truth.traffic_light())
         if (auto light = light_of(each)) message.traffic_lights.push_back(std::move(*light));
+    add_stationary(message, truth);
     if (truth.has_environmental_conditions()) message.environment = environment_of(truth.environmental_conditions());
     return message;
 }
 
+StationaryKey key_of(const StationaryObject& o) {
+    const glm::dvec3 place = o.id == 0 ? o.centre : glm::dvec3(0);
+    return {o.kind == StationaryObject::Kind::Sign, o.plate, o.id, place.x, place.y, place.z};
+}
+
 uint64_t memory_of(const Message& message) {
     uint64_t bytes = sizeof message + message.objects.size() * sizeof(MovingObject) +
-                     message.traffic_lights.size() * sizeof(TrafficLight);
+                     message.traffic_lights.size() * sizeof(TrafficLight) +
+                     message.stationary.size() * sizeof(StationaryObject);
     for (const MovingObject& object : message.objects) bytes += object.model.size();
     for (const TrafficLight& light : message.traffic_lights) bytes += light.signal.size();
     return bytes;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -55,6 +56,42 @@ struct TrafficLight {
     LampState state = LampState::Unknown;
 };
 
+/// A thing that stands, or a plate of a traffic sign.
+struct StationaryObject {
+    /// In the order of OSI's types, and a sign.
+    enum class Kind : uint8_t {
+        Unknown,
+        Other,
+        Bridge,
+        Building,
+        Pole,
+        Pylon,
+        Delineator,
+        Tree,
+        Barrier,
+        Vegetation,
+        Curbstone,
+        Wall,
+        Vertical,
+        Rectangular,
+        Overhead,
+        Reflective,
+        Construction,
+        SpeedBump,
+        Emitting,
+        Sign
+    };
+    uint64_t id = 0;
+    uint32_t plate = 0;  ///< of a sign: 0 is the main one
+    Kind kind = Kind::Unknown;
+    glm::dvec3 size{0};                   ///< length, width, height; 0: not stated
+    glm::dvec3 centre{0};                 ///< middle of its box
+    double yaw = 0, pitch = 0, roll = 0;  ///< as of moving objects; signs face ahead
+};
+/// Two with one key are the same thing: by their ids, without ids by their places.
+using StationaryKey = std::tuple<bool, uint32_t, uint64_t, double, double, double>;
+StationaryKey key_of(const StationaryObject&);
+
 /// What is stated of sky and weather.
 struct Environment {
     std::optional<double> sun_elevation;  ///< rad
@@ -71,6 +108,8 @@ struct Message {
     std::vector<MovingObject> objects;
     std::vector<TrafficLight> traffic_lights;
     std::optional<Environment> environment;
+    std::vector<StationaryObject> stationary;  ///< at most kMostObjects
+    uint64_t stationary_left_out = 0;          ///< beyond that, without a place, or with a pose that is no number
 };
 
 /// Reads a GroundTruth, or that of a SensorView. Objects without a place or with a pose that is no number are left out,
@@ -80,7 +119,8 @@ Message parse_message(std::span<const uint8_t> bytes);
 /// What it takes, bytes.
 uint64_t memory_of(const Message&);
 
-/// The message as a GroundTruth: parse_message() gives it back, apart from what it leaves out.
+/// The message as a GroundTruth: parse_message() gives it back, apart from what it leaves out. Without things that
+/// stand.
 std::string bytes_of(const Message&);
 
 }  // namespace vesper::osi

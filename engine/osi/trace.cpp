@@ -1,6 +1,8 @@
 #include "osi/trace.h"
 
+#include <algorithm>
 #include <new>
+#include <set>
 #include <string_view>
 
 #include "base/budget.h"
@@ -39,6 +41,9 @@ public:
         }
         if (trace_.messages.empty()) throw Error(name_ + ": has no message");
         if (late_ > 0) note(std::to_string(late_) + " messages are not later than those before them: left out");
+        if (const uint64_t lost = stationary_left_out_ + more_stationary_; lost > 0)
+            note(std::to_string(lost) + " stationary objects and signs are left out: without a place, or beyond " +
+                 std::to_string(kMostObjects));
         return std::move(trace_);
     }
 
@@ -60,6 +65,7 @@ private:
                 ++late_;
                 return;
             }
+            take_stationary(message);
             spend(memory_of(message));
             all.push_back(std::move(message));
         } catch (const Error& error) {
@@ -67,7 +73,23 @@ private:
         }
     }
 
+    void take_stationary(Message& message) {
+        stationary_left_out_ = std::max(stationary_left_out_, message.stationary_left_out);
+        for (StationaryObject& object : message.stationary) {
+            if (known_.contains(key_of(object))) continue;
+            if (known_.size() >= size_t(kMostObjects)) {
+                ++more_stationary_;
+                continue;
+            }
+            known_.insert(key_of(object));
+            trace_.stationary.push_back(object);
+        }
+        message.stationary = {};
+    }
+
     std::string name_;
+    std::set<StationaryKey> known_;
+    uint64_t stationary_left_out_ = 0, more_stationary_ = 0;  // of one message; of those with more than the trace keeps
     Trace trace_;
     size_t number_ = 0, late_ = 0;
 };

@@ -15,8 +15,9 @@ namespace vesper::osi {
 constexpr uint64_t kMostTraceBytes = uint64_t{1} << 30;
 
 struct Trace {
-    std::vector<Message> messages;   ///< times ascending, at least one
-    std::vector<std::string> notes;  ///< what was left out, one line each
+    std::vector<Message> messages;             ///< times ascending, at least one
+    std::vector<StationaryObject> stationary;  ///< of all messages, each thing once as it was stated first
+    std::vector<std::string> notes;            ///< what was left out, one line each
 };
 
 /// Reads a trace of GroundTruths or SensorViews, at most 1 GiB. Messages no later than one before them are left out,

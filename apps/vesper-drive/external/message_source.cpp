@@ -25,13 +25,13 @@ HeightReading height_reading_of(const std::string& name) {
     return HeightReading(known - kHeightReadings.begin());
 }
 
-std::vector<osi::Message> read_messages(const MessageSource& source, std::vector<std::string>& notes) {
+osi::Trace read_messages(const MessageSource& source) {
     if (source.file.empty()) return {};
     const std::filesystem::path named =
         source.file.extension() == ".part" ? source.file.parent_path() / source.file.stem() : source.file;
     if (named.extension() == ".csv") {
         const roads::EsminiRun run = roads::read_esmini_run(source.file);
-        return osi::messages_of(run);
+        return {.messages = osi::messages_of(run), .stationary = {}, .notes = {}};
     }
     if (named.extension() != ".osi")
         throw Error(one_line(source.file.string()) + ": a trace (.osi) or a table of esmini (.csv) is expected");
@@ -39,12 +39,11 @@ std::vector<osi::Message> read_messages(const MessageSource& source, std::vector
     std::error_code failed;
     if (source.live && std::filesystem::file_size(source.file, failed) == 0 && !failed) return {};
     osi::Trace trace = osi::read_trace(source.file);
-    notes.insert(notes.end(), trace.notes.begin(), trace.notes.end());
     if (std::any_of(trace.messages.begin(), trace.messages.end(), [](const osi::Message& m) {
             return m.environment && (m.environment->fog || m.environment->precipitation);
         }))
-        notes.push_back(one_line(source.file.string()) + ": states " + kWeather);
-    return std::move(trace.messages);
+        trace.notes.push_back(one_line(source.file.string()) + ": states " + kWeather);
+    return trace;
 }
 
 }  // namespace vesper::drive

@@ -8,7 +8,7 @@
 
 #include <glm/glm.hpp>
 
-#include "osi/message.h"
+#include "osi/trace.h"
 
 namespace vesper::drive {
 
@@ -37,8 +37,8 @@ std::string host_of(const std::string& text);
 /// What is said where messages state it.
 inline constexpr char kWeather[] = "fog or rain, which is not rendered";
 
-/// Messages of the file, at least one if there is a file and it was not live; notes are added. Throws Error, naming
-/// file, place and reason.
-std::vector<osi::Message> read_messages(const MessageSource&, std::vector<std::string>& notes);
+/// What a file has; notes are added. Messages: at least one if there is a file and it was not live. Throws Error,
+/// naming file, place and reason.
+osi::Trace read_messages(const MessageSource&);
 
 }  // namespace vesper::drive

@@ -21,6 +21,8 @@ bool MessageFeed::hear(Session& session, std::chrono::milliseconds longest) {
     if (!arrival) return false;
     const auto& sky = arrival->message.environment;
     weather_ |= sky && (sky->fog || sky->precipitation);
+    standing_.add(arrival->message);
+    arrival->message.stationary = {};
     const int64_t nanoseconds = arrival->message.nanoseconds;
     const osi::Timeline::Added added = session.hear(std::move(arrival->message));
     late_ += added == osi::Timeline::Added::Late, repeated_ += added == osi::Timeline::Added::Repeated;
@@ -73,6 +75,9 @@ std::string MessageFeed::report() const {
         if (number > 0) text += ", " + std::to_string(number) + " " + what;
     if (const std::string problem = receiver_.last_problem(); !problem.empty())
         text += " (the last malformed one " + one_line(problem) + ")";
+    if (!standing_.counts().empty())
+        text += "; stationary objects and signs are shown of traces (--osi), and not of a sender: " +
+                text_of(standing_.counts());
     return text + (weather_ ? std::string("; they state ") + kWeather : "");
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "external/stationary.h"
 #include "osi/receiver.h"
 #include "osi/sender_clock.h"
 #include "session/session.h"
@@ -40,6 +41,7 @@ private:
     double delay_;
     osi::SenderClock clock_;
     std::optional<int64_t> first_;  // time of the first message, ns
+    StationaryCensus standing_;
     uint64_t late_ = 0, repeated_ = 0, crowded_out_ = 0;
     bool begun_ = false, silent_ = false, weather_ = false;
     Clock::time_point heard_ = Clock::now(), began_ = Clock::now();

@@ -12,6 +12,7 @@
 #include "print.h"
 #include "roads/lit_roads.h"
 #include "roads/opendrive.h"
+#include "roads/road_surface.h"
 
 namespace vesper::drive {
 namespace {
@@ -73,6 +74,26 @@ std::string add_body(scene::Scene& scene, const std::string& name, const PlainBo
     scene.nodes.push_back({.name = name});
     add_plain_body(scene, uint32_t(scene.nodes.size() - 1), "plain car", body);
     return name;
+}
+
+// Where a road has objects and signals, on its surface.
+std::vector<glm::dvec3> things_of(const roads::RoadNetwork& network) {
+    constexpr size_t kMost = 20'000;
+    std::vector<glm::dvec3> made;
+    for (const roads::Road& road : network.roads) {
+        const auto add = [&](double s, double t) {
+            if (made.size() < kMost) made.push_back(network.to_world(roads::surface_point(road, s, t).position));
+        };
+        for (const roads::RoadSignal& signal : road.signals) add(signal.s, signal.t);
+        for (const roads::RoadObject& object : road.objects) {
+            add(object.s, object.t);
+            for (const roads::ObjectRepeat& repeat : object.repeats)
+                for (double at = 0; repeat.distance > 0.1 && at <= repeat.length && made.size() < kMost;
+                     at += repeat.distance)
+                    add(repeat.s + at, glm::mix(repeat.t_start, repeat.t_end, at / std::max(repeat.length, 1e-9)));
+        }
+    }
+    return made;
 }
 
 // The driver's car of the road's scene stands on the middle of its front axle, that of a world on its own middle.
@@ -150,6 +171,7 @@ RoadWorld road_world(const std::filesystem::path& roads, const MessageSource& so
                    .bodies = {},
                    .lenses = {},
                    .origin = network.origin,
+                   .things = {},
                    .notes = std::move(lit.notes)};
     made.world.scene = roads;
     made.world.roles = plain_lamps();
@@ -163,6 +185,7 @@ RoadWorld road_world(const std::filesystem::path& roads, const MessageSource& so
             world.barriers.push_back({.line = {{kerb.from.x, kerb.from.z}, {kerb.to.x, kerb.to.z}},
                                       .height = (kerb.from.y + kerb.to.y) / 2});
     world.driver_s = 3;
+    made.things = things_of(network);
     check_place(made, source, messages, graph);
     made.lenses = lenses_of(made.scene);
     for (scene::Node& node : made.scene.nodes) {

@@ -17,7 +17,8 @@ struct RoadWorld {
     traffic::WorldFile world;
     ExternalBodies bodies;  ///< for the objects of messages
     std::vector<SignalLens> lenses;
-    glm::dvec3 origin{0};  ///< of the world, in the frame of the roads
+    glm::dvec3 origin{0};            ///< of the world, in the frame of the roads
+    std::vector<glm::dvec3> things;  ///< where the roads have objects and signals, on the surface, in the world
     std::vector<std::string> notes;
 };
 

@@ -93,7 +93,10 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 }  // namespace
 
 Scenery::Scenery(const fs::path& file, const MessageSource& source) : source_(source) {
-    messages_ = read_messages(source, notes_);
+    osi::Trace trace = read_messages(source);
+    messages_ = std::move(trace.messages), notes_ = std::move(trace.notes);
+    if (!source.live) stationary_ = std::move(trace.stationary);  // those that are sent are not known beforehand
+    message_frame_ = frame_of(source, glm::dvec3(0));
     if (!source.host.empty() && source.host != "none" && !source.live &&
         std::none_of(messages_.begin(), messages_.end(), [&](const osi::Message& m) {
             return std::any_of(m.objects.begin(), m.objects.end(),
@@ -113,18 +116,20 @@ Scenery::Scenery(const fs::path& file, const MessageSource& source) : source_(so
         lenses_ = lenses_of(scene_);
         if (source.any()) bodies_ = ExternalBodies(scene_, world, source, messages_);
     };
-    glm::dvec3 origin(0);
     if (roads::is_opendrive_name(file)) {
         RoadWorld roads = road_world(file, source, messages_);
-        note(roads.notes), origin = roads.origin;
+        note(roads.notes);
         scene_ = std::move(roads.scene), lenses_ = std::move(roads.lenses), bodies_ = std::move(roads.bodies);
         scene_.name = file.string();
+        message_frame_ = frame_of(source, roads.origin);
+        draw_stationary(roads.things);
         adopt(roads.world);
     } else if (file.extension() == ".json") {
         traffic::WorldFile world = traffic::read_world(file);
         scene::LoadedScene loaded = scene::read_lit_scene(world.scene, world.photometry);
         note(apps::notes_of(loaded, world.scene.string())), scene_ = std::move(loaded.scene);
         scene_.name = world.scene.string();
+        draw_stationary({});
         make_room(world);
         adopt(world);
         const std::string at = one_line(file.string()) + ": ";
@@ -136,6 +141,7 @@ Scenery::Scenery(const fs::path& file, const MessageSource& source) : source_(so
         scene_.name = file.string();
         const uint32_t camera = first_camera(scene_);
         traffic::WorldFile plain = plain_world(scene_, camera);
+        draw_stationary({});
         make_room(plain);
         adopt(plain, camera);
     } else {
@@ -143,8 +149,21 @@ Scenery::Scenery(const fs::path& file, const MessageSource& source) : source_(so
                     scene::scene_endings(", ") + ") is expected");
     }
     note(bodies_.notes());
-    message_frame_ = frame_of(source, origin);
     read_heights();
+}
+
+void Scenery::draw_stationary(std::span<const glm::dvec3> known) {
+    if (stationary_.empty()) return;
+    StationaryNodes made = add_stationary(scene_, stationary_, message_frame_, known);
+    const auto note = [&](const KindCounts& counts, const char* what) {
+        if (!counts.empty())
+            notes_.push_back(one_line(source_.file.string()) + ": stationary objects and signs " + what + ": " +
+                             text_of(counts));
+    };
+    note(made.shown, "shown as boxes, cylinders, cones and panels");
+    note(made.of_roads, "that the roads have already");
+    note(made.not_shown, "not shown (over the road, or without a size)");
+    standing_ = std::move(made.standing);
 }
 
 // None where the scene is too large for it.
@@ -181,6 +200,10 @@ void Scenery::read_heights() {
     if (!at_ground) return;
     for (osi::Message& message : messages_)
         for (osi::MovingObject& object : message.objects) raise(object);
+    for (const auto& [node, half] : standing_) {
+        scene_.nodes[node].translation += half * glm::dvec3(glm::normalize(rest_[node][1]));
+        rest_[node][3] = glm::dvec4(scene_.nodes[node].translation, 1);
+    }
 }
 
 void Scenery::adopt(traffic::WorldFile& file, uint32_t eye) {

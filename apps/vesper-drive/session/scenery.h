@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "external/external_places.h"
+#include "external/stationary.h"
 #include "render/renderer.h"
 #include "session/settings.h"
 #include "traffic/world_file.h"
@@ -68,6 +69,8 @@ private:
     void require_lamp(const std::string& name, const std::string& place) const;
     void require_lamps(const std::vector<std::string>& names, const std::string& place) const;
     std::shared_ptr<const GroundBelow> ground_below() const;
+    /// `known`: where the roads have things of their own.
+    void draw_stationary(std::span<const glm::dvec3> known);
     /// Makes the places of all messages of a trace the middles of boxes.
     void read_heights();
     void find_lamps(const traffic::LampRoles&, const std::vector<std::string>& by_day);
@@ -85,6 +88,8 @@ private:
     std::vector<SwitchedLamp> lamps_;
     MessageSource source_;
     std::vector<osi::Message> messages_;
+    std::vector<osi::StationaryObject> stationary_;      // of a trace
+    std::vector<std::pair<uint32_t, double>> standing_;  // its nodes, without signs, and half their heights
     ExternalBodies bodies_;
     MessageFrame message_frame_;
     std::vector<SignalLens> lenses_;

@@ -264,6 +264,31 @@ bool has_object(const wire::GroundTruth& truth) {
                        [](const wire::MovingObject& o) { return o.base().has_position(); });
 }
 
+// Fields that a GroundTruth has of another type, or not at all, tell some other messages; null: none of them.
+const char* other_message(std::span<const uint8_t> bytes) {
+    const auto parses = [&](auto& message) { return message.ParseFromArray(bytes.data(), int(bytes.size())); };
+    if (wire::SensorData data; parses(data)) {
+        const bool views = std::any_of(data.sensor_view().begin(), data.sensor_view().end(),
+                                       [](const wire::SensorView& v) { return v.has_global_ground_truth(); });
+        if (views || data.sensor_id().has_value() || data.last_measurement_time().has_seconds() ||
+            data.moving_object_size() > 0)
+            return "SensorData, which is what a sensor found";
+    }
+    if (wire::SensorView view; parses(view)) {
+        const int sensors = view.generic_sensor_view_size() + view.radar_sensor_view_size() +
+                            view.lidar_sensor_view_size() + view.camera_sensor_view_size() +
+                            view.ultrasonic_sensor_view_size();
+        if (!view.has_global_ground_truth() && (sensors > 0 || view.host_vehicle_id().has_value()))
+            return "SensorView without a global_ground_truth";
+    }
+    if (wire::TrafficUpdate update; parses(update)) {
+        if (std::any_of(update.update().begin(), update.update().end(),
+                        [](const wire::MovingObject& o) { return o.base().has_position(); }))
+            return "TrafficUpdate";
+    }
+    return nullptr;
+}
+
 // A message does not say which it is. Field 7 is a traffic light of one, and the ground truth within the other.
 struct Parsed {
     wire::GroundTruth truth;
@@ -274,7 +299,10 @@ struct Parsed {
         if (one && has_object(truth)) return;
         is_view = view.ParseFromArray(bytes.data(), int(bytes.size())) && view.has_global_ground_truth() &&
                   (has_object(view.global_ground_truth()) || view.global_ground_truth().timestamp().has_seconds());
-        if (!one && !is_view) throw Error("is no GroundTruth or SensorView of OSI 3");
+        if (is_view) return;
+        if (const char* other = other_message(bytes))
+            throw Error(std::string("is a ") + other + ": a GroundTruth, or a SensorView with one, is expected");
+        if (!one) throw Error("is no GroundTruth or SensorView of OSI 3");
     }
 };
 

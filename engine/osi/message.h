@@ -113,7 +113,8 @@ struct Message {
 };
 
 /// Reads a GroundTruth, or that of a SensorView. Objects without a place or with a pose that is no number are left out,
-/// and sizes that cannot be count as not stated. Throws Error with the reason.
+/// and sizes that cannot be count as not stated. Throws Error with the reason, which names other messages of OSI that
+/// are told.
 Message parse_message(std::span<const uint8_t> bytes);
 
 /// What it takes, bytes.

@@ -16,6 +16,12 @@ namespace {
 constexpr size_t kLengthBytes = 4;
 constexpr std::string_view kMcap = "\x89MCAP";
 
+// Writes the messages of a file of MCAP in the order of their times, each after its length.
+constexpr char kFromMcap[] =
+    "python3 -c \"import struct, sys; from mcap.reader import make_reader; [sys.stdout.buffer.write(struct.pack('<I', "
+    "len(m.data)) + m.data) for _, _, m in make_reader(open(sys.argv[1], 'rb')).iter_messages()]\" TRACE.mcap > "
+    "TRACE.osi";
+
 // Reads messages one after another.
 class TraceReader {
 public:
@@ -23,7 +29,7 @@ public:
 
     Trace read(std::span<const uint8_t> bytes) {
         if (std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with(kMcap))
-            throw Error(name_ + ": is a trace of MCAP: convert it to one of messages and their lengths (.osi)");
+            throw Error(name_ + ": is a trace of MCAP: convert it: pip install mcap && " + kFromMcap);
         for (uint64_t at = 0; at < bytes.size(); ++number_) {
             check_time();
             const auto rest = bytes.subspan(at);
@@ -41,6 +47,7 @@ public:
         }
         if (trace_.messages.empty()) throw Error(name_ + ": has no message");
         if (late_ > 0) note(std::to_string(late_) + " messages are not later than those before them: left out");
+        if (!objects_) note("is of GroundTruths in which nothing moves: no message has a moving_object with a place");
         if (const uint64_t lost = stationary_left_out_ + more_stationary_; lost > 0)
             note(std::to_string(lost) + " stationary objects and signs are left out: without a place, or beyond " +
                  std::to_string(kMostObjects));
@@ -66,6 +73,7 @@ private:
                 return;
             }
             take_stationary(message);
+            objects_ |= !message.objects.empty();
             spend(memory_of(message));
             all.push_back(std::move(message));
         } catch (const Error& error) {
@@ -90,6 +98,7 @@ private:
     std::string name_;
     std::set<StationaryKey> known_;
     uint64_t stationary_left_out_ = 0, more_stationary_ = 0;  // of one message; of those with more than the trace keeps
+    bool objects_ = false;
     Trace trace_;
     size_t number_ = 0, late_ = 0;
 };

@@ -307,6 +307,8 @@ TEST_F(OsiDriveProgram, ATraceIsRecordedAndReplayedToTheBit) {
     expect_refused(common_ + kScene + " --osi a.osi --osi-origin 1,2 --log l.csv", {"--osi-origin", "X,Y,Z,YAW"});
     expect_refused(common_ + kScene + " --osi-udp nowhere:1 --log l.csv", {"--osi-udp"});
     expect_refused(common_ + kScene + " --osi-delay 1 --log l.csv", {"--osi-delay"});
+    folder.write("a.mcap", "\x89MCAP0\r\n");
+    expect_refused(common_ + kScene + " --osi a.mcap --log l.csv", {"a.mcap", "pip install mcap", "TRACE.osi"});
     folder.write("bad.osi", "nothing of the kind");
     expect_refused(common_ + kScene + " --osi bad.osi --log l.csv", {"bad.osi", "message 1"});
 }

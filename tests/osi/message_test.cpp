@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <osi/osi.pb.h>
+
 #include "osi/written_messages.h"
 #include "support/complaints.h"
 
@@ -139,6 +141,47 @@ TEST(OsiMessage, WhatCannotBeIsLeftOutOrRefused) {
     EXPECT_TRUE(contains(complaint_of([&] { parsed({.nanoseconds = osi::kMostNanoseconds}); }), "timestamp"));
     message.objects.assign(size_t(osi::kMostObjects) + 1, {.id = 5, .velocity = {}});
     EXPECT_TRUE(contains(complaint_of([&] { parsed(message); }), "more than 10000 objects"));
+}
+
+// Other messages have a timestamp at the same place: they are named, and are no empty GroundTruth.
+TEST(OsiMessage, OtherMessagesAreNamed) {
+    const auto said_of = [](const auto& message) {
+        const std::string bytes = message.SerializeAsString();
+        return complaint_of([&] {
+            osi::parse_message({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
+        });
+    };
+    const auto timed = [](auto message) {
+        osi::wire::SensorView time;
+        time.mutable_timestamp()->set_seconds(3);
+        message.MergeFromString(time.SerializeAsString());
+        return message;
+    };
+    osi::wire::SensorData measured, sensor, seen;
+    measured.mutable_last_measurement_time()->set_seconds(2);
+    sensor.mutable_sensor_id()->set_value(4);
+    seen.add_sensor_view()->mutable_global_ground_truth()->mutable_timestamp()->set_seconds(2);
+    for (const osi::wire::SensorData& data : {measured, sensor, seen})
+        EXPECT_TRUE(contains(said_of(timed(data)), "is a SensorData")) << data.SerializeAsString().size();
+    osi::wire::SensorView camera, hosted;
+    camera.add_camera_sensor_view("x"), hosted.mutable_host_vehicle_id()->set_value(1);
+    for (const osi::wire::SensorView& view : {camera, hosted})
+        EXPECT_TRUE(contains(said_of(timed(view)), "is a SensorView without a global_ground_truth"));
+    osi::wire::TrafficUpdate update;
+    update.add_update()->mutable_base()->mutable_position()->set_x(1);
+    EXPECT_TRUE(contains(said_of(timed(update)), "is a TrafficUpdate"));
+
+    // A GroundTruth in which nothing moves, with all fields that those are told by.
+    osi::wire::GroundTruth truth;
+    truth.mutable_timestamp()->set_seconds(3), truth.mutable_host_vehicle_id()->set_value(1);
+    truth.add_moving_object()->mutable_id()->set_value(1);
+    truth.add_traffic_light()->mutable_id()->set_value(2);
+    truth.add_stationary_object()->mutable_id()->set_value(3);
+    const std::string bytes = truth.SerializeAsString() + "\x42\x04\x0a\x02\x08\x05" + "\x4a\x04\x0a\x02\x08\x05" +
+                              "\x68\x7c";  // a road marking, a lane boundary, a country code
+    const osi::Message parsed = osi::parse_message({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()});
+    EXPECT_TRUE(parsed.objects.empty());
+    EXPECT_EQ(parsed.stationary_left_out, 1u);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ TEST(OsiTrace, WhatCannotBeReadIsSaid) {
     refused({}, {"a.osi", "has no message"});
     refused({1, 0, 0}, {"message 1 at byte 0", "cut off"});
     refused({0, 0, 0, 0}, {"message 1", "no timestamp"});
-    refused({0x89, 'M', 'C', 'A', 'P', '0'}, {"MCAP"});
+    refused({0x89, 'M', 'C', 'A', 'P', '0'}, {"MCAP", "pip install mcap", "iter_messages", "TRACE.osi"});
 }
 
 // The rest is read where a part is missing.

@@ -33,7 +33,7 @@ osi::Trace read_messages(const MessageSource& source) {
         const roads::EsminiRun run = roads::read_esmini_run(source.file);
         return {.messages = osi::messages_of(run), .stationary = {}, .notes = {}};
     }
-    if (named.extension() != ".osi")
+    if (named.extension() != ".osi" && named.extension() != ".mcap")  // the reader says how that is converted
         throw Error(one_line(source.file.string()) + ": a trace (.osi) or a table of esmini (.csv) is expected");
     // A sender that never sent leaves an empty one.
     std::error_code failed;

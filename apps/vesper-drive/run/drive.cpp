@@ -88,7 +88,7 @@ void take_messages(const apps::Command& program, DriveArguments& a) {
         throw Error("--osi-udp: messages come from one source; there is " + (a.trace.empty() ? a.table : a.trace));
     const std::string file = a.trace.empty() ? a.table : a.trace;
     const char *option = a.trace.empty() ? "--scenario " : "--osi ", *ending = a.trace.empty() ? ".csv" : ".osi";
-    if (!file.empty() && !file.ends_with(ending))
+    if (!file.empty() && !file.ends_with(ending) && !a.trace.ends_with(".mcap"))
         throw Error(option + one_line(file) + ": a file " + ending + " is expected");
     if (!a.osi_udp.empty()) osi::parse_address(a.osi_udp);
     a.messages.file = file, a.messages.models = a.models, a.messages.live = !a.osi_udp.empty();

@@ -21,7 +21,7 @@ bool MessageFeed::hear(Session& session, std::chrono::milliseconds longest) {
     if (!arrival) return false;
     const auto& sky = arrival->message.environment;
     weather_ |= sky && (sky->fog || sky->precipitation);
-    standing_.add(arrival->message);
+    standing_.add(arrival->message), objects_ |= !arrival->message.objects.empty();
     arrival->message.stationary = {};
     const int64_t nanoseconds = arrival->message.nanoseconds;
     const osi::Timeline::Added added = session.hear(std::move(arrival->message));
@@ -78,6 +78,7 @@ std::string MessageFeed::report() const {
     if (!standing_.counts().empty())
         text += "; stationary objects and signs are shown of traces (--osi), and not of a sender: " +
                 text_of(standing_.counts());
+    if (c.messages > 0 && !objects_) text += "; no message has a moving object with a place";
     return text + (weather_ ? std::string("; they state ") + kWeather : "");
 }
 

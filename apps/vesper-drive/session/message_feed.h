@@ -42,6 +42,7 @@ private:
     osi::SenderClock clock_;
     std::optional<int64_t> first_;  // time of the first message, ns
     StationaryCensus standing_;
+    bool objects_ = false;  // that move were in a message
     uint64_t late_ = 0, repeated_ = 0, crowded_out_ = 0;
     bool begun_ = false, silent_ = false, weather_ = false;
     Clock::time_point heard_ = Clock::now(), began_ = Clock::now();

@@ -74,5 +74,19 @@ TEST(OsiTrace, OfOthersIsRead) {
     EXPECT_NEAR(double(trace.messages.back().nanoseconds - trace.messages.front().nanoseconds), 6.95e9, 1e3);
 }
 
+// A trace of other things, such as of lanes alone, is no drive: it is noted, and one message with an object is enough.
+TEST(OsiTrace, IsNotedWhereNothingMoves) {
+    const auto notes_of = [](const osi::Message& last) {
+        const std::string bytes = osi::trace_bytes_of({.nanoseconds = 1}) + osi::trace_bytes_of(last);
+        return osi::parse_trace({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()}, "a.osi").notes;
+    };
+    osi::Message last{.nanoseconds = 2};
+    last.traffic_lights.push_back({.id = 1});
+    ASSERT_EQ(notes_of(last).size(), 1u);
+    EXPECT_NE(notes_of(last)[0].find("nothing moves"), std::string::npos);
+    last.objects.push_back({.id = 2, .velocity = {}});
+    EXPECT_TRUE(notes_of(last).empty());
+}
+
 }  // namespace
 }  // namespace vesper::test

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/one_line.h"
 #include "print.h"
 #include "shared/photometry.h"
 
@@ -43,6 +44,12 @@ LuminanceStatistics luminance_statistics(std::span<const float> pixels, size_t c
     for (const double percent : kPercents)
         s.percentiles.emplace_back(percent, double(luminances[size_t(percent / 100 * double(s.finite - 1) + 0.5)]));
     return s;
+}
+
+bool is_damaged(double luminance) { return !std::isfinite(luminance) || luminance < 0; }
+
+std::string damaged_text(const std::string& file, uint64_t pixels, const std::string& taken) {
+    return one_line(file) + ": " + std::to_string(pixels) + " pixels are not finite or of negative luminance: " + taken;
 }
 
 std::string text_of(const LuminanceStatistics& s, const std::string& heading) {

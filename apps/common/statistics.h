@@ -21,6 +21,11 @@ struct LuminanceStatistics {
 /// Of pixels in cd/m^2 RGB, of 4 (RGBA) or 3 values each.
 LuminanceStatistics luminance_statistics(std::span<const float> pixels, size_t channels = 4);
 
+/// Whether a pixel of this luminance holds no light that an eye could see: not finite, or negative.
+bool is_damaged(double luminance);
+/// "FILE: N pixels are not finite or of negative luminance: TAKEN".
+std::string damaged_text(const std::string& file, uint64_t pixels, const std::string& taken);
+
 /// As a table for a terminal, under a heading that says what the numbers are.
 std::string text_of(const LuminanceStatistics& statistics, const std::string& heading);
 /// As a JSON object.

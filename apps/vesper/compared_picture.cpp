@@ -15,6 +15,7 @@
 #include "io/hdr_image.h"
 #include "io/read_file.h"
 #include "print.h"
+#include "statistics.h"
 
 namespace vesper::commands {
 namespace {
@@ -80,11 +81,9 @@ ComparedPicture read_compared(const CompareSource& source, const std::string& fi
     uint64_t damaged = 0, bright = 0;  // pixels
     for (size_t i = 0; i < picture.rgb.size(); i += 3) {
         const double l = luminance({picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]});
-        damaged += !std::isfinite(l) || l < 0, bright += std::isfinite(l) && l > analysis::JndScale::kMost;
+        damaged += apps::is_damaged(l), bright += std::isfinite(l) && l > analysis::JndScale::kMost;
     }
-    if (damaged > 0)
-        apps::print_note(one_line(file) + ": " + std::to_string(damaged) +
-                         " pixels are not finite or of negative luminance: compared as black");
+    if (damaged > 0) apps::print_note(apps::damaged_text(file, damaged, "compared as black"));
     if (bright > 0)
         apps::print_note(one_line(file) + ": " + std::to_string(bright) +
                          apps::format(" pixels have more than %g cd/m^2, of which no eye sees differences",

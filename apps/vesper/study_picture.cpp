@@ -15,6 +15,7 @@
 #include "scene/placement.h"
 #include "scene_notes.h"
 #include "shared/photometry.h"
+#include "statistics.h"
 
 namespace vesper::commands {
 namespace {
@@ -58,14 +59,17 @@ StudyPicture loaded(const PictureSource& arguments, const std::string& input) {
             .is_absolute = meaning.fov_known && (meaning.scale_source == "option" || image.white_luminance > 0)};
 }
 
-/// Looks for the darkest and the brightest light.
+/// Looks for the darkest and the brightest light, and notes pixels without any meaning.
 void measure(StudyPicture& picture, const std::string& input) {
     picture.darkest = HUGE_VAL;
+    uint64_t damaged = 0;  // pixels
     for (size_t i = 0; i < picture.values.size() / picture.channels; ++i) {
         const double l = picture.luminance(i);
+        damaged += apps::is_damaged(l);
         if (!(l > 0) || !std::isfinite(l)) continue;
         picture.darkest = std::min(picture.darkest, l), picture.brightest = std::max(picture.brightest, l);
     }
+    if (damaged > 0) apps::print_note(apps::damaged_text(input, damaged, "taken for no light"));
     if (!(picture.brightest > 0)) throw Error(one_line(input) + ": there is no light in the picture");
     picture.darkest = std::max({picture.darkest, 1e-4, picture.brightest * 1e-12});
     picture.brightest = std::max(picture.brightest, picture.darkest);

@@ -34,7 +34,7 @@ TEST_F(SaliencyProgram, FindsTheBrightestPlaceFirst) {
     fill(image, 0, 280, 8, std::numeric_limits<float>::quiet_NaN());
     write_layout(folder / "a.exr", image, {.white_luminance = 1});
     ASSERT_EQ(run("saliency a.exr --fov 30 --peaks 2 --radius 4 -o map.png --json found.json"), 0) << said;
-    EXPECT_EQ(said, "");
+    EXPECT_EQ(said, "note: a.exr: 64 pixels are not finite or of negative luminance: taken for no light\n");
     const nlohmann::json found = json("found.json");
     ASSERT_EQ(found["places"].size(), 2u);
     const nlohmann::json &first = found["places"][0], &second = found["places"][1];
@@ -53,6 +53,21 @@ TEST_F(SaliencyProgram, FindsTheBrightestPlaceFirst) {
     EXPECT_NE(printed.find("1 on the display"), std::string::npos) << printed;
     EXPECT_NE(printed.find("irawan: rank correlation"), std::string::npos) << printed;
     EXPECT_GT(io::decode_image(io::read_file(folder / "map.png", 1u << 28), 32768).width, 400u);
+}
+
+// Of each kind of damage; a dark pixel, and one of a colour outside of the gamut, are none.
+TEST_F(SaliencyProgram, NotesPixelsWithoutMeaning) {
+    const float inf = std::numeric_limits<float>::infinity();
+    for (const auto& [value, noted] : {std::pair(-1.0f, true), {inf, true}, {-inf, true}, {0.0f, false}}) {
+        io::HdrImage image = even(400, 300, 0.5f);
+        fill(image, 294, 70, 20, 200), fill(image, 10, 10, 1, value);
+        image.rgb[0] = -0.1f;
+        write_layout(folder / "a.exr", image, {.white_luminance = 1});
+        ASSERT_EQ(run("saliency a.exr --fov 30 --peaks 1 -o map.png"), 0) << said;
+        EXPECT_EQ(said,
+                  noted ? "note: a.exr: 1 pixels are not finite or of negative luminance: taken for no light\n" : "")
+            << value;
+    }
 }
 
 TEST_F(SaliencyProgram, WritesTheMapAsValues) {

@@ -108,6 +108,12 @@ void run(const InspectArguments& a) {
 
 }  // namespace
 
+std::string notes_text(const std::vector<std::string>& notes) {
+    std::string text = notes.empty() ? "" : "\nread with a change:\n";
+    for (const std::string& note : notes) text += "  " + note + "\n";
+    return text;
+}
+
 void add_inspect(apps::Command program) {
     apps::Command command =
         program.add_command("inspect", "Say what a scene, a lamp or a picture holds (docs/inspect.md)");

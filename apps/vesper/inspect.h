@@ -31,6 +31,9 @@ struct Inspection {
     nlohmann::ordered_json json;
 };
 
+/// The notes of reading a file under a heading; empty where there are none.
+std::string notes_text(const std::vector<std::string>&);
+
 Inspection inspect_scene(const InspectArguments&);
 Inspection inspect_light(const InspectArguments&);          ///< at points of a scene
 void announce_light_picture(const InspectArguments&);       ///< of the files that the next one writes (FileGate)

@@ -109,6 +109,7 @@ Inspection inspect_picture(const InspectArguments& arguments) {
     made.json["absolute"] = absolute;
     made.json["luminance"] = nlohmann::ordered_json::parse(apps::json_of(statistics));
     for (const auto& [key, value] : image.header) made.json["header"].push_back({key, value});
+    made.json["notes"] = image.notes;
     if (!probes.empty())
         made.text += "probes\n       x      y   luminance           R          G          B       x      y\n";
     for (const Probe& p : probes) {
@@ -122,6 +123,7 @@ Inspection inspect_picture(const InspectArguments& arguments) {
                                        {"rgb", {rgb.r, rgb.g, rgb.b}},
                                        {"chromaticity", {xy.x, xy.y}}});
     }
+    made.text += notes_text(image.notes);
     if (!arguments.picture.empty()) draw(arguments, luminances_of(image, factor), probes, unit);
     return made;
 }

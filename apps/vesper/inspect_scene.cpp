@@ -139,8 +139,7 @@ Inspection inspect_scene(const InspectArguments& arguments) {
     for (size_t i = 0; i < report.cameras.size(); ++i) text += (i ? ", " : "") + one_line(report.cameras[i]);
     text += report.cameras.empty() ? "none\n" : "\n";
     text += lamps_text(report) + materials_text(report);
-    for (const std::string& note : loaded.notes)
-        text += (&note == loaded.notes.data() ? "\nread with a change:\n  " : "  ") + note + "\n";
+    text += notes_text(loaded.notes);
     text += report.warnings.empty() ? "\nnothing implausible\n" : "\nimplausible:\n";
     for (const std::string& warning : report.warnings) text += "  " + warning + "\n";
     nlohmann::ordered_json json = json_of(report);

@@ -20,7 +20,8 @@ struct HdrImage {
     double white_luminance =
         0;          ///< cd/m^2 of (1, 1, 1) if the file says (OpenEXR's whiteLuminance; ours say 1; XYZE: 1); else 0
     Header header;  ///< texts and numbers of the file's header, in its order
-    double exposure = 1;  ///< of a Radiance file: what its values were multiplied by, and are not any more
+    double exposure = 1;             ///< of a Radiance file: what its values were multiplied by, and are not any more
+    std::vector<std::string> notes;  ///< what of the header makes no sense and was passed over, one line each
 };
 
 /// What a picture may cost. Its pixels follow VESPER_LIMITS (base/limits.h).
@@ -41,9 +42,11 @@ struct HdrLimits {
 HdrImage read_exr(const std::filesystem::path& file, const HdrLimits& = {}, const std::string& layer = {});
 
 /// Reads a Radiance picture (RGBE or XYZE, run-length coded or not, in any of the eight orders of pixels). EXPOSURE is
-/// divided out, so that pictures of one series agree; PRIMARIES become Rec. 709, and so do Radiance's own where there
-/// are none in a picture that one of its programs made (its header has their command, VIEW or SOFTWARE): green and blue
-/// weigh 0.670 and 0.065 in luminance there, not 0.715 and 0.072. A mantissa m stands for m + 1/2, as in Radiance.
+/// divided out, so that pictures of one series agree; an EXPOSURE or COLORCORR that is not positive, which some
+/// programs write for "I do not know", is noted and left out; PRIMARIES become Rec. 709, and so do Radiance's own where
+/// there are none in a picture that one of its programs made (its header has their command, VIEW or SOFTWARE): green
+/// and blue weigh 0.670 and 0.065 in luminance there, not 0.715 and 0.072. A mantissa m stands for m + 1/2, as in
+/// Radiance.
 HdrImage read_radiance(const std::filesystem::path& file, const HdrLimits& = {});
 
 /// Reads either kind, told apart by content.

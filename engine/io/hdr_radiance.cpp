@@ -11,6 +11,7 @@
 
 #include "base/budget.h"
 #include "base/error.h"
+#include "base/one_line.h"
 #include "io/hdr_parts.h"
 
 namespace vesper::io::hdr {
@@ -84,6 +85,7 @@ struct Description {
     Header header;
     double exposure = 1;
     std::array<double, 3> correction{1, 1, 1};  ///< COLORCORR
+    std::vector<std::string> notes;             ///< of values that were passed over, each once
     std::optional<Primaries> primaries;
     bool radiance = false;  ///< one of Radiance's programs made it
     bool xyz = false;
@@ -106,20 +108,28 @@ bool is_radiance_command(const std::string& line) {
     return std::find(std::begin(kPrograms), std::end(kPrograms), name) != std::end(kPrograms);
 }
 
+/// `count` positive numbers; else nothing, with a note.
+std::optional<std::vector<double>> positive_numbers(Description& made, const std::string& name,
+                                                    const std::string& value, size_t count) {
+    auto factors = numbers(value, count);
+    if (factors && std::all_of(factors->begin(), factors->end(), [](double v) { return v > 0; })) return factors;
+    const std::string note = "Radiance: " + name + "=" + one_line(value, 60) +
+                             (count == 1 ? " is not a positive number" : " are not three positive numbers") +
+                             ": read as if it were not there";
+    if (std::find(made.notes.begin(), made.notes.end(), note) == made.notes.end()) made.notes.push_back(note);
+    return std::nullopt;
+}
+
 void read_variable(Description& made, const std::string& name, const std::string& value) {
     if (name == "FORMAT") {
         const std::string format = word_of(value);
         made.xyz = format == "32-bit_rle_xyze";
         if (!made.xyz && format != "32-bit_rle_rgbe") throw Error("Radiance: FORMAT=" + value + " is not known");
     } else if (name == "EXPOSURE") {  // cumulative: each program that scaled the picture added a line
-        const auto factor = numbers(value, 1);
-        if (!factor || !(factor->front() > 0)) throw Error("Radiance: EXPOSURE=" + value + " is not a positive number");
-        made.exposure *= factor->front();
+        if (const auto factor = positive_numbers(made, name, value, 1)) made.exposure *= factor->front();
     } else if (name == "COLORCORR") {
-        const auto factors = numbers(value, 3);  // cumulative, too
-        if (!factors || std::any_of(factors->begin(), factors->end(), [](double v) { return !(v > 0); }))
-            throw Error("Radiance: COLORCORR=" + value + " are not three positive numbers");
-        for (size_t c = 0; c < 3; ++c) made.correction[c] *= (*factors)[c];
+        if (const auto factors = positive_numbers(made, name, value, 3))  // cumulative, too
+            for (size_t c = 0; c < 3; ++c) made.correction[c] *= (*factors)[c];
     } else if (name == "PRIMARIES") {
         const auto p = numbers(value, 8);
         if (!p) throw Error("Radiance: PRIMARIES=" + value + " are not eight numbers");
@@ -234,6 +244,7 @@ HdrImage decode_radiance(std::span<const uint8_t> file, const HdrLimits& limits)
     if (made.xyz) image.white_luminance = 1;  // lm/sr/m^2, where RGBE has W/sr/m^2
     image.header = std::move(made.header);
     image.exposure = made.exposure;
+    image.notes = std::move(made.notes);
     return image;
 }
 

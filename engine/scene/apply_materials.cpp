@@ -66,6 +66,8 @@ uint32_t picture_of(Application& application, const EmitterRule& rule) {
     application.scene.luminance_pictures.push_back(added.picture);
     application.scene.luminance_pictures.back().name = one_line(added.picture.name);
     known.push_back(rule.picture);
+    for (const std::string& note : added.notes)
+        application.report.warnings.push_back("picture " + in_quotes(added.picture.name) + ": " + note);
     if (added.changed > 0)
         application.report.warnings.push_back("picture " + in_quotes(added.picture.name) + ": " +
                                               std::to_string(added.changed) +

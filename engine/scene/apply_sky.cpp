@@ -34,6 +34,8 @@ void set_environment(Application& application, const SkyPicture& sky) {
     application.report.changes.push_back("sky: " + in_quotes(sky.file) + ", " + decimal(photometry::sky_luminance(e)) +
                                          " cd/m^2 in the mean, " + decimal(photometry::horizontal_illuminance(e)) +
                                          " lx on the ground");
+    for (const std::string& note : sky.notes)
+        application.report.warnings.push_back("sky: " + in_quotes(sky.file) + ": " + note);
     if (sky.cleaned > 0)
         application.report.warnings.push_back("sky: " + std::to_string(sky.cleaned) +
                                               " pixels that were negative or not finite are black");

@@ -38,6 +38,7 @@ struct EmitterPicture {
     photometry::LuminancePicture picture{};  ///< its name is that of the rule
     double white_luminance = 0;              ///< cd/m^2 of the value 1 by the file; 0 if not stated
     uint64_t changed = 0;                    ///< pixels with a negative component, see make_luminance_picture
+    std::vector<std::string> notes{};        ///< of its header, see io::HdrImage
 };
 
 /// A rule that makes materials emit.
@@ -74,7 +75,8 @@ struct ColouredQuantity {
 struct SkyPicture {
     std::string file;  ///< as the photometry file has it
     photometry::Environment environment{};
-    uint64_t cleaned = 0;  ///< pixels that were not finite or below 0
+    uint64_t cleaned = 0;              ///< pixels that were not finite or below 0
+    std::vector<std::string> notes{};  ///< of its header, see io::HdrImage
 };
 
 /// Light from one direction: the moon, dusk.

@@ -25,6 +25,7 @@ uint32_t picture_of(const JsonValue& file, const std::filesystem::path& folder, 
         read.bytes = io::read_file(path, kMaxPictureBytes);
         io::HdrImage image = io::decode_hdr_image(read.bytes, path.string(), kLimits);
         read.white_luminance = image.white_luminance;
+        read.notes = std::move(image.notes);
         try {
             read.picture = photometry::make_luminance_picture(std::move(image), &read.changed);
         } catch (const Error& error) {

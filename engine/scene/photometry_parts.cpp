@@ -51,6 +51,7 @@ SkyPicture read_sky_picture(const JsonValue& source, const std::filesystem::path
     try {
         const io::HdrImage image = io::read_hdr_image(io::named_file(folder, sky.file));
         white = image.white_luminance;
+        sky.notes = image.notes;
         sky.environment = photometry::make_environment(image, &sky.cleaned);
     } catch (const Error& error) {
         file.fail(error.what());

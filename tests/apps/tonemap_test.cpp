@@ -213,6 +213,11 @@ TEST_F(TonemapProgram, RadiancePicturesWithExposureAndInXyzStayAbsolute) {
     EXPECT_EQ(scale_of("FORMAT=32-bit_rle_xyze\nEXPOSURE=2\n"), "1 header");
     EXPECT_TRUE(scale_of(rgbe).ends_with(" auto"));
     EXPECT_TRUE(scale_of(rgbe + "EXPOSURE=          1.0000000000000\n").ends_with(" auto"));
+    EXPECT_TRUE(scale_of(rgbe + "EXPOSURE=0\n").ends_with(" auto"));
+    EXPECT_TRUE(
+        said.starts_with("note: r.hdr: Radiance: EXPOSURE=0 is not a positive number: read as if it were not "
+                         "there\n"))
+        << said;
 }
 
 // What holds for all is told once, a scale that was found for each; where a sequence changes its unit is told, too.

@@ -134,6 +134,7 @@ VkExtent2D parse_size(const std::string& text, unsigned least, unsigned most) {
 
 PictureMeaning meaning_of(const io::HdrImage& image, const PictureRequest& request) {
     PictureMeaning meaning;
+    meaning.notes = image.notes;
     if (const std::string& scale = request.scale.scale; scale == "auto") {
         find_unit(meaning, image, request);
     } else {

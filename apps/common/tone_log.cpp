@@ -7,11 +7,13 @@
 
 #include "arguments/glare_arguments.h"
 #include "arguments/obstacle_arguments.h"
+#include "base/digest.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "io/read_file.h"
 #include "photometry/table.h"
 #include "print.h"
+#include "render/eye_state.h"
 
 namespace vesper::apps {
 namespace {
@@ -49,6 +51,19 @@ std::vector<float> floats_of(const shared::EyeState& eye) {
     std::vector<float> values(kFloats);
     std::memcpy(values.data(), &eye, sizeof eye);
     return values;
+}
+
+std::string state_name(size_t i) { return i < kNamed ? kStateNames[i] : format("node%zu", i - kNamed); }
+std::string column(size_t i, std::string_view name) {
+    return "column " + std::to_string(i + 1) + " (" + one_line(std::string(name), 40) + ")";
+}
+
+constexpr std::string_view kSum = ",sum";
+/// Of the values after the number of the frame, which is another where the same frame is rendered alone.
+std::string sum_of(std::string_view row) {
+    Digest digest;
+    digest.add_list(row.substr(std::min(row.find(','), row.size())));
+    return hexadecimal(digest.value());
 }
 
 }  // namespace
@@ -89,20 +104,30 @@ std::string log_line(unsigned index, const LoggedFrame& frame, const shared::Ton
     return line + glare_values(glare);
 }
 
+std::string summed_heading(const std::string& heading) { return heading + std::string(kSum); }
+std::string summed_line(const std::string& line) { return line + "," + sum_of(line); }
+
 std::vector<LoggedFrame> read_log(const std::string& file) {
     constexpr size_t kName = 3;  // the column that is no number
     const std::vector<uint8_t> bytes = io::read_file(file, kMostLogBytes);
     photometry::LineReader lines(bytes, one_line(file));
-    const std::string heading(lines.next().value_or(""));
+    std::string_view heading = lines.next().value_or("");
+    const bool summed = heading.ends_with(kSum);
+    if (summed) heading.remove_suffix(kSum.size());
     const std::string known = log_heading();
-    if (!heading.starts_with(known) || !are_obstacle_columns(heading.substr(known.size())))
+    if (!heading.starts_with(known) || !are_obstacle_columns(std::string(heading.substr(known.size()))))
         lines.fail("these are not the columns of a log of this version");
-    const auto columns_of = [](const std::string& text) {
-        return size_t(std::count(text.begin(), text.end(), ',')) + 1;
-    };
-    const size_t columns = columns_of(heading), read = columns_of(known);
+    const std::vector<std::string_view> names = photometry::fields_of(heading, ',', heading.size());
+    const size_t columns = names.size(), read = size_t(std::count(known.begin(), known.end(), ',')) + 1;
     std::vector<LoggedFrame> frames;
-    while (const auto line = lines.next()) {
+    while (auto line = lines.next()) {
+        if (summed) {
+            const size_t end = std::min(line->rfind(','), line->size());
+            if (line->substr(std::min(end + 1, line->size())) != sum_of(line->substr(0, end)))
+                lines.fail(column(columns, kSum.substr(1)) +
+                           ": is not that of the values before it: they were changed");
+            line = line->substr(0, end);
+        }
         const auto fields = photometry::fields_of(*line, ',', columns);
         if (fields.size() != columns) lines.fail("has not " + std::to_string(columns) + " values");
         LoggedFrame frame;
@@ -113,7 +138,7 @@ std::vector<LoggedFrame> read_log(const std::string& file) {
                                    ? std::optional(0.0)
                                    : photometry::number_of(fields[i], false);  // a threshold increment
             if (!value || std::abs(*value) > double(FLT_MAX))
-                lines.fail("a number is expected in column " + std::to_string(i + 1));
+                lines.fail(column(i, names[i]) + ": a number is expected");
             values[i] = *value;
         }
         frame.tone_operator = fields[kName];
@@ -121,7 +146,10 @@ std::vector<LoggedFrame> read_log(const std::string& file) {
         frame.step = float(values[2]);
         std::vector<float> state(values.begin() + kName + 1, values.begin() + kName + 1 + kFloats);
         std::memcpy(&frame.eye, state.data(), sizeof frame.eye);
-        if (!(frame.eye.seconds >= 0 && frame.eye.seconds <= shared::kLongestLife)) lines.fail("no eye is that old");
+        if (!(frame.step >= 0 && frame.step <= shared::kLongestLife))
+            lines.fail(column(2, "step") + ": " + std::string(fields[2]) + " is no time since the frame before");
+        if (const auto fault = render::fault_of(frame.eye))
+            lines.fail(column(kName + 1 + fault->index, state_name(fault->index)) + ": " + fault->reason);
         frames.push_back(std::move(frame));
     }
     if (frames.empty()) throw Error(one_line(file) + ": no frames");

@@ -23,7 +23,13 @@ std::string log_heading();
 std::string log_line(unsigned index, const LoggedFrame& frame, const shared::ToneCurve& curve,
                      render::Operator tone_operator, const vision::Display& display, const vision::GlareReport& glare);
 
-/// Reads a log. Throws Error, naming file and line.
+/// A heading and a line that are complete, with a sum of all values but the frame's number as the last column: a line
+/// that was changed since is told from one that was written.
+std::string summed_heading(const std::string& heading);
+std::string summed_line(const std::string& line);
+
+/// Reads a log, with sums or without. Values of an eye that no eye has are refused. Throws Error, naming file, line and
+/// column.
 std::vector<LoggedFrame> read_log(const std::string& file);
 
 /// Luminances of the display, cd/m^2, for scene luminances of 10^-4 to 10^6 cd/m^2 in tenths of a decade.

@@ -14,7 +14,7 @@ apps::Bytes FrameRows::packed() const {
 
 void FrameFiles::open(const std::string& log, const std::string& sources, const std::string& eye,
                       const std::string& more) {
-    heading_ = apps::log_heading() + more + "\n";
+    heading_ = apps::summed_heading(apps::log_heading() + more) + "\n";
     if (!log.empty()) log_.emplace(log).append(heading_);
     if (!sources.empty()) sources_.emplace(sources).append(apps::glare_sources_heading());
     eye_file_ = eye;

@@ -288,9 +288,11 @@ void run(RenderArguments& arguments) {
         FrameRows rows;
         if (!arguments.log_file.empty() || (last && !arguments.eye_out.empty()))
             rows.log =
-                apps::log_line(index, {seconds, step, apps::name_of(arguments.settings.tone_operator), frame.eye},
-                               frame.curve, arguments.settings.tone_operator, arguments.settings.display, glare) +
-                apps::obstacle_values(obstacles, frame.obstacles, arguments.settings) + "\n";
+                apps::summed_line(
+                    apps::log_line(index, {seconds, step, apps::name_of(arguments.settings.tone_operator), frame.eye},
+                                   frame.curve, arguments.settings.tone_operator, arguments.settings.display, glare) +
+                    apps::obstacle_values(obstacles, frame.obstacles, arguments.settings)) +
+                "\n";
         if (!arguments.sources_file.empty())
             rows.sources = apps::glare_sources_lines(index, scene, frame.glare_sources, arguments.settings.scatter.eye);
         if (last) rows.eye = rows.log;

@@ -8,6 +8,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "base/one_line.h"
+#include "render/eye_state.h"
 
 namespace vesper::api {
 namespace {
@@ -184,16 +185,7 @@ shared::EyeState eye_of(const void* bytes, size_t size) {
     std::memcpy(&kept, bytes, sizeof kept);
     require(kept.kind == kEyeBytes && kept.bytes == sizeof kept.eye && kept.sum == sum_of(kept.eye),
             "the state of the eye is damaged, or of another version");
-    shared::EyeState young = kept.eye;
-    young.seconds = 0;  // which may be more than the others
-    float values[sizeof young / sizeof(float)];
-    std::memcpy(values, &young, sizeof values);
-    require(kept.eye.seconds >= 0 && kept.eye.seconds <= shared::kLongestLife,
-            "the state of the eye has values out of range");
-    require(std::all_of(std::begin(values), std::end(values), [](float v) { return std::abs(v) <= 1e9f; }),
-            "the state of the eye has values out of range");
-    require(kept.eye.steps >= 0 && kept.eye.steps <= float(shared::kMaxBins),
-            "the state of the eye has values out of range");
+    require(!render::fault_of(kept.eye), "the state of the eye has values out of range");
     return kept.eye;
 }
 

@@ -1,6 +1,9 @@
 // The state of an eye between two frames. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "shared/tone.h"
 
 namespace vesper::render {
@@ -16,5 +19,13 @@ struct EyeState {
     /// After that frame was finished and its state read.
     EyeState finished(const shared::EyeState& left) const { return on_device ? EyeState{left, true} : *this; }
 };
+
+/// A value that no eye has after a frame.
+struct EyeFault {
+    size_t index;        ///< of the float in shared::EyeState
+    std::string reason;  ///< the value, and the values that there are, with units
+};
+/// The first one, if any. An eye that has seen nothing yet, all zeroes, is sound.
+std::optional<EyeFault> fault_of(const shared::EyeState& eye);
 
 }  // namespace vesper::render

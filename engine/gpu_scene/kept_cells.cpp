@@ -1,5 +1,7 @@
 #include "gpu_scene/kept_cells.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <string_view>
@@ -65,6 +67,7 @@ private:
 std::optional<std::vector<CasterCell>> read_cells(Cache& cache, const Digest::Value& key) {
     KeptHeader header;
     if (!cache.read(key, std::as_writable_bytes(std::span(&header, 1)))) return std::nullopt;
+    if (cache.bytes(key_of_cells(key)) != header.bytes) return std::nullopt;
     std::vector<std::byte> bytes(header.bytes);
     if (!cache.read(key_of_cells(key), bytes)) return std::nullopt;
     KeptBytes kept(bytes);
@@ -79,6 +82,33 @@ std::optional<std::vector<CasterCell>> read_cells(Cache& cache, const Digest::Va
             return std::nullopt;
     }
     return kept.is_empty() ? std::optional(std::move(cells)) : std::nullopt;
+}
+
+bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// Indices lie in their lists, parts are of the scene, and numbers are finite.
+bool are_sound(const std::vector<CasterCell>& cells, const scene::Scene& scene) {
+    std::vector<uint32_t> first_parts{0};  // of each mesh, and the end
+    for (const scene::Mesh& mesh : scene.meshes)
+        first_parts.push_back(first_parts.back() + uint32_t(mesh.primitives.size()));
+    std::vector<uint32_t> meshes;  // of each placement
+    for (const scene::Node& node : scene.nodes)
+        if (node.mesh != scene::kNone) meshes.push_back(node.mesh);
+    const auto is_of_scene = [&](const PlacedPart& part) {
+        if (part.placement >= meshes.size()) return false;
+        const uint32_t mesh = meshes[part.placement];
+        return part.part >= first_parts[mesh] && part.part < first_parts[mesh + 1];
+    };
+    return std::ranges::all_of(cells, [&](const CasterCell& cell) {
+        return is_finite(cell.origin) && std::isfinite(cell.radius) && cell.radius >= 0 && !cell.levels.empty() &&
+               std::ranges::all_of(cell.parts, is_of_scene) &&
+               std::ranges::all_of(cell.vertices, [](const glm::vec3& vertex) { return is_finite(vertex); }) &&
+               std::ranges::all_of(cell.indices, [&](uint32_t index) { return index < cell.vertices.size(); }) &&
+               std::ranges::all_of(cell.levels, [&](const CasterCell::Level& level) {
+                   return std::isfinite(level.error) && level.first_index <= cell.indices.size() &&
+                          level.index_count <= cell.indices.size() - level.first_index && level.index_count % 3 == 0;
+               });
+    });
 }
 
 void write_cells(Cache& cache, const Digest::Value& key, const std::vector<CasterCell>& cells) {
@@ -113,7 +143,7 @@ Digest::Value cells_key(const scene::Scene& scene, const Digest::Value& occluder
 std::vector<CasterCell> kept_or_made_cells(const scene::Scene& scene, const Digest::Value& occluders, Cache* cache) {
     if (!cache) return caster_cells(scene);
     const Digest::Value key = cells_key(scene, occluders);
-    if (auto kept = read_cells(*cache, key)) return *std::move(kept);
+    if (auto kept = read_cells(*cache, key); kept && are_sound(*kept, scene)) return *std::move(kept);
     std::vector<CasterCell> made = caster_cells(scene);
     if (cache->writes()) write_cells(*cache, key, made);
     return made;

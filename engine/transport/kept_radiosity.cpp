@@ -6,6 +6,7 @@
 
 #include "scene/placement.h"
 #include "scene/reflectance.h"
+#include "transport/sound_radiosity.h"
 
 namespace vesper::transport {
 namespace {
@@ -90,11 +91,18 @@ Digest::Value key_of_lists(const Digest::Value& key) {
     return digest.value();
 }
 
-uint64_t bytes_of_lists(Header& header, Radiosity& radiosity) {
+/// Of all lists; empty: more than any file has.
+std::optional<uint64_t> bytes_of_lists(const Header& header, const Radiosity& radiosity) {
+    constexpr uint64_t kMostBytes = uint64_t{1} << 40u;
     uint64_t bytes = 0;
+    bool fits = true;
     size_t i = 0;
-    each_list(radiosity, [&](const auto& list) { bytes += header.sizes[i++] * sizeof list[0]; });
-    return bytes;
+    each_list(radiosity, [&](const auto& list) {
+        const uint64_t size = header.sizes[i++], each = sizeof list[0];
+        fits = fits && size <= (kMostBytes - bytes) / each;
+        if (fits) bytes += size * each;
+    });
+    return fits ? std::optional(bytes) : std::nullopt;
 }
 
 }  // namespace
@@ -129,7 +137,9 @@ std::optional<Radiosity> read_radiosity(Cache& cache, const Digest::Value& key) 
     if (!cache.read(key, std::as_writable_bytes(std::span(&header, 1)))) return std::nullopt;
     Radiosity radiosity;
     radiosity.grid = {header.origin, header.size, header.count};
-    std::vector<std::byte> bytes(bytes_of_lists(header, radiosity));
+    const std::optional<uint64_t> size = bytes_of_lists(header, radiosity);
+    if (!size || cache.bytes(key_of_lists(key)) != *size) return std::nullopt;
+    std::vector<std::byte> bytes(*size);
     if (!cache.read(key_of_lists(key), bytes)) return std::nullopt;
     size_t i = 0, at = 0;
     each_list(radiosity, [&](auto& list) {
@@ -138,6 +148,7 @@ std::optional<Radiosity> read_radiosity(Cache& cache, const Digest::Value& key) 
         if (!to.empty()) std::memcpy(to.data(), &bytes[at], to.size());
         at += to.size();
     });
+    if (!is_sound(radiosity)) return std::nullopt;
     return radiosity;
 }
 
@@ -162,12 +173,13 @@ std::optional<Radiosity> kept_or_gathered(const scene::Scene& scene, std::span<c
                                           std::string* problem) {
     if (!cache) return gather_radiosity(scene, world, moving, settings, progress);
     const Digest::Value key = radiosity_key(scene, world, moving, settings);
-    if (auto kept = read_radiosity(*cache, key)) return kept;
-    auto gathered = gather_radiosity(scene, world, moving, settings, progress);
-    if (!gathered || !cache->writes()) return gathered;
-    const std::string failed = write_radiosity(*cache, key, *gathered);
+    auto light = read_radiosity(*cache, key);
+    if (light && names_nodes_of(*light, scene)) return light;
+    light = gather_radiosity(scene, world, moving, settings, progress);
+    if (!light) return light;
+    const std::string failed = cache->writes() ? write_radiosity(*cache, key, *light) : cache->settle();
     if (problem) *problem = failed;
-    return gathered;
+    return light;
 }
 
 }  // namespace vesper::transport

@@ -19,6 +19,10 @@ struct Kept : Cache {
     size_t room = ~size_t{0};  // maps
     std::string problem;
 
+    uint64_t bytes(const Digest::Value& key) override {
+        const auto found = maps.find(key);
+        return found == maps.end() ? 0 : found->second.size();
+    }
     bool read(const Digest::Value& key, std::span<std::byte> bytes) override {
         const auto found = maps.find(key);
         if (found == maps.end() || found->second.size() != bytes.size()) {

@@ -8,7 +8,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
+#include <cstring>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -36,8 +38,11 @@ std::optional<std::vector<std::byte>> read(io::CacheFolder& cache, const Digest:
     return cache.read(key, read) ? std::optional(read) : std::nullopt;
 }
 
+/// Without the secret number of the folder.
 size_t entries(const fs::path& folder) {
-    return size_t(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+    return size_t(std::count_if(fs::directory_iterator(folder), fs::directory_iterator(), [](const auto& entry) {
+        return entry.path().filename() != io::CacheFolder::kSecretName;
+    }));
 }
 
 /// Seconds before now at which a file was used last.
@@ -107,6 +112,72 @@ TEST_F(MapFolder, ReplacesWhatIsDamaged) {
     // A hole of 1 TiB.
     fs::resize_file(place / kName, uint64_t{1} << 40u);
     expect_replaced("large");
+}
+
+// A digest as anyone can make it, of a content in place of the one that was written.
+TEST_F(MapFolder, TakesNoForgedFiles) {
+    cache.write(kKey, bytes);
+    const std::string whole = read_text(place / kName);
+    EXPECT_EQ(cache.bytes(kKey), kBytes);
+    for (const size_t at : {size_t{0}, kBytes / 2, kBytes - 1}) {
+        std::string forged = whole;
+        forged[kHeader + at] = char(forged[kHeader + at] ^ 1);
+        const std::span content = std::as_bytes(std::span(forged)).subspan(kHeader);
+        for (const bool with_key : {false, true}) {
+            Digest digest;
+            if (with_key) digest.add_value(kKey);
+            digest.add(content);
+            const Digest::Value value = digest.value();
+            std::memcpy(&forged[kHeader - sizeof value], &value, sizeof value);
+            expect_replaced(forged, "byte " + std::to_string(at));
+        }
+    }
+    // Without the secret number files count as none; another one is made.
+    fs::remove(place / io::CacheFolder::kSecretName);
+    EXPECT_EQ(read(cache, kKey), std::nullopt);
+    expect_replaced(whole, "of a secret that is lost");
+    EXPECT_EQ(fs::status(place / io::CacheFolder::kSecretName).permissions(),
+              fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST_F(MapFolder, TrustsThisUserAlone) {
+    cache.write(kKey, bytes);
+    for (const fs::perms more : {fs::perms::group_write, fs::perms::others_write}) {
+        fs::permissions(place, more, fs::perm_options::add);
+        io::CacheFolder open(place);
+        EXPECT_EQ(read(open, kKey), std::nullopt);
+        EXPECT_EQ(open.bytes(kKey), 0u);
+        EXPECT_FALSE(open.writes());
+        const std::string said = open.settle();
+        EXPECT_NE(said.find("may be written by other users"), said.npos) << said;
+        EXPECT_EQ(open.settle(), "") << "once";
+        EXPECT_THROW(open.make(), Error);
+        io::CacheFolder writer(place);
+        writer.write({1, 2}, bytes);
+        EXPECT_NE(writer.settle(), "");
+        EXPECT_EQ(entries(place), 1u) << "nothing is written there";
+        fs::permissions(place, more, fs::perm_options::remove);
+        EXPECT_EQ(read(cache, kKey), bytes);
+        // And of one file: it is replaced.
+        fs::permissions(place / kName, more, fs::perm_options::add);
+        io::CacheFolder other(place);
+        EXPECT_EQ(read(other, kKey), std::nullopt);
+        EXPECT_TRUE(other.writes());
+        const std::string note = other.settle();
+        EXPECT_NE(note.find(kName), note.npos) << note;
+        EXPECT_EQ(other.settle(), "") << "once";
+        other.write(kKey, bytes);
+        EXPECT_EQ(read(other, kKey), bytes);
+    }
+    if (::geteuid() != 0) return;
+    ASSERT_EQ(::chown((place / kName).c_str(), 12345, 12345), 0);
+    EXPECT_EQ(read(cache, kKey), std::nullopt);
+    EXPECT_NE(cache.settle().find("is of another user"), std::string::npos);
+    ASSERT_EQ(::chown(place.c_str(), 12345, 12345), 0);
+    io::CacheFolder others(place);
+    EXPECT_EQ(read(others, kKey), std::nullopt);
+    EXPECT_NE(others.settle().find("is of another user"), std::string::npos);
+    ASSERT_EQ(::chown(place.c_str(), ::geteuid(), ::getegid()), 0);
 }
 
 TEST_F(MapFolder, FollowsNoLinks) {
@@ -257,7 +328,9 @@ TEST_F(MapFolder, IsSafeForSeveralAtOnce) {
     }
     for (const size_t of_thread : wrong) EXPECT_EQ(of_thread, 0u);
     for (const auto& entry : fs::directory_iterator(place))
-        EXPECT_TRUE(entry.path().string().ends_with(".vesper-map")) << entry.path();
+        EXPECT_TRUE(entry.path().string().ends_with(".vesper-map") ||
+                    entry.path().filename() == io::CacheFolder::kSecretName)
+            << entry.path();
 }
 
 }  // namespace

@@ -15,6 +15,10 @@ public:
     std::map<Digest::Value, std::vector<std::byte>> kept;
     bool full = false;
 
+    uint64_t bytes(const Digest::Value& key) override {
+        const auto found = kept.find(key);
+        return found == kept.end() ? 0 : found->second.size();
+    }
     bool read(const Digest::Value& key, std::span<std::byte> bytes) override {
         const auto found = kept.find(key);
         if (found == kept.end() || found->second.size() != bytes.size()) return false;

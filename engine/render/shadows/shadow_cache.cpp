@@ -75,7 +75,7 @@ void ShadowCache::read_back(graph::FrameGraph& graph, graph::Resource distances)
 }
 
 std::string ShadowCache::store(Cache& cache, const graph::Executor& executor) const {
-    if (missing.empty()) return {};
+    if (missing.empty()) return cache.settle();
     const std::span<const std::byte> texels = executor.read(drawn_on_host);
     for (const Missing& map : missing)
         if (cache.writes()) cache.write(map.key, texels.subspan(map.at, map.bytes));

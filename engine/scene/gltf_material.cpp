@@ -217,15 +217,15 @@ void read_alpha(GltfReader& reader, Properties& p) {
             "a material of alpha mode BLEND is drawn as MASK: opaque from half opacity on, invisible below");
 }
 
-/// Vertices have one uv beside that of emission: the base colour's, or the roughness's without a base colour texture. A
-/// texture that is not shown gives one, too: a luminance picture may take the place of the emission's.
+/// Vertices have one uv beside that of emission: the base colour's, or the roughness's without a base colour texture.
+/// An emission that is not shown gives one, too: a luminance picture may take its place.
 MaterialUv uv_of(GltfReader& reader, const Properties& p) {
     const bool base = p.made.base_colour_texture.image != kNone;
     const bool roughness = p.made.metallic_roughness_texture.image != kNone;
     const bool emission = p.material.json.find("emissiveTexture").has_value();
     if (base && roughness && p.roughness_uv != p.base_uv)
         reader.notes.add("a metallic-roughness texture that lies differently follows its base colour texture");
-    const UvMapping otherwise = roughness ? p.roughness_uv : p.emission_uv, surface = base ? p.base_uv : otherwise;
+    const UvMapping otherwise = roughness ? p.roughness_uv : UvMapping{}, surface = base ? p.base_uv : otherwise;
     return {surface, emission ? p.emission_uv : surface};
 }
 

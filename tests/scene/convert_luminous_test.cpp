@@ -120,7 +120,9 @@ TEST_F(ConvertLuminous, LiesAsTheTextureBefore) {
         json::array({{{"materials", "sign"}, {"image", "lit.exr"}}, {{"materials", "bare"}, {"image", "lit.exr"}}}));
     const scene::Scene scene = converted();
     EXPECT_EQ(scene.luminance_pictures.size(), 1u) << "stored once";
-    const auto uv = [&](size_t mesh, size_t vertex) { return scene.meshes[mesh].primitives[0].vertices[vertex].uv; };
+    const auto uv = [&](size_t mesh, size_t vertex) {
+        return scene.meshes[mesh].primitives[0].vertices[vertex].emission_uv();
+    };
     EXPECT_EQ(uv(1, 0), glm::vec2(1, 1)) << "the second set, doubled";
     EXPECT_EQ(uv(1, 1), glm::vec2(0, 1));
     EXPECT_EQ(uv(2, 1), glm::vec2(1, 0)) << "TEXCOORD_0";

@@ -69,8 +69,8 @@ void measure(StudyPicture& picture, const std::string& input) {
         if (!(l > 0) || !std::isfinite(l)) continue;
         picture.darkest = std::min(picture.darkest, l), picture.brightest = std::max(picture.brightest, l);
     }
-    if (damaged > 0) apps::print_note(apps::damaged_text(input, damaged, "taken for no light"));
     if (!(picture.brightest > 0)) throw Error(one_line(input) + ": there is no light in the picture");
+    if (damaged > 0) apps::print_note(apps::damaged_text(input, damaged, "taken for no light"));
     picture.darkest = std::max({picture.darkest, 1e-4, picture.brightest * 1e-12});
     picture.brightest = std::max(picture.brightest, picture.darkest);
 }

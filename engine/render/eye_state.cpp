@@ -108,7 +108,13 @@ Fault fault_of_curve(const Values& values, const shared::EyeState& eye) {
 
 std::optional<EyeFault> fault_of(const shared::EyeState& eye) {
     const auto values = std::bit_cast<Values>(eye);
-    if (eye.adaptation == 0) return not_zero(values, 0, kFloats);
+    if (eye.adaptation == 0) {  // it has seen nothing, at whatever age
+        constexpr size_t seconds_at = index_of(offsetof(shared::EyeState, seconds));
+        if (Fault fault = out_of_range(values, seconds_at, 0, kLongest, " s")) return fault;
+        Values others = values;
+        others[seconds_at] = 0;
+        return not_zero(others, 0, kFloats);
+    }
     if (Fault fault = out_of_ranges(values, kOfEye)) return fault;
     // Some units in the last place of the time.
     const double lost = std::ldexp(double(eye.seconds), -21);

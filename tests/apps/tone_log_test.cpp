@@ -15,8 +15,6 @@
 namespace vesper::test {
 namespace {
 
-constexpr size_t kFirst = 4;  // column of the state, from 0
-
 /// An eye by day with a curve of four steps, and, with a lag, that of the operator pattanaik.
 shared::EyeState sound_eye(bool lags) {
     shared::EyeState eye{};

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "io/cache_folder.h"
 #include "places.h"
 #include "support/program.h"
 
@@ -47,6 +48,7 @@ TEST_F(MapCacheOfRender, ChangesNoByte) {
     render("-o warm.exr --indirect off --cache maps --stats");
     EXPECT_TRUE(printed_has(" 0 were drawn anew, " + std::to_string(kept) + " taken from the cache"));
     for (const auto& entry : fs::directory_iterator(folder / "maps")) {
+        if (entry.path().extension() != ".vesper-map") continue;
         fs::resize_file(entry.path(), fs::file_size(entry.path()) - 1);
         break;
     }
@@ -66,7 +68,7 @@ TEST_F(MapCacheOfRender, KeepsLightBetweenSurfaces) {
     ASSERT_EQ(files_in(folder / "light"), 2u);
     render("-o warm.exr --shadows off --cache light");
     for (const auto& entry : fs::directory_iterator(folder / "light"))
-        fs::resize_file(entry.path(), fs::file_size(entry.path()) - 1);
+        if (entry.path().extension() == ".vesper-map") fs::resize_file(entry.path(), fs::file_size(entry.path()) - 1);
     render("-o damaged.exr --shadows off --cache light");
     EXPECT_EQ(files_in(folder / "light"), 2u);
     EXPECT_EQ(said, "");
@@ -118,8 +120,8 @@ TEST_F(MapCacheOfRender, SaysOnceThatNothingIsKept) {
             EXPECT_EQ(read_text(folder / (std::string("a") + number)),
                       read_text(folder / (std::string("off") + number)));
     }
-    EXPECT_EQ(files_in(folder / "maps"), 0u);
-    EXPECT_TRUE(fs::is_empty(folder / "maps"));
+    for (const auto& entry : fs::directory_iterator(folder / "maps"))
+        EXPECT_EQ(entry.path().filename(), io::CacheFolder::kSecretName) << "nothing else is left";
 }
 
 TEST_F(MapCacheOfRender, RefusesWhatIsNoFolder) {

@@ -46,7 +46,7 @@ std::shared_ptr<Cache> cache_of(const std::string& asked) {
 }
 
 void print_cache_note(const std::string& problem) {
-    if (!problem.empty()) print_note("shadow maps and light that are kept for later runs (--cache): " + problem);
+    if (!problem.empty()) print_note("shadow maps and light are not kept for later runs (--cache): " + problem);
 }
 
 }  // namespace vesper::apps

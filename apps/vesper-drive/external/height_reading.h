@@ -43,7 +43,7 @@ void raise(osi::MovingObject&);
 HeightVotes votes_of(std::span<const osi::Message>, const MessageFrame&, const GroundBelow&);
 bool are_at_ground(const HeightVotes&);
 
-/// What is said where a sender's objects are raised.
+/// The note where a sender's objects are raised.
 inline constexpr char kRaised[] = "base.position of the objects is taken as the ground below them (--osi-z)";
 
 /// The same while messages come: by the votes of moments, averaged over 15 of them. It is the middle until the average

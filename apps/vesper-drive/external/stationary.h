@@ -1,4 +1,4 @@
-// What stands beside the road in messages: drawn of a trace, counted of a sender. SPDX-License-Identifier: MIT
+// Things beside the road in messages: drawn of a trace, counted of a sender. SPDX-License-Identifier: MIT
 #pragma once
 
 #include <map>

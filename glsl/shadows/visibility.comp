@@ -41,6 +41,7 @@ layout(push_constant, scalar) uniform Push { VisibilityPush push; };
 
 const float kMostSheen = 8.0;  // what a sheen or a wide lobe has, at most, in place of a cosine
 const uint kProbes = 16u, kFirstProbes = 4u, kCornerProbes = 8u, kMiddleProbe = 13u;
+const float kLeastIncidence = 0.1;  // cosine; where light grazes, a step of 1 cm in a plane moves edges by decimetres
 const float kMostTilt = 1e-3, kMostLift = 1e-3;  // of a plane's pixels: rad; and of their distance from the eye
 // Of the radius of a lamp: how far aside probes look up, and so the widest radius of a penumbra. It is that of what stops the
 // light after a quarter of the way.
@@ -209,7 +210,8 @@ bool has_wide_texels(FetchedMap map, vec3 lamp) {
     const mat2 per_pixel = texels_per_pixel(map, middle - lamp, middle, n, push.grid.ray_scale);
     const MapPoint p = map_point(map, middle - lamp, n);
     const float most_lift = 0.5 * (kMapBias + map.bias * p.norm);
-    bool same = plane && probe_drawn[kMiddleProbe] && p.inside;
+    const vec3 to = lamp - middle;
+    bool same = plane && probe_drawn[kMiddleProbe] && p.inside && dot(n, to) > kLeastIncidence * length(to);
     [[unroll]] for (uint k = kCornerProbes; k < kCornerProbes + 4u; ++k) {
         const MapPoint corner = map_point(map, probe_position[k] - lamp, n);
         const bool near = corner.first == p.first && corner.inside && all(lessThan(abs(corner.texel - p.texel), vec2(5.4)));

@@ -14,7 +14,6 @@ constexpr size_t kFloats = sizeof(shared::EyeState) / sizeof(float);
 constexpr size_t index_of(size_t offset) { return offset / sizeof(float); }
 
 constexpr double kDarkest = 1e-4, kBrightest = 1e6;  // cd/m^2 to which an eye adapts (adapt.comp)
-constexpr double kLongest = 1e12;                    // s
 constexpr double kScotopic = 10;                     // at most, scotopic luminance over luminance
 constexpr double kLeastPigment = 1e-9;  // unbleached by 1e7 scotopic cd/m^2, of receptors that the settings allow
 constexpr double kFactor = 12;          // log10, of an adaptation on sigma
@@ -29,7 +28,7 @@ struct Range {
     const char* unit;
 };
 constexpr Range kOfEye[]{{offsetof(shared::EyeState, adaptation), kDarkest, kBrightest, " cd/m^2"},
-                         {offsetof(shared::EyeState, seconds), 0, kLongest, " s"},
+                         {offsetof(shared::EyeState, seconds), 0, shared::kLongestLife, " s"},
                          {offsetof(shared::EyeState, pupil), 1.9, 7.9, " mm"},
                          {offsetof(shared::EyeState, cones.pigment), kLeastPigment, 1, ""},
                          {offsetof(shared::EyeState, cones.fast), -kFactor, kFactor, ""},
@@ -110,10 +109,9 @@ std::optional<EyeFault> fault_of(const shared::EyeState& eye) {
     const auto values = std::bit_cast<Values>(eye);
     if (eye.adaptation == 0) {  // it has seen nothing, at whatever age
         constexpr size_t seconds_at = index_of(offsetof(shared::EyeState, seconds));
-        if (Fault fault = out_of_range(values, seconds_at, 0, kLongest, " s")) return fault;
-        Values others = values;
-        others[seconds_at] = 0;
-        return not_zero(others, 0, kFloats);
+        if (Fault fault = out_of_range(values, seconds_at, 0, shared::kLongestLife, " s")) return fault;
+        if (Fault fault = not_zero(values, 0, seconds_at)) return fault;
+        return not_zero(values, seconds_at + 1, kFloats);
     }
     if (Fault fault = out_of_ranges(values, kOfEye)) return fault;
     // Some units in the last place of the time.

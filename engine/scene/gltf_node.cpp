@@ -173,7 +173,8 @@ void read_node(GltfReader& reader, uint32_t index, uint32_t parent, bool hidden,
     read_transform(node, source);
     const auto extensions = source.json.find("extensions");
     const auto instancing = extensions ? extensions->find("EXT_mesh_gpu_instancing") : std::nullopt;
-    const uint32_t mesh = hidden ? kNone : static_cast<uint32_t>(source->mesh);  // of a node without one -1, kNone
+    // A node without a mesh has -1, which is kNone.
+    const uint32_t mesh = hidden ? kNone : static_cast<uint32_t>(source->mesh);
     const bool has_skin = mesh != kNone && source->skin >= 0,
                skinned = has_skin && !instancing && hangs_on_joints(reader, mesh);
     if (has_skin)

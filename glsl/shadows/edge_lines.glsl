@@ -13,8 +13,8 @@ struct MapPlane {
     int first;      // texel of the hemisphere
 };
 
-MapPlane map_plane(FetchedMap map, vec3 from, vec3 normal) {
-    const MapPoint p = map_point(map, from, normal);
+// `p`: map_point() of the same.
+MapPlane map_plane(FetchedMap map, MapPoint p, vec3 from, vec3 normal) {
     const vec3 q = map.rotation * from, n = map.rotation * normal;
     const float away = dot(n, q);
     const vec3 inverse = abs(away) > 1e-4 * p.norm ? n / away : vec3(0.0);

@@ -238,8 +238,9 @@ uint look_up_lines(uint index) {
     const FetchedMap map = fetch_map(index);
     const vec3 lamp = texel_at(lamps, int(index * kTexelsPerLamp)).xyz;
     const vec3 middle = probe_position[kMiddleProbe], n = middle_normal(lamp);
-    const ivec2 first = ivec2(floor(map_point(map, middle - lamp, n).texel)) - kWindow / 2;
-    fill_window(map, map_plane(map, middle - lamp, n), first);
+    const MapPoint p = map_point(map, middle - lamp, n);
+    const ivec2 first = ivec2(floor(p.texel)) - kWindow / 2;
+    fill_window(map, map_plane(map, p, middle - lamp, n), first);
     const mat2 per_pixel = texels_per_pixel(map, middle - lamp, middle, n, push.grid.ray_scale);
     uint word = 0u;
     [[unroll]] for (uint r = 0u; r < kBlockSize; ++r)

@@ -108,7 +108,7 @@ TEST(OsiStationary, ThingsOfATraceAreDrawn) {
     EXPECT_NE(notes.find("barrier: 1, building: 1, pole: 1, pylon: 1, traffic sign: 2"), notes.npos) << notes;
 }
 
-// What is not drawn is counted by its kind.
+// Things that are not drawn are counted by their kinds.
 TEST(OsiStationary, OthersAreCounted) {
     wire::GroundTruth truth = truth_at(1);
     add(truth, 10, 2, {0, 30, 3}, {40, 10, 6});  // a bridge: its box would close the road

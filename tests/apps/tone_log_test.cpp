@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "print.h"
+#include "support/csv_cells.h"
 #include "support/shared_data.h"
 #include "support/temp_folder.h"
 
@@ -29,16 +30,6 @@ shared::EyeState sound_eye(bool lags) {
 
 std::string line_of(const shared::EyeState& eye) {
     return apps::log_line(7, {1.25, 0.25f, "irawan", eye}, {}, render::Operator::Irawan, {}, {});
-}
-
-std::vector<std::string> cells_of(const std::string& line) {
-    std::vector<std::string> cells(1);
-    for (const char c : line)
-        if (c == ',')
-            cells.emplace_back();
-        else
-            cells.back() += c;
-    return cells;
 }
 
 std::string joined(const std::vector<std::string>& cells) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <sstream>
 
+#include "support/csv_cells.h"
 #include "support/luminous_card.h"
 #include "vision/visibility.h"
 
@@ -12,15 +13,6 @@ namespace {
 
 /// Rows of a CSV file: by the name of the column, in order.
 std::vector<std::map<std::string, std::string>> rows_of(const std::string& text) {
-    const auto cells_of = [](const std::string& line) {
-        std::vector<std::string> cells(1);
-        for (const char c : line)
-            if (c == ',')
-                cells.emplace_back();
-            else
-                cells.back() += c;
-        return cells;
-    };
     std::istringstream lines(text);
     std::string line;
     std::getline(lines, line);

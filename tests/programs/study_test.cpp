@@ -5,6 +5,7 @@
 
 #include "io/read_file.h"
 #include "render/passes/operators.h"
+#include "support/csv_cells.h"
 #include "support/exr_files.h"
 #include "support/program.h"
 
@@ -33,19 +34,10 @@ protected:
         std::string line;
         std::getline(in, line);
         EXPECT_EQ(line, heading);
-        const auto cells = [](const std::string& text) {
-            std::vector<std::string> found(1);
-            for (const char c : text)
-                if (c == ',')
-                    found.emplace_back();
-                else
-                    found.back() += c;
-            return found;
-        };
-        const std::vector<std::string> columns = cells(line);
+        const std::vector<std::string> columns = cells_of(line);
         std::vector<Row> rows;
         while (std::getline(in, line)) {
-            const std::vector<std::string> values = cells(line);
+            const std::vector<std::string> values = cells_of(line);
             EXPECT_EQ(values.size(), columns.size()) << line;
             if (values.size() != columns.size()) break;
             for (size_t i = 0; i < columns.size(); ++i) (i ? rows.back() : rows.emplace_back())[columns[i]] = values[i];

@@ -37,8 +37,8 @@ std::string host_of(const std::string& text);
 /// What is said where messages state it.
 inline constexpr char kWeather[] = "fog or rain, which is not rendered";
 
-/// What a file has; notes are added. Messages: at least one if there is a file and it was not live. Throws Error,
-/// naming file, place and reason.
+/// The trace of the source's file, with notes: at least one message if there is a file and it was not live. Throws
+/// Error, naming file, place and reason.
 osi::Trace read_messages(const MessageSource&);
 
 }  // namespace vesper::drive

@@ -51,9 +51,8 @@ Outcome read_once(const std::function<void()>& read, uint64_t at, int64_t& left)
     return outcome;
 }
 
-/// Every one of the first hundreds of allocations, and of thousands more each a fiftieth further than the one before.
-/// OpenEXR 3.1 may keep so many pieces of its own when memory runs out (seen by backtraces of what is left: attributes
-/// and channels of headers whose constructor fails, 24 at most).
+/// Every one of the first 500 allocations, and of thousands more each a 500th further than the one before.
+/// `may_keep`: pieces that OpenEXR 3.1 keeps of its own when memory runs out.
 void expect_survives(const std::string& name, const std::function<void()>& read, int64_t may_keep = 0) {
     SCOPED_TRACE(name);
     int64_t left = 0;
@@ -62,13 +61,17 @@ void expect_survives(const std::string& name, const std::function<void()>& read,
     const uint64_t allocations = vesper_fault_count();
     EXPECT_LE(left, may_keep);
     size_t failures = 0;
-    for (uint64_t at = 1; at <= allocations; at += 1 + at / 50) {
+    for (uint64_t at = 1; at <= allocations; at += 1 + at / 500) {
         failures += read_once(read, at, left) != Outcome::Read;
         EXPECT_LE(left, may_keep) << "allocation " << at << " of " << allocations;
     }
     EXPECT_GT(failures, 0u);
     std::printf("%-20s %7llu allocations\n", name.c_str(), static_cast<unsigned long long>(allocations));
 }
+
+/// Seen by backtraces of what is left: attributes and channels of headers whose constructor fails, 24, and a part that
+/// was opened but not listed, for want of memory (MultiPartInputFile::getInputPart), 58.
+constexpr int64_t kOpenExrKeeps = 58;
 
 TEST(MemoryFaults, ReadingAScene) {
     const auto read = [] { scene::read_scene(kDataFolder / "glare/headlamps.gltf"); };
@@ -96,7 +99,7 @@ TEST(MemoryFaults, ReadingAScene) {
 TEST(MemoryFaults, EveryReaderAndWriterReportsThem) {
     expect_survives(
         "photometry", [] { scene::read_photometry(kDataFolder / "rivoli/rivoli.measured.photometry.json"); },
-        16);  // has an EXR front
+        kOpenExrKeeps);  // has an EXR front
     expect_survives("IES", [] { photometry::read_distribution(kDataFolder / "photometry/street-lamp.ies"); });
     expect_survives("EULUMDAT", [] { photometry::read_distribution(kDataFolder / "road/luminaire.ldt"); });
     expect_survives("grid", [] { photometry::read_distribution(kDataFolder / "photometry/high-beam.csv"); });
@@ -105,7 +108,7 @@ TEST(MemoryFaults, EveryReaderAndWriterReportsThem) {
     expect_survives("OpenDRIVE", [] { roads::read_opendrive(kDataFolder / "rivoli/rivoli.xodr"); });
     expect_survives("world", [] { traffic::read_world(kDataFolder / "rivoli/rivoli.world.json"); });
     expect_survives(
-        "OpenEXR", [] { io::read_hdr_image(kDataFolder / "rivoli/signs.exr"); }, 40);
+        "OpenEXR", [] { io::read_hdr_image(kDataFolder / "rivoli/signs.exr"); }, kOpenExrKeeps);
     const TempFolder folder;
     io::write_png(folder / "x.png", 7, 5, std::vector<uint8_t>(7 * 5 * 4, 99));
     expect_survives("PNG", [bytes = io::read_file(folder / "x.png", 1 << 20)] { io::decode_image(bytes, 100); });
@@ -116,7 +119,7 @@ TEST(MemoryFaults, EveryReaderAndWriterReportsThem) {
         [&] {
             io::write_exr(folder / "y.exr", 64, 64, std::vector<float>(64 * 64 * 4, 7), {{"name", "text"}});
         },
-        40);
+        kOpenExrKeeps);
     folder.write("x.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 2\n" + std::string(16, '\x80'));
     expect_survives("Radiance", [&] { io::read_hdr_image(folder / "x.hdr"); });
     folder.write("x.json", scene::display_json({}, "a display"));

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 #include "io/read_file.h"
+#include "osi/unit_check.h"
 
 namespace vesper::osi {
 namespace {
@@ -48,6 +49,7 @@ public:
         if (trace_.messages.empty()) throw Error(name_ + ": has no message");
         if (late_ > 0) note(std::to_string(late_) + " messages are not later than those before them: left out");
         if (!objects_) note("is of GroundTruths in which nothing moves: no message has a moving_object with a place");
+        for (const std::string& doubt : units_.doubts()) note(doubt);
         if (const uint64_t lost = stationary_left_out_ + more_stationary_; lost > 0)
             note(std::to_string(lost) + " stationary objects and signs are left out: without a place, or beyond " +
                  std::to_string(kMostObjects));
@@ -74,6 +76,7 @@ private:
             }
             take_stationary(message);
             objects_ |= !message.objects.empty();
+            units_.add(message);
             spend(memory_of(message));
             all.push_back(std::move(message));
         } catch (const Error& error) {
@@ -99,6 +102,7 @@ private:
     std::set<StationaryKey> known_;
     uint64_t stationary_left_out_ = 0, more_stationary_ = 0;  // of one message; of those with more than the trace keeps
     bool objects_ = false;
+    UnitCheck units_;
     Trace trace_;
     size_t number_ = 0, late_ = 0;
 };

@@ -21,6 +21,7 @@ bool MessageFeed::hear(Session& session, std::chrono::milliseconds longest) {
     if (!arrival) return false;
     const auto& sky = arrival->message.environment;
     weather_ |= sky && (sky->fog || sky->precipitation);
+    units_.add(arrival->message);
     standing_.add(arrival->message), objects_ |= !arrival->message.objects.empty();
     arrival->message.stationary = {};
     const int64_t nanoseconds = arrival->message.nanoseconds;
@@ -79,6 +80,7 @@ std::string MessageFeed::report() const {
         text += "; stationary objects and signs are shown of traces (--osi), and not of a sender: " +
                 text_of(standing_.counts());
     if (c.messages > 0 && !objects_) text += "; no message has a moving object with a place";
+    for (const std::string& doubt : units_.doubts()) text += "; " + doubt;
     return text + (weather_ ? std::string("; they state ") + kWeather : "");
 }
 

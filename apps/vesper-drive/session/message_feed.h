@@ -4,10 +4,12 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "external/stationary.h"
 #include "osi/receiver.h"
 #include "osi/sender_clock.h"
+#include "osi/unit_check.h"
 #include "session/session.h"
 
 namespace vesper::drive {
@@ -31,6 +33,8 @@ public:
     osi::StreamCounts counts() const;
     /// "1204 messages, 3 late, 1 malformed (the last malformed one has no timestamp)".
     std::string report() const;
+    /// Why the sender's angles or lengths may not be those of OSI.
+    std::vector<std::string> doubts() const { return units_.doubts(); }
     std::string place() const;  ///< where it listens
 
 private:
@@ -42,6 +46,7 @@ private:
     osi::SenderClock clock_;
     std::optional<int64_t> first_;  // time of the first message, ns
     StationaryCensus standing_;
+    osi::UnitCheck units_;
     bool objects_ = false;  // that move were in a message
     uint64_t late_ = 0, repeated_ = 0, crowded_out_ = 0;
     bool begun_ = false, silent_ = false, weather_ = false;

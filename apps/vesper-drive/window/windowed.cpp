@@ -296,6 +296,10 @@ void WindowedDrive::listen() {
         raises_ = raises;
         say(raises ? kRaised : "base.position of the objects is taken as the middle of their boxes");
     }
+    if (const std::vector<std::string> doubts = feed_->doubts(); doubts.size() != doubts_) {
+        doubts_ = doubts.size();
+        for (const std::string& doubt : doubts) say(doubt);
+    }
     const uint64_t count = feed_->counts().unusable();
     if (count == troubles_ || Clock::now() - troubles_said_ < std::chrono::seconds(5)) return;
     troubles_ = count, troubles_said_ = Clock::now();

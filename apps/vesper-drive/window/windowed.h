@@ -119,6 +119,7 @@ private:
     std::string recording_, message_;
     bool alarm_ = false;
     Clock::time_point message_until_{};
+    size_t doubts_ = 0;      // of the feed, as they were said last
     uint64_t troubles_ = 0;  // of the feed, as they were said last
     Clock::time_point troubles_said_{};
     std::vector<scene::Obstacle> obstacles_;  // of the first scene, of which the log has columns

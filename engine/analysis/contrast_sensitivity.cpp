@@ -36,11 +36,14 @@ double contrast_sensitivity(double frequency, double luminance, const ContrastEy
     const double optics = std::exp(-2 * kPi * kPi * blur * blur * frequency * frequency) /
                           (eye.scatters ? vision::cie_modulation(std::max(frequency, 0.05), *eye.scatters) : 1);
     const double inhibition = -std::expm1(-std::pow(frequency / kInhibition, 2));
-    const double area =
-        1 / field2 + 1 / (kWidestField * kWidestField) + std::pow(frequency / kMostCycles, 2);  // 1/deg^2
+    const double per_area = 1 / field2 + 1 / summation_area(frequency);  // 1/deg^2
     const double noise =
-        2 / kIntegration * area * (1 / (kQuantumEfficiency * kPhotons * td) + kNeuralNoise / inhibition);
+        2 / kIntegration * per_area * (1 / (kQuantumEfficiency * kPhotons * td) + kNeuralNoise / inhibition);
     return optics / (kSignalToNoise * std::sqrt(noise) * vision::age_factor(eye.age));
+}
+
+double summation_area(double frequency) {
+    return 1 / (1 / (kWidestField * kWidestField) + std::pow(frequency / kMostCycles, 2));
 }
 
 double peak_sensitivity(double luminance, const ContrastEye& eye) {

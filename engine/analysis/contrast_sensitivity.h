@@ -23,6 +23,10 @@ struct ContrastEye {
 /// on the retina it is that over cie_modulation(): what an eye sees does not depend on how its blur is modelled.
 double contrast_sensitivity(double frequency, double luminance, const ContrastEye& eye = {});
 
+/// Deg^2 over which an eye sums a grating of so many cycles/degree at most: 1 / (1/X_max^2 + (u/N_max)^2) with a field
+/// of 12 degrees and 15 cycles (Barten 1999).
+double summation_area(double frequency);
+
 /// The largest over all frequencies.
 double peak_sensitivity(double luminance, const ContrastEye& eye = {});
 

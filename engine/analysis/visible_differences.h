@@ -17,9 +17,9 @@ struct VisibleDifferences {
 
 /// Visible differences after Mantiuk, Daly, Myszkowski and Seidel 2005 (HDR-VDP), with choices of our own: Barten's
 /// sensitivity, a steerable pyramid in place of the cortex transform, responses in quadrature in place of phase
-/// uncertainty, and the mean over a fovea of one degree, which contrast sensitivity is measured with at least.
-/// Differences of a channel are masked by the weaker response of the two pictures, and are at most twice the largest
-/// JND by which the pictures differ within a degree. docs/compare.md says what was tested.
+/// uncertainty, and sums of energy over channels and over the area of Barten's eye in place of sums of probability.
+/// Differences of a channel are masked by the weaker response of the two pictures. A place differs by at most twice the
+/// largest JND of the pixels that its fovea sees. docs/compare.md says what was tested.
 VisibleDifferences visible_differences(const PicturePair&, const ContrastEye& = {});
 
 /// How much a response of so many thresholds raises the threshold of the channel: 1 without one, and with a slope of

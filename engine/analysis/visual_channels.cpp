@@ -276,42 +276,6 @@ std::vector<double> ChannelSum::pixels(uint32_t width, uint32_t height) {
     return cut;
 }
 
-std::vector<double> foveal_means(std::span<const double> values, uint32_t width, uint32_t height,
-                                 double pixels_per_degree) {
-    const double radius = std::max(pixels_per_degree / 2, 0.5);
-    const double most = std::max(width, height);
-    const auto reach = ptrdiff_t(std::min(radius, most));
-    std::vector<ptrdiff_t> half;  // of the row of the disc, px to either side
-    double pixels = 0;
-    for (ptrdiff_t dy = -reach; dy <= reach; ++dy) {
-        const double side = std::floor(std::sqrt(std::max(radius * radius - double(dy * dy), 0.0)));
-        half.push_back(ptrdiff_t(std::min(side, most)));
-        pixels += 2 * side + 1;
-    }
-    if (radius > most) pixels = kPi * radius * radius;  // rows beyond the picture count, too
-    const auto w = ptrdiff_t(width), h = ptrdiff_t(height);
-    std::vector<double> sums(size_t(w + 1) * height), means(values.size());  // of each row, up to a pixel
-    in_parallel(height, 8, [&](size_t begin, size_t end) {
-        for (auto y = ptrdiff_t(begin); y < ptrdiff_t(end); ++y)
-            for (ptrdiff_t x = 0; x < w; ++x)
-                sums[size_t(y * (w + 1) + x + 1)] = sums[size_t(y * (w + 1) + x)] + values[size_t(y * w + x)];
-    });
-    in_parallel(height, 8, [&](size_t begin, size_t end) {
-        for (auto y = ptrdiff_t(begin); y < ptrdiff_t(end); ++y)
-            for (ptrdiff_t x = 0; x < w; ++x) {
-                check_time();
-                double sum = 0;
-                for (ptrdiff_t row = std::max<ptrdiff_t>(y - reach, 0); row <= std::min(y + reach, h - 1); ++row) {
-                    const ptrdiff_t side = half[size_t(row - y + reach)];
-                    sum += sums[size_t(row * (w + 1) + std::min(x + side + 1, w))] -
-                           sums[size_t(row * (w + 1) + std::max<ptrdiff_t>(x - side, 0))];
-                }
-                means[size_t(y * w + x)] = std::max(sum, 0.0) / pixels;
-            }
-    });
-    return means;
-}
-
 double power_of_contrast(double contrast) {
     const double c = std::abs(contrast);
     return c * c * c * std::sqrt(c);  // 3.5

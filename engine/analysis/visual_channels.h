@@ -72,11 +72,6 @@ private:
     std::vector<double> values_;
 };
 
-/// Mean over the discs of a degree (the fovea) about each pixel; beyond the picture values are 0. Throws Error if it
-/// takes longer than a Budget has.
-std::vector<double> foveal_means(std::span<const double> values, uint32_t width, uint32_t height,
-                                 double pixels_per_degree);
-
 /// Probability of detection of a contrast in thresholds: 1 - 2^-|c|^kPsychometricSlope (Nachmias 1981); of several
 /// independent ones the powers are summed first.
 constexpr double kPsychometricSlope = 3.5;

@@ -105,31 +105,6 @@ TEST(ChannelSum, IsLinearBetweenSamples) {
     EXPECT_EQ(sum.pixels(3, 3), (std::vector<double>{11, 2, 3, 3, 4, 5, 5, 6, 7}));
 }
 
-TEST(FovealMeans, AreOfDiscsOfADegree) {
-    const uint32_t side = 41;
-    std::vector<double> one(side * side);
-    one[20 * side + 20] = 1;
-    const std::vector<double> means = analysis::foveal_means(one, side, side, 20);
-    double pixels = 0, sum = 0;
-    for (int y = -20; y <= 20; ++y)
-        for (int x = -20; x <= 20; ++x) {
-            const bool within = x * x + y * y <= 100;  // half a degree
-            const double mean = means[size_t((y + 20) * int(side) + x + 20)];
-            EXPECT_EQ(mean > 0, within) << x << ", " << y;
-            pixels += within, sum += mean;
-        }
-    EXPECT_NEAR(sum, 1, 1e-12);
-    EXPECT_NEAR(means[20 * side + 20], 1 / pixels, 1e-15);
-    EXPECT_NEAR(analysis::foveal_means(std::vector<double>(side * side, 3.0), side, side, 20)[20 * side + 20], 3,
-                1e-12);
-    EXPECT_EQ(analysis::foveal_means(std::vector<double>{5}, 1, 1, 0.01), std::vector<double>{5});
-    // A disc that is larger than the picture: what is beyond counts as 0.
-    EXPECT_NEAR(analysis::foveal_means(std::vector<double>(64 * 64, 1.0), 64, 64, 400)[32 * 64 + 32],
-                64 * 64 / (std::numbers::pi * 200 * 200), 1e-9);
-    EXPECT_NEAR(analysis::foveal_means(std::vector<double>(64 * 64, 1.0), 64, 64, 127)[32 * 64 + 32],
-                64 * 64 / (std::numbers::pi * 63.5 * 63.5), 0.01);
-}
-
 TEST(Detection, IsHalfAtTheThreshold) {
     EXPECT_NEAR(analysis::detection_probability(analysis::power_of_contrast(1)), 0.5, 1e-15);
     EXPECT_NEAR(analysis::detection_probability(analysis::power_of_contrast(-2)), 1 - std::pow(2, -std::pow(2, 3.5)),

@@ -88,7 +88,7 @@ VesperObserver old_eye() {
 
 // Pictures on the retina differ as those before the eye do.
 TEST_F(CVision, ScatteredPicturesAreThoseOnTheRetina) {
-    const std::vector<float> a = square(1), b = square(1.02f);
+    const std::vector<float> a = square(1), b = square(1.05f);
     ASSERT_EQ(compare(described(a), described(b)), VESPER_OK) << error.message;
     const std::vector<float> before = map;
     EXPECT_GT(differences.largest, 0.1);

@@ -39,12 +39,13 @@ Kind kind_of(const std::string& file) {
     const std::string extension = lower(std::filesystem::path(file).extension().string());
     if (scene::is_scene_name(file)) return Kind::Scene;
     if (extension == ".ies" || extension == ".ldt") return Kind::Distribution;
+    if (extension == ".rtb") return Kind::Table;
     if (extension == ".csv")
         return photometry::is_reflection_table(io::read_file(file, 64u << 20)) ? Kind::Table : Kind::Distribution;
     if (extension == ".hdr" || extension == ".pic" || extension == ".rgbe") return Kind::Picture;
     if (extension == ".exr") return is_grid(file) ? Kind::Distribution : Kind::Picture;
     throw Error(file + ": expected a scene (" + scene::scene_endings(", ") +
-                "), a lamp (.ies, .ldt, .csv, .exr), an r-table (.csv) or a picture "
+                "), a lamp (.ies, .ldt, .csv, .exr), an r-table (.csv, .rtb) or a picture "
                 "(.exr, .hdr)");
 }
 
@@ -119,8 +120,9 @@ void add_inspect(apps::Command program) {
         program.add_command("inspect", "Say what a scene, a lamp or a picture holds (docs/inspect.md)");
     const auto a = std::make_shared<InspectArguments>();
     command
-        .add_option("file", a->file,
-                    "A scene (.gltf, .glb), lamp (.ies, .ldt, .csv, .exr), r-table (.csv) or picture (.exr, .hdr)")
+        .add_option(
+            "file", a->file,
+            "A scene (.gltf, .glb), lamp (.ies, .ldt, .csv, .exr), r-table (.csv, .rtb) or picture (.exr, .hdr)")
         .required();
     command.add_option("--json", a->json, "Write the report to a JSON file");
     command.add_option("--output,-o", a->picture,

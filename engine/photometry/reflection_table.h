@@ -56,10 +56,11 @@ ReflectionTable without_sheen(ReflectionTable);
 /// Throws Error (starting with `place`) unless the table has the form above and at most 512 by 512 finite values.
 void check_reflection_table(const ReflectionTable&, const std::string& place);
 
-/// Whether a CSV file is an r-table: its corner cell is tan gamma.
+/// Whether a file is an r-table: the corner cell of a CSV file is tan gamma, or it is one for DIALux (.rtb).
 bool is_reflection_table(std::span<const uint8_t> text);
 /// Parses comma-separated text: comments (#), a row of beta, then rows of tan gamma followed by r x 1e4; an empty field
-/// is 0. A comment "# Q0 0.07" states Q0, "# wet" a wet surface. Throws Error naming file, line and reason.
+/// is 0. A comment "# Q0 0.07" states Q0, "# wet" a wet surface. Parses the tables that DIALux imports (.rtb), too.
+/// Throws Error naming file, line and reason.
 ReflectionTable parse_reflection_table(std::span<const uint8_t> text, const std::string& name);
 ReflectionTable read_reflection_table(const std::filesystem::path& file);
 

@@ -8,6 +8,7 @@
 #include "base/one_line.h"
 #include "io/read_file.h"
 #include "photometry/reflection_table.h"
+#include "photometry/reflection_table_rtb.h"
 #include "photometry/table.h"
 
 namespace vesper::photometry {
@@ -66,6 +67,11 @@ ReflectionTable parse(std::string_view text, const std::string& name) {
             read_row(table, lines, line);
         }
     }
+    return table;
+}
+
+// The table, if it can be one.
+ReflectionTable checked(ReflectionTable table, const std::string& name) {
     check_reflection_table(table, name);
     if (*std::max_element(table.r.begin(), table.r.end()) < 1e-4)
         throw Error(name + ": no value reaches 1: r times 10^4, in sr^-1, is expected");
@@ -75,6 +81,7 @@ ReflectionTable parse(std::string_view text, const std::string& name) {
 }  // namespace
 
 bool is_reflection_table(std::span<const uint8_t> text) {
+    if (is_rtb(text)) return true;
     LineReader lines(text, {});
     while (const auto next = lines.next()) {
         const std::string_view line = trimmed(*next);
@@ -84,7 +91,9 @@ bool is_reflection_table(std::span<const uint8_t> text) {
 }
 
 ReflectionTable parse_reflection_table(std::span<const uint8_t> text, const std::string& name) {
-    return parse({reinterpret_cast<const char*>(text.data()), text.size()}, one_line(name));
+    const std::string place = one_line(name);
+    if (is_rtb(text)) return checked(parse_rtb(text, place), place);
+    return checked(parse({reinterpret_cast<const char*>(text.data()), text.size()}, place), place);
 }
 
 ReflectionTable read_reflection_table(const std::filesystem::path& file) {
@@ -101,7 +110,7 @@ std::vector<std::string> standard_reflection_tables() {
 
 ReflectionTable find_reflection_table(const std::string& name_or_file, const std::filesystem::path& folder) {
     for (const auto& [name, text] : kStandard)
-        if (name == name_or_file) return parse(text, std::string(name));
+        if (name == name_or_file) return checked(parse(text, std::string(name)), std::string(name));
     const std::filesystem::path file = folder / name_or_file;
     if (file.extension().empty() && !std::filesystem::exists(file)) {
         std::string known;

@@ -158,6 +158,71 @@ TEST(ReflectionTable, ReadsWhatSpreadsheetsWrite) {
     EXPECT_EQ(find_reflection_table("mine.csv", folder.path()).at(1, 0), 2e-4);
 }
 
+// The published layout of DIAL: tan gamma is the fastest.
+std::string rtb_of(const ReflectionTable& table) {
+    std::string text = "RTable.v1\nCIE " + table.name + "\n" + std::to_string(table.tan_gamma.size()) + "\n";
+    for (const double t : table.tan_gamma) text += std::to_string(t) + "\n";
+    text += std::to_string(table.beta.size()) + "\n";
+    for (const double b : table.beta) text += std::to_string(b) + "\n";
+    text += std::to_string(table.stated_q0) + "\n";
+    for (size_t b = 0; b < table.beta.size(); ++b)
+        for (size_t t = 0; t < table.tan_gamma.size(); ++t) text += std::to_string(table.at(t, b) * 1e4) + "\n";
+    return text;
+}
+
+TEST(ReflectionTable, ReadsTablesForDialux) {
+    const ReflectionTable r3 = find_reflection_table("R3");
+    const std::string text = rtb_of(r3);
+    const auto expect_r3 = [&](std::string_view file) {
+        ReflectionTable table = parse(file);
+        EXPECT_EQ(table.tan_gamma, r3.tan_gamma);
+        EXPECT_EQ(table.beta, r3.beta);
+        EXPECT_EQ(table.stated_q0, 0.07);
+        EXPECT_NEAR(table.at(4, 3), 326e-4, 1e-12) << "tan gamma 1, beta 10";
+        ASSERT_EQ(table.r.size(), r3.r.size());
+        for (size_t i = 0; i < table.r.size(); ++i) ASSERT_NEAR(table.r[i], r3.r[i], 1e-12);
+    };
+    expect_r3(text);
+    std::string comma = text, windows, one_line_each = text, wide;
+    for (char& c : comma) c = c == '.' ? ',' : c;
+    comma.replace(0, 9, "RTABLE.V1");
+    for (const char c : text) windows += c == '\n' ? "\r\n" : std::string(1, c);
+    const size_t numbers = text.find('\n', text.find('\n') + 1) + 1;
+    for (size_t i = numbers; i < one_line_each.size(); ++i)
+        if (one_line_each[i] == '\n') one_line_each[i] = i % 3 == 0 ? '\t' : ';';
+    wide = "\xff\xfe";
+    for (const char c : text) wide += c, wide += '\0';
+    expect_r3(comma), expect_r3("\xef\xbb\xbf" + windows + "\r\n\r\n"), expect_r3(one_line_each), expect_r3(wide);
+
+    const TempFolder folder;
+    folder.write("ring road.rtb", text);
+    const ReflectionTable found = find_reflection_table("ring road.rtb", folder.path());
+    EXPECT_EQ(found.name, "ring road");
+    EXPECT_TRUE(photometry::is_reflection_table(bytes_of(text)));
+}
+
+TEST(ReflectionTable, RefusesDamagedTablesForDialux) {
+    const std::string small = "RTable.v1\nmine\n2\n0\n1\n2\n0\n180\n0.07\n3\n2\n3\n";
+    EXPECT_EQ(parse(small + "1\n").at(1, 1), 1e-4);
+    EXPECT_EQ(parse(small + "1\n").at(1, 0), 2e-4);
+    const std::pair<std::string, std::string> cases[] = {
+        {small, "t.csv: line 13: is the end: r is missing"},
+        {small + "1\n5\n", "line 14: '5' is more than the table has"},
+        {small + "x\n", "line 13: 'x' is not r"},
+        {small + "-1\n", "line 13: '-1' is not r"},
+        {"RTable.v1\nmine\n2.5\n", "line 3: has no number of tan gamma"},
+        {"RTable.v1\nmine\n100000\n", "line 3: '100000' is not the number of tan gamma, a number from 0 to 512"},
+        {"RTable.v1\nmine\n2\n0\n1\n2\n0\n360\n", "line 8: '360' is not beta 2, a number from 0 to 180"},
+        {"RTable.v1\nmine\n2\n0\n1\n2\n0\n180\n700\n", "line 9: '700' is not Q0"},
+        {"RTable.v1\nmine\n2\n0\n1\n2\n0\n90\n0.07\n3\n2\n3\n1\n", "beta must ascend from 0 to 180"},
+        {"RTable.v1\nmine\n2\n0\n1\n2\n0\n180\n0.07\n0.03\n0.02\n0.03\n0.01\n", "no value reaches 1"},
+        {"RTable.v1", "is missing"}};
+    for (const auto& [text, reason] : cases) {
+        const std::string said = complaint_of([&] { parse(text); });
+        EXPECT_TRUE(contains(said, reason)) << text;
+    }
+}
+
 TEST(ReflectionTable, RefusesWhatIsDamaged) {
     const struct {
         std::string text, reason;

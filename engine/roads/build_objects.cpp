@@ -4,19 +4,14 @@
 
 #include "roads/lit_road_parts.h"
 #include "roads/object_kind.h"
+#include "roads/object_places.h"
 #include "roads/road_lamps.h"
+#include "roads/signal_supports.h"
 
 namespace vesper::roads {
 namespace {
 
-constexpr size_t kMaxCopies = 200'000;
 constexpr double kFlatObject = 0.02;  // m; what is lower lies on the road
-
-/// An object, or one copy of it, with its sizes.
-struct Placed {
-    double s = 0, t = 0, z = 0;
-    double length = 0, width = 0, height = 0, radius = 0;
-};
 
 struct ObjectBuilder {
     RoadBuild& build;
@@ -26,12 +21,7 @@ struct ObjectBuilder {
     size_t pieces = 0;                    ///< of everything, for the bound
     ObjectKind kind = ObjectKind::Other;  ///< of the object under way
 
-    BodyFrame frame_of(const RoadObject& object, const Placed& at) const {
-        // Their orientation says for whom they are, not how they stand.
-        return frame_at(road, at.s, at.t, at.z).turned(object.heading, object.pitch, object.roll);
-    }
-
-    static Placed whole(const RoadObject& o) { return {o.s, o.t, o.z_offset, o.length, o.width, o.height, o.radius}; }
+    BodyFrame frame_of(const RoadObject& object, const Placed& at) const { return object_frame(road, object, at); }
 
     void tree(const BodyFrame& frame, const Placed& at, bool bush) {
         const double height = at.height > 0 ? at.height : bush ? 1.5 : 6;
@@ -48,16 +38,27 @@ struct ObjectBuilder {
         add_box(mesh, RoadMaterial::PostReflector, frame.moved(0, 0, height - 0.34), 0.108, 0.05, 0.18);
     }
 
+    /// A beam on two legs; none stands in a carriageway.
+    void gantry(const Portal& portal) {
+        add_tube(mesh, RoadMaterial::PoleSteel, portal.beam, kGantrySteel);
+        for (const glm::dvec3& top : {portal.beam.from, portal.beam.to}) {
+            const glm::dvec3 foot{top.x, top.y, portal.bottom};
+            if (!is_on_road(build, foot, 0)) add_tube(mesh, RoadMaterial::PoleSteel, {foot, top}, kGantrySteel);
+        }
+    }
+
     void body(const RoadObject& object, const Placed& at) {
         const BodyFrame frame = frame_of(object, at);
         if (kind == ObjectKind::StreetLamp)
             return add_street_lamp(build, frame, at.height > 0 ? at.height : 8, object.t > 0 ? -1 : 1);
         if (kind == ObjectKind::GuidePost) return guide_post(frame, at);
         if (kind == ObjectKind::Tree || kind == ObjectKind::Bush) return tree(frame, at, kind == ObjectKind::Bush);
+        if (const std::optional<Portal> portal = portal_of(road, object, at, kind)) return gantry(*portal);
         const bool pole = kind == ObjectKind::Pole, building = kind == ObjectKind::Building;
-        const RoadMaterial stuff = pole || kind == ObjectKind::Railing ? RoadMaterial::PoleSteel
-                                   : building                          ? RoadMaterial::Wall
-                                                                       : RoadMaterial::Concrete;
+        const RoadMaterial stuff = pole || kind == ObjectKind::Gantry || kind == ObjectKind::Railing
+                                       ? RoadMaterial::PoleSteel
+                                   : building ? RoadMaterial::Wall
+                                              : RoadMaterial::Concrete;
         const double height = at.height > 0 ? at.height : pole ? 3 : building ? 8 : 0;
         if (at.radius > 0) return height > kFlatObject ? add_cylinder(mesh, stuff, frame, at.radius, height) : void();
         const double width = at.width > 0 ? at.width
@@ -222,20 +223,6 @@ struct ObjectBuilder {
         for (const ObjectOutline& outline : object.outlines) outlined(object, at, outline);
     }
 
-    Placed of_repeat(const RoadObject& object, const ObjectRepeat& repeat, double f) const {
-        Placed at = whole(object);
-        const auto over = [&](const std::optional<double>& a, const std::optional<double>& b, double fallback) {
-            return a ? glm::mix(*a, b.value_or(*a), f) : fallback;
-        };
-        at.s = repeat.s + repeat.length * f;
-        at.t = glm::mix(repeat.t_start, repeat.t_end, f), at.z = glm::mix(repeat.z_start, repeat.z_end, f);
-        at.height = over(repeat.height_start, repeat.height_end, at.height),
-        at.width = over(repeat.width_start, repeat.width_end, at.width);
-        at.length = over(repeat.length_start, repeat.length_end, at.length),
-        at.radius = over(repeat.radius_start, repeat.radius_end, at.radius);
-        return at;
-    }
-
     /// A body without end along the road: a rail, a wall, a fence.
     void continuous(const RoadObject& object, const ObjectRepeat& repeat) {
         const RoadMaterial stuff = kind == ObjectKind::Railing || kind == ObjectKind::Barrier ? RoadMaterial::Steel
@@ -248,7 +235,7 @@ struct ObjectBuilder {
         if (pieces > kMaxCopies) return;
         ++copies;
         const auto section = [&](int i) {
-            Placed at = of_repeat(object, repeat, repeat.length > 0 ? (end - repeat.s) * i / steps / repeat.length : 0);
+            Placed at = copy_of(object, repeat, repeat.length > 0 ? (end - repeat.s) * i / steps / repeat.length : 0);
             const double width = at.width > 0    ? at.width
                                  : at.radius > 0 ? 2 * at.radius
                                                  : 0.08,
@@ -273,23 +260,22 @@ struct ObjectBuilder {
 
     void object(const RoadObject& each) {
         kind = kind_of(each);
-        if (each.repeats.empty()) one(each, whole(each));
+        if (each.repeats.empty()) one(each, whole_object(each));
         for (const ObjectRepeat& repeat : each.repeats) {
             if (repeat.distance <= 0 && each.outlines.empty()) {
                 continuous(each, repeat);
                 continue;
             }
-            const double last = std::min(repeat.length, std::max(road.length - repeat.s, 0.0));
             if (repeat.distance <= 0) {
-                one(each, of_repeat(each, repeat, 0));
+                one(each, copy_of(each, repeat, 0));
                 continue;
             }
             int placed = 0;
-            for (double along = 0; along <= last + 1e-9 && pieces <= kMaxCopies;
-                 along += std::max(repeat.distance, 0.01)) {
-                one(each, of_repeat(each, repeat, repeat.length > 0 ? along / repeat.length : 0));
+            visit_copies(road, each, repeat, [&](const Placed& at) {
+                one(each, at);
                 if (++placed % 16 == 0) mesh.place(build.scene, build.materials, "object " + each.name);
-            }
+                return pieces <= kMaxCopies;
+            });
         }
     }
 };

@@ -6,24 +6,21 @@
 #include "base/luminance.h"
 #include "roads/road_lamps.h"
 #include "roads/sign_faces.h"
+#include "roads/signal_supports.h"
 
 namespace vesper::roads {
 namespace {
 
 constexpr size_t kMaxSignals = 20'000;
-constexpr double kPole = 0.6;  // m; a pole among the objects within this stands for the signal's
 
 /// EN 12368: 200 mm lenses, performance level 2: 200 cd on the axis, within it cosine-like.
 constexpr double kLens = 0.2;        // m
 constexpr float kLensCandela = 200;  // cd
-constexpr double kSmallLens = 0.1;   // m, where the housing is small
-
-bool has_pole(const Road& road, const RoadSignal& signal) {
-    return std::any_of(road.objects.begin(), road.objects.end(), [&](const RoadObject& object) {
-        return object.type.find("pole") != object.type.npos &&
-               std::hypot(object.s - signal.s, object.t - signal.t) < kPole;
-    });
-}
+/// Lower edges where the file states none. Traffic lights: RiLSA 2015, 6.2.3; signs: VwV-StVO to §§ 39 to 43, III 13.
+constexpr double kLightBeside = 2.1, kSignBeside = 2.0, kOverLanes = 4.5;  // m
+constexpr double kNoOffset = 0.05;                                         // m
+constexpr double kWithPole = 1.8;   // m; the stated height of higher ones is that of their pole
+constexpr double kSmallLens = 0.1;  // m, where the housing is small
 
 uint32_t lens_light(RoadBuild& build, const char* name, glm::vec3 colour, double diameter) {
     for (uint32_t i = 0; i < build.scene.lamps.size(); ++i)
@@ -41,6 +38,10 @@ struct SignalBuilder {
     RoadBuild& build;
     const Road& road;
     RoadMesh& mesh;
+    SignalSupports& supports;
+    size_t raised = 0;  ///< signals that the file puts on the ground
+
+    bool is_over_lane(const RoadSignal& s) const { return is_lane_below(build, road, s.s, s.t); }
 
     /// +x is where the signal looks.
     BodyFrame frame_of(const RoadSignal& s) const {
@@ -48,29 +49,43 @@ struct SignalBuilder {
         return frame.turned(s.heading + (s.orientation == '-' ? 0 : kPi), s.pitch, s.roll);
     }
 
-    void pole(const RoadSignal& s, const BodyFrame& frame, double height) {
-        if (has_pole(road, s)) return;
-        const double ground = std::min(build.ground.height(glm::dvec2(frame.origin)), frame.origin.z) - 0.2;
-        BodyFrame foot = frame_at(road, s.s, s.t, 0);
-        foot.origin = {frame.origin.x - frame.x.x * 0.06, frame.origin.y - frame.x.y * 0.06, ground};
-        add_cylinder(mesh, RoadMaterial::PoleSteel, foot, height > 1.5 ? 0.06 : 0.035,
-                     frame.origin.z + height - ground);
+    /// The signal with the size of its panel or housing, and at the usual height if it would lie on the ground.
+    /// `height`: of such a panel or housing, m.
+    RoadSignal mounted(RoadSignal s, double height, double beside, bool over_lane) {
+        if (std::abs(s.z_offset) > kNoOffset || stands_on_ground(s)) return s;
+        ++raised;
+        if (s.height > kWithPole)
+            s.z_offset += s.height - height, s.height = height;
+        else
+            s.z_offset = over_lane ? kOverLanes : beside;
+        return s;
     }
 
-    void sign(const RoadSignal& s) {
-        const double width = s.width > 0.05 ? s.width : 0.6, height = s.height > 0.05 ? s.height : 0.6;
+    void carry(const RoadSignal& s, const BodyFrame& frame, double width, double height, bool over_lane) {
+        supports.carry(mesh, road, s,
+                       {.frame = frame,
+                        .width = width,
+                        .height = height,
+                        .ground = surface_point(road, s.s, s.t).position.z,
+                        .over_lane = over_lane});
+    }
+
+    void sign(const RoadSignal& stated) {
+        const bool over_lane = is_over_lane(stated);
+        const double width = stated.width > 0.05 ? stated.width : 0.6;
+        const RoadSignal s = mounted(stated, std::min(width, 1.0), kSignBeside, over_lane);
+        const double height = s.height > 0.05 ? s.height : 0.6;
         const BodyFrame frame = frame_of(s);
         add_sign(mesh, frame, s, width, height);
-        if (width < 2) return pole(s, frame, height * 0.9);
-        // Boards stand on two.
-        for (const double side : {-0.35, 0.35}) pole(s, frame.moved(0, side * width, 0), height * 0.9);
+        carry(s, frame, width, height * 0.9, over_lane);
     }
 
     /// A housing with lenses, the lit one or all of them as lamps. Without a scenario, cars wait: red for them, green
     /// for people on foot.
-    void lamp(const RoadSignal& s) {
-        const bool on_foot = is_for_pedestrians(s);
+    void lamp(const RoadSignal& stated) {
+        const bool on_foot = is_for_pedestrians(stated), over_lane = is_over_lane(stated);
         const int lenses = on_foot ? 2 : 3;
+        const RoadSignal s = mounted(stated, on_foot ? 0.6 : 0.9, kLightBeside, over_lane);
         const double height = s.height > 0.1 ? s.height : on_foot ? 0.6 : 0.9, width = s.width > 0.05 ? s.width : 0.3;
         const BodyFrame frame = frame_of(s);
         const double depth = 0.16, pitch = height / lenses,
@@ -79,7 +94,7 @@ struct SignalBuilder {
         // A box has no bottom, and this one is seen from below.
         mesh.quad(RoadMaterial::Housing, frame.at(0, -width / 2, 0), frame.at(-depth, -width / 2, 0),
                   frame.at(-depth, width / 2, 0), frame.at(0, width / 2, 0));
-        pole(s, frame.moved(-depth, 0, 0), height);
+        carry(s, frame.moved(-depth, 0, 0), width, height, over_lane);
         const std::string name = "signal_" + s.id;
         const auto lamp = [&](const char* colour, glm::vec3 rgb, int place) {
             if (!build.options.every_lens && colour != std::string(on_foot ? "green" : "red")) return;
@@ -120,10 +135,11 @@ struct SignalBuilder {
 
 void build_signals(RoadBuild& build) {
     RoadMesh mesh(build.network);
-    size_t signs = 0, lamps = 0;
+    SignalSupports supports(build);
+    size_t signs = 0, lamps = 0, raised = 0;
     for (const Road& road : build.network.roads) {
         if (road.sections.empty()) continue;
-        SignalBuilder builder{build, road, mesh};
+        SignalBuilder builder{build, road, mesh, supports};
         for (const RoadSignal& signal : road.signals) {
             if (signs + lamps >= kMaxSignals) break;
             if (is_painted(signal)) {
@@ -137,7 +153,13 @@ void build_signals(RoadBuild& build) {
             }
             mesh.place(build.scene, build.materials, "signal " + signal.id);
         }
+        raised += builder.raised;
     }
+    if (raised > 0)
+        build.notes.push_back("signals at zOffset 0: " + std::to_string(raised) +
+                              ", mounted as usual: lights 2.1 m, signs 2 m, over lanes 4.5 m above the road");
+    supports.add_arms(mesh);
+    mesh.place(build.scene, build.materials, "arms of signals");
     if (signs + lamps > 0)
         build.notes.push_back("signals: " + std::to_string(signs) + " signs, " + std::to_string(lamps) +
                               " traffic lights");

@@ -27,10 +27,23 @@ constexpr std::pair<std::string_view, ObjectKind> kWords[] = {{"streetlamp", Obj
                                                               {"light pole", ObjectKind::StreetLamp},
                                                               {"guidepost", ObjectKind::GuidePost},
                                                               {"guide post", ObjectKind::GuidePost},
+                                                              {"gantry", ObjectKind::Gantry},
+                                                              {"mastarm", ObjectKind::Gantry},
+                                                              {"mast arm", ObjectKind::Gantry},
+                                                              {"signal arm", ObjectKind::Gantry},
+                                                              {"cantilever", ObjectKind::Gantry},
+                                                              {"catenary", ObjectKind::Gantry},
+                                                              {"span wire", ObjectKind::Gantry},
+                                                              {"sign bridge", ObjectKind::Gantry},
+                                                              {"signal bridge", ObjectKind::Gantry},
+                                                              {"portal", ObjectKind::Gantry},
+                                                              {"truss", ObjectKind::Gantry},
                                                               {"bush", ObjectKind::Bush},
                                                               {"tree", ObjectKind::Tree},
                                                               {"vegetation", ObjectKind::Tree},
                                                               {"pole", ObjectKind::Pole},
+                                                              {"mast", ObjectKind::Pole},
+                                                              {"post", ObjectKind::Pole},
                                                               {"rail", ObjectKind::Railing},
                                                               {"railing", ObjectKind::Railing},
                                                               {"guardrail", ObjectKind::Railing},
@@ -104,7 +117,8 @@ ObjectKind kind_of(const RoadObject& object) {
     for (const std::string* text : {&object.type, &object.subtype, &object.name}) {
         const ObjectKind said = kind_of(*text);
         const bool closer =
-            (found == ObjectKind::Pole && (said == ObjectKind::StreetLamp || said == ObjectKind::GuidePost)) ||
+            (found == ObjectKind::Pole &&
+             (said == ObjectKind::StreetLamp || said == ObjectKind::GuidePost || said == ObjectKind::Gantry)) ||
             (found == ObjectKind::Tree && said == ObjectKind::Bush);
         if (found == ObjectKind::Other || closer) found = said;
     }

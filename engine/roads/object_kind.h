@@ -9,7 +9,8 @@ enum class ObjectKind : uint8_t {
     Other,
     StreetLamp,
     GuidePost,
-    Pole,
+    Pole,    ///< masts and posts too
+    Gantry,  ///< over the road: mast arms, sign bridges, catenaries
     Railing,
     Barrier,  ///< fences too
     Tree,     ///< vegetation too
@@ -23,7 +24,8 @@ enum class ObjectKind : uint8_t {
 };
 
 /// The kind by whole words of the type, else the subtype, else the name; words end at capitals and at other characters
-/// than letters. A pole may become a street lamp or a guide post, vegetation a bush.
+/// than letters. A pole may become a street lamp, a guide post
+/// or a gantry, vegetation a bush.
 ObjectKind kind_of(const RoadObject& object);
 
 /// True if objects of the kind lie flat on the road, independent of the stated height.

@@ -133,6 +133,22 @@ void add_box(RoadMesh& mesh, RoadMaterial stuff, const BodyFrame& f, double leng
     add_prism(mesh, stuff, bottoms, tops);
 }
 
+void add_tube(RoadMesh& mesh, RoadMaterial stuff, const Segment& axis, double thickness) {
+    const glm::dvec3 way = axis.to - axis.from;
+    const double length = glm::length(way), half = thickness / 2;
+    if (length < 1e-6) return;
+    const glm::dvec3 z = way / length, helper = std::abs(z.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
+    const glm::dvec3 x = glm::normalize(glm::cross(helper, z)), y = glm::cross(z, x);
+    const BodyFrame f{axis.from, x, y, z};
+    const auto ring = [&](double w) {
+        return std::array{f.at(-half, -half, w), f.at(half, -half, w), f.at(half, half, w), f.at(-half, half, w)};
+    };
+    const std::array<glm::dvec3, 4> a = ring(0), b = ring(length);
+    for (size_t i = 0; i < 4; ++i) mesh.quad(stuff, a[i], a[(i + 1) % 4], b[(i + 1) % 4], b[i]);
+    mesh.quad(stuff, a[3], a[2], a[1], a[0]);
+    mesh.quad(stuff, b[0], b[1], b[2], b[3]);
+}
+
 void add_cylinder(RoadMesh& mesh, RoadMaterial stuff, const BodyFrame& f, double radius, double height,
                   double top_radius) {
     const int sides = radius < 0.3 ? 8 : 16;

@@ -102,6 +102,12 @@ struct BodyFrame {
 void add_box(RoadMesh& mesh, RoadMaterial stuff, const BodyFrame& frame, double length, double width, double height);
 void add_cylinder(RoadMesh& mesh, RoadMaterial stuff, const BodyFrame& frame, double radius, double height,
                   double top_radius = -1);
+/// A straight line between two points.
+struct Segment {
+    glm::dvec3 from{0}, to{0};
+};
+/// A closed square tube along a segment, `thickness` m wide.
+void add_tube(RoadMesh& mesh, RoadMaterial stuff, const Segment& axis, double thickness);
 /// A ball around the origin, squeezed along z.
 void add_ball(RoadMesh& mesh, RoadMaterial stuff, const BodyFrame& frame, double radius, double half_height);
 /// Walls over a closed outline and a roof on it; bottoms and tops counter-clockwise, corner by corner.

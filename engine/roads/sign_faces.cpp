@@ -229,6 +229,14 @@ bool is_painted(const RoadSignal& s) {
     return lower(s.country) == "de" && ((number >= 293 && number <= 299) || number == 341);
 }
 
+bool stands_on_ground(const RoadSignal& s) {
+    const std::string name = lower(s.name);
+    for (const char* word : {"barrier", "beacon", "delineator", "chevron", "bollard"})
+        if (name.find(word) != name.npos) return true;
+    const int number = leading_number(s.type);  // StVO, annex 4: 600 to 629 stand at works and in bends
+    return lower(s.country) == "de" && number >= 600 && number < 630;
+}
+
 bool is_traffic_light(const RoadSignal& s) {
     const int number = leading_number(s.type);
     const bool country = s.country.empty() || lower(s.country) == "opendrive" || lower(s.country) == "ger";

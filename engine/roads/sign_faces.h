@@ -11,6 +11,8 @@ void add_sign(RoadMesh& mesh, const BodyFrame& frame, const RoadSignal& signal, 
 
 /// True if the signal is painted on the road, such as stop lines.
 bool is_painted(const RoadSignal& signal);
+/// True if signs of the kind stand on the ground, such as beacons and barriers.
+bool stands_on_ground(const RoadSignal& signal);
 /// True for a traffic light; true for one for pedestrians.
 bool is_traffic_light(const RoadSignal& signal);
 bool is_for_pedestrians(const RoadSignal& signal);

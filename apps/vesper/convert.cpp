@@ -23,11 +23,18 @@ const std::map<std::string, roads::LampSide> kSides{{"auto", roads::LampSide::Au
                                                     {"both", roads::LampSide::Both},
                                                     {"alternating", roads::LampSide::Alternating}};
 
+const std::map<std::string, roads::SignalState> kSignals{{"plan", roads::SignalState::Plan},
+                                                         {"red", roads::SignalState::Red},
+                                                         {"amber", roads::SignalState::Amber},
+                                                         {"green", roads::SignalState::Green},
+                                                         {"off", roads::SignalState::Off}};
+
 struct ConvertArguments {
     std::string input, photometry, output;
     bool srgb = false;
     roads::StreetLampOptions lamps;
-    std::string side = "auto", luminaire;
+    std::string side = "auto", luminaire, signals = "plan";
+    double signal_time = 0;
     std::vector<apps::Option> for_databases, for_lamps;
 };
 
@@ -51,6 +58,7 @@ void run_roads(const ConvertArguments& arguments) {
     io::announce_write("-o", output);
     roads::ConvertOptions options{.lamps = arguments.lamps, .luminaire = arguments.luminaire};
     options.lamps.side = kSides.at(arguments.side);
+    options.signals = kSignals.at(arguments.signals), options.signal_time = arguments.signal_time;
     const roads::RoadConversion made = roads::convert_roads(input, output, options);
     report(made.parts, made.notes, output);
 }
@@ -96,7 +104,13 @@ void add_convert(apps::Command program) {
         command.add_option("--lamp-side", a->side, "Roads: on which side of the way").check(apps::one_of_keys(kSides)),
         command.add_option("--lamp-overhang", a->lamps.overhang, "Roads: m from the pole towards the road")
             .check(apps::range(0.1, 20.0)),
-        command.add_option("--luminaire", a->luminaire, "Roads: another luminaire: .ies or .ldt")};
+        command.add_option("--luminaire", a->luminaire, "Roads: another luminaire: .ies or .ldt"),
+        command
+            .add_option("--signals", a->signals,
+                        "Roads: the lit lens of traffic lights; plan: ways that cross are not green together")
+            .check(apps::one_of_keys(kSignals)),
+        command.add_option("--signal-time", a->signal_time, "Roads: s of that plan that is shown")
+            .check(apps::range(0.0, 1e6))};
     command.add_allow_outside();
     command.footer(
         "Examples:\n  vesper convert data/rivoli/rivoli.gltf --photometry data/rivoli/rivoli.photometry.json -o "

@@ -80,9 +80,8 @@ struct SignalBuilder {
         carry(s, frame, width, height * 0.9, over_lane);
     }
 
-    /// A housing with lenses, the lit one or all of them as lamps. Without a scenario, cars wait: red for them, green
-    /// for people on foot.
-    void lamp(const RoadSignal& stated) {
+    /// A housing with lenses, the lit one or all of them as lamps.
+    void lamp(const RoadSignal& stated, const SignalPhase& phase) {
         const bool on_foot = is_for_pedestrians(stated), over_lane = is_over_lane(stated);
         const int lenses = on_foot ? 2 : 3;
         const RoadSignal s = mounted(stated, on_foot ? 0.6 : 0.9, kLightBeside, over_lane);
@@ -96,17 +95,19 @@ struct SignalBuilder {
                   frame.at(-depth, width / 2, 0), frame.at(0, width / 2, 0));
         carry(s, frame.moved(-depth, 0, 0), width, height, over_lane);
         const std::string name = "signal_" + s.id;
-        const auto lamp = [&](const char* colour, glm::vec3 rgb, int place) {
-            if (!build.options.every_lens && colour != std::string(on_foot ? "green" : "red")) return;
+        build.phases[name] = phase;
+        const SignalAspect aspect = aspect_of(build.options.signals, phase, build.options.signal_time, on_foot);
+        const auto lamp = [&](const char* colour, SignalAspect shown, glm::vec3 rgb, int place) {
+            if (!build.options.every_lens && aspect != shown) return;
             const BodyFrame out = frame.moved(0.01, 0, height - (place + 0.5) * pitch);
             // It shines along -Z, its X to the right of who stands behind it.
             scene::Node node = node_at(build, name + "/" + colour, out.origin, -out.y, out.z, -out.x);
             node.lamp = lens_light(build, (std::string(colour) + " signal").c_str(), rgb, lens);
             build.scene.nodes.push_back(node);
         };
-        lamp("red", {1, 0.05f, 0.02f}, 0);
-        if (!on_foot) lamp("yellow", {1, 0.4f, 0}, 1);
-        lamp("green", {0.05f, 1, 0.55f}, lenses - 1);
+        lamp("red", SignalAspect::Red, {1, 0.05f, 0.02f}, 0);
+        if (!on_foot) lamp("yellow", SignalAspect::Amber, {1, 0.4f, 0}, 1);
+        lamp("green", SignalAspect::Green, {0.05f, 1, 0.55f}, lenses - 1);
     }
 
     /// A line across the lanes of one direction.
@@ -137,15 +138,18 @@ void build_signals(RoadBuild& build) {
     RoadMesh mesh(build.network);
     SignalSupports supports(build);
     size_t signs = 0, lamps = 0, raised = 0;
-    for (const Road& road : build.network.roads) {
+    const SignalPlan plan(build.network, build.lanes);
+    for (uint32_t r = 0; r < build.network.roads.size(); ++r) {
+        const Road& road = build.network.roads[r];
         if (road.sections.empty()) continue;
         SignalBuilder builder{build, road, mesh, supports};
-        for (const RoadSignal& signal : road.signals) {
+        for (uint32_t i = 0; i < road.signals.size(); ++i) {
+            const RoadSignal& signal = road.signals[i];
             if (signs + lamps >= kMaxSignals) break;
             if (is_painted(signal)) {
                 builder.stop_line(signal);
             } else if (is_traffic_light(signal)) {
-                builder.lamp(signal);
+                builder.lamp(signal, plan.of(r, i));
                 ++lamps;
             } else {
                 builder.sign(signal);

@@ -14,7 +14,7 @@ RoadConversion convert_roads(const std::filesystem::path& opendrive, const std::
                              const ConvertOptions& options) {
     const io::FileGate gate;
     const Budget budget("converting " + one_line(opendrive.string()));
-    LitRoadOptions lit{.lamps = options.lamps};
+    LitRoadOptions lit{.lamps = options.lamps, .signals = options.signals, .signal_time = options.signal_time};
     if (!options.luminaire.empty()) lit.luminaire = photometry::read_distribution(options.luminaire);
     const RoadNetwork network = read_opendrive(opendrive);
     LitRoads roads = io::in_file(opendrive.string(), [&] { return lit_roads(network, lit); });

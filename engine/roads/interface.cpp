@@ -32,7 +32,7 @@ auto guarded(VesperResult kind, const Call& call) {
 
 RoadConversion convert_opendrive(const std::filesystem::path& opendrive, const std::filesystem::path& scene,
                                  const ConvertOptions& options) {
-    guarded(VESPER_BAD_ARGUMENT, [&] { check_street_lamps(options.lamps); });
+    guarded(VESPER_BAD_ARGUMENT, [&] { check_street_lamps(options.lamps), check_signal_time(options.signal_time); });
     return guarded(VESPER_FAILED, [&] { return convert_roads(opendrive, scene, options); });
 }
 

@@ -19,6 +19,7 @@ struct RoadBuild {
     RoadMaterials materials{scene};
     Ground ground{};
     std::vector<std::string> notes{};
+    std::map<std::string, SignalPhase> phases{};
 };
 
 /// One lane at one station.

@@ -17,6 +17,7 @@ void check_options(const LitRoadOptions& o) {
     if (!(o.margin >= 10 && o.margin <= 5000)) throw Error("lit roads: margin must be from 10 to 5000 m");
     if (!(o.ambient >= 0 && o.sky >= 0 && std::isfinite(o.ambient) && std::isfinite(o.sky)))
         throw Error("lit roads: ambient and sky must not be negative");
+    check_signal_time(o.signal_time);
     check_street_lamps(o.lamps);
 }
 
@@ -60,7 +61,7 @@ LitRoads lit_roads(const RoadNetwork& network, const LitRoadOptions& options) {
     build_street_lamps(build);
     build_cameras(build);
     count_triangles(build);
-    return {std::move(build.scene), std::move(build.notes)};
+    return {std::move(build.scene), std::move(build.notes), std::move(build.phases)};
 }
 
 }  // namespace vesper::roads

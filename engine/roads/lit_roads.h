@@ -1,6 +1,7 @@
 // A road network as a scene to drive through at night. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 
 #include "photometry/distribution.h"
 #include "roads/lanes.h"
+#include "roads/signal_plan.h"
 #include "scene/scene.h"
 
 namespace vesper::roads {
@@ -24,7 +26,9 @@ struct LitRoadOptions {
     bool headlamps = true;    ///< the driver's car has low beams
     bool every_lens = false;  ///< true: every lens of a traffic light is a lamp, to be switched; false: only the lit
                               ///< one
-    double eye_height = 1.2;  ///< m, of the driver
+    SignalState signals = SignalState::Plan;  ///< the lit lens of traffic lights
+    double signal_time = 0;                   ///< s of the plan
+    double eye_height = 1.2;                  ///< m, of the driver
 };
 
 /// Throws Error if a value is out of range.
@@ -32,7 +36,8 @@ void check_street_lamps(const StreetLampOptions&);
 
 struct LitRoads {
     scene::Scene scene;
-    std::vector<std::string> notes;  ///< parts of the scene, one line each
+    std::vector<std::string> notes;             ///< parts of the scene, one line each
+    std::map<std::string, SignalPhase> phases;  ///< of traffic lights, by the names of their lenses before the slash
 };
 
 /// Lane surfaces (R3), kerbs, pavements and verges, markings and signs that reflect back, objects, traffic lights,

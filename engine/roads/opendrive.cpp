@@ -115,6 +115,7 @@ RoadNetwork read_checked(const XmlFile& file, const RoadLimits& limits) {
     // Signals may stand on any of them.
     for (size_t i = 0; i < roads.size(); ++i) read_signals(reader, roads[i], network.roads[i]);
     for (size_t i = 0; i < roads.size(); ++i) read_links(reader, roads[i], network.roads[i]);
+    read_controllers(reader, root);
     for (size_t i = 0; i < junctions.size(); ++i) read_junction(reader, junctions[i], network.junctions[i]);
     check_network(reader, file);
     if (std::none_of(network.roads.begin(), network.roads.end(),

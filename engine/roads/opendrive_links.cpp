@@ -112,6 +112,10 @@ void read_links(OpenDriveReader& reader, const XmlElement& element, Road& road) 
 
 void read_junction(OpenDriveReader& reader, const XmlElement& element, Junction& junction) {
     junction.direct = element.text_or("type", "default") == "direct";
+    for (const XmlElement& each : element.children("controller")) {
+        reader.count(each);
+        junction.controllers.push_back(each.text_or("id", ""));
+    }
     for (const XmlElement& each : element.children("connection")) {
         reader.count(each);
         JunctionConnection connection;

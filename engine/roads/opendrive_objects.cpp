@@ -164,7 +164,23 @@ void read_objects(OpenDriveReader& reader, const XmlElement& element, Road& road
             if (const auto each = objects->child(name)) reader.note_once(*each, std::string(name) + "s are not built");
 }
 
+void read_controllers(OpenDriveReader& reader, const XmlElement& root) {
+    for (const XmlElement& each : root.children("controller")) {
+        reader.count(each);
+        SignalController controller{each.text_or("id", ""), {}};
+        for (const XmlElement& control : each.children("control")) {
+            reader.count(control);
+            controller.signals.push_back(control.text_or("signalId", ""));
+        }
+        reader.network.controllers.push_back(std::move(controller));
+    }
+}
+
 void read_signals(OpenDriveReader& reader, const XmlElement& element, Road& road) {
+    for (const XmlElement& each : element.children_of("signals", "signalReference")) {
+        reader.count(each);
+        road.signal_references.push_back(each.text_or("id", ""));
+    }
     for (const XmlElement& each : element.children_of("signals", "signal")) {
         reader.count(each);
         if (!has_place(reader, each)) continue;

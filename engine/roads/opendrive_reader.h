@@ -32,6 +32,8 @@ void read_profiles(OpenDriveReader&, const XmlElement& element, Road& road);
 void read_lanes(OpenDriveReader&, const XmlElement& element, Road& road);
 void read_objects(OpenDriveReader&, const XmlElement& element, Road& road);
 void read_signals(OpenDriveReader&, const XmlElement& element, Road& road);
+/// The controllers of the whole network.
+void read_controllers(OpenDriveReader&, const XmlElement& root);
 void read_links(OpenDriveReader&, const XmlElement& element, Road& road);
 void read_junction(OpenDriveReader&, const XmlElement& element, Junction& junction);
 /// Checks of the complete network: joints that do not meet, links to nowhere.

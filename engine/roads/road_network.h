@@ -204,6 +204,7 @@ struct Road {
     std::string type;  ///< of its first stretch: "town", "motorway", ...
     std::vector<RoadObject> objects;
     std::vector<RoadSignal> signals;
+    std::vector<std::string> signal_references;  ///< ids of signals of any road that count here
 
     size_t section_at(double s) const;  ///< index; there must be one
 };
@@ -218,6 +219,13 @@ struct Junction {
     std::string id, name;
     bool direct = false;  ///< roads meet without connecting roads
     std::vector<JunctionConnection> connections;
+    std::vector<std::string> controllers;  ///< ids
+};
+
+/// Signals that show the same at any time.
+struct SignalController {
+    std::string id;
+    std::vector<std::string> signals;  ///< ids
 };
 
 struct RoadNetwork {
@@ -226,6 +234,7 @@ struct RoadNetwork {
     glm::dvec3 origin{0};      ///< of the world, in the file's frame: near the roads, for the precision of floats
     std::vector<Road> roads;
     std::vector<Junction> junctions;
+    std::vector<SignalController> controllers;
     std::vector<std::string> notes;  ///< corrections and omissions, one line each
 
     /// From the file's frame to the world: X = x, Y = z, Z = -y, from the origin.

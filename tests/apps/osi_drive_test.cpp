@@ -401,6 +401,21 @@ TEST_F(OsiDriveProgram, PassesOnWhatItHears) {
     if (!std::filesystem::exists(roads)) return;
     ASSERT_EQ(run(common_ + roads + " --seconds 0.1 --osi-out c.osi"), 0) << said;
     EXPECT_EQ(osi::read_trace(folder / "c.osi").messages.back().traffic_lights.size(), 3u);
+    // The plan of the roads: one light a signal, which changes its colour.
+    ASSERT_EQ(run(common_ + roads + " --seconds 26 --osi-out d.osi"), 0) << said;
+    const auto colour_of = [&](const osi::Message& message, const std::string& signal) {
+        std::vector<std::pair<uint64_t, osi::TrafficLight::Colour>> found;
+        for (const osi::TrafficLight& light : message.traffic_lights)
+            if (light.signal == signal) found.emplace_back(light.id, light.colour);
+        return found;
+    };
+    const auto trace = osi::read_trace(folder / "d.osi").messages;
+    const auto before = colour_of(trace.front(), "1"), after = colour_of(trace.back(), "1");
+    ASSERT_EQ(before.size(), 1u);
+    ASSERT_EQ(after.size(), 1u);
+    EXPECT_EQ(before[0].first, after[0].first);
+    EXPECT_EQ(before[0].second, osi::TrafficLight::Colour::Red);
+    EXPECT_EQ(after[0].second, osi::TrafficLight::Colour::Green);
 }
 
 }  // namespace

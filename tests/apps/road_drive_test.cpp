@@ -187,6 +187,33 @@ TEST(RoadDrive, MessagesSwitchTrafficLights) {
     EXPECT_EQ(lit(moment), (std::vector<int>{0, 0, 3}));
 }
 
+// Nobody says: the plan of the roads runs with the drive.
+TEST(RoadDrive, TrafficLightsChangeByThemselves) {
+    const std::filesystem::path roads =
+        std::filesystem::path(VESPER_SHARED_DATA) / "scenario/esmini/xodr/fabriksgatan_traffic_lights.xodr";
+    if (!std::filesystem::exists(roads)) GTEST_SKIP() << "no shared data";
+    const drive::Scenery scenery(roads);
+    const traffic::World world(scenery.world(), 1);
+    const auto lit = [&](double seconds) {
+        std::map<std::string, int> count;
+        drive::ExternalState nobody;
+        nobody.seconds = seconds;
+        const gpu_scene::SceneFrame frame = scenery.frame(world.actors(), drive::DriveSettings(), nobody);
+        for (size_t i = 0; i < scenery.scene().nodes.size(); ++i) {
+            const scene::Node& node = scenery.scene().nodes[i];
+            if (node.lamp != scene::kNone && frame.dimming[i] > 0) ++count[scenery.scene().lamps[node.lamp].name];
+        }
+        return std::vector<int>{count["red signal"], count["yellow signal"], count["green signal"]};
+    };
+    // 12 s of green for people on foot in 25 s, then 20 s of green and 3 s of amber for cars.
+    EXPECT_EQ(lit(1), (std::vector<int>{1, 0, 2}));
+    EXPECT_EQ(lit(13), (std::vector<int>{3, 0, 0}));
+    EXPECT_EQ(lit(26), (std::vector<int>{2, 0, 1}));
+    EXPECT_EQ(lit(46), (std::vector<int>{2, 1, 0}));
+    EXPECT_EQ(lit(49), (std::vector<int>{3, 0, 0}));
+    EXPECT_EQ(lit(51), (std::vector<int>{1, 0, 2}));
+}
+
 class RoadDriveProgram : public ProgramTest {
 protected:
     RoadDriveProgram() : ProgramTest(VESPER_DRIVE) {}

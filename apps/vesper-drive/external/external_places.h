@@ -22,6 +22,7 @@ struct ExternalState {
     std::vector<osi::MovingObject> objects;  ///< of the actors and the host, in the frame of messages
     std::optional<uint64_t> host;            ///< which of them the driver's car is
     std::vector<bool> lenses;                ///< which shine, in the order of the scene's; empty: nobody says
+    double seconds = 0;                      ///< of the drive: the time of the plan of traffic lights
     std::optional<double> sun_elevation;     ///< degrees
     size_t without_body = 0;                 ///< objects for which no body was left
 };

@@ -36,7 +36,15 @@ std::string signal_in(const std::string& node) {
 
 }  // namespace
 
-std::vector<SignalLens> lenses_of(const scene::Scene& scene) {
+bool SignalLens::shines(double seconds) const {
+    if (!phase) return otherwise;
+    const roads::SignalAspect aspect = roads::aspect_at(*phase, seconds);
+    return (colour == Colour::Red && aspect == roads::SignalAspect::Red) ||
+           (colour == Colour::Yellow && aspect == roads::SignalAspect::Amber) ||
+           (colour == Colour::Green && aspect == roads::SignalAspect::Green);
+}
+
+std::vector<SignalLens> lenses_of(const scene::Scene& scene, const std::map<std::string, roads::SignalPhase>& phases) {
     std::vector<SignalLens> lenses;
     std::map<std::string, bool> for_cars;
     const std::vector<glm::dmat4> world = scene::world_transforms(scene, 0);
@@ -47,6 +55,7 @@ std::vector<SignalLens> lenses_of(const scene::Scene& scene) {
         lens.colour = colour_in(node.name);
         if (lens.colour == Colour::Other) lens.colour = colour_in(scene.lamps[node.lamp].name);
         if (lens.colour == Colour::Other) continue;
+        if (const auto phase = phases.find("signal_" + lens.signal); phase != phases.end()) lens.phase = phase->second;
         for_cars[lens.signal] |= lens.colour == Colour::Yellow;
         lenses.push_back(std::move(lens));
     }

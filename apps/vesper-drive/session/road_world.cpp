@@ -161,11 +161,13 @@ RoadWorld road_world(const std::filesystem::path& roads, const MessageSource& so
                      std::span<const osi::Message> messages) {
     const roads::RoadNetwork network = roads::read_opendrive(roads);
     const roads::LaneGraph graph(network);
-    const bool switched = source.live || std::any_of(messages.begin(), messages.end(), [](const osi::Message& message) {
-                              return !message.traffic_lights.empty();
-                          });
+    // Messages that do not speak of lights leave them as they are; in a drive of its own the plan runs.
+    const bool every_lens = !source.any() || source.live ||
+                            std::any_of(messages.begin(), messages.end(),
+                                        [](const osi::Message& message) { return !message.traffic_lights.empty(); });
     roads::LitRoads lit = io::in_file(
-        roads.string(), [&] { return roads::lit_roads(network, {.headlamps = false, .every_lens = switched}); });
+        roads.string(), [&] { return roads::lit_roads(network, {.headlamps = false, .every_lens = every_lens}); });
+    if (!every_lens) lit.phases.clear();
     RoadWorld made{.scene = std::move(lit.scene),
                    .world = {},
                    .bodies = {},
@@ -187,7 +189,7 @@ RoadWorld road_world(const std::filesystem::path& roads, const MessageSource& so
     world.driver_s = 3;
     made.things = things_of(network);
     check_place(made, source, messages, graph);
-    made.lenses = lenses_of(made.scene);
+    made.lenses = lenses_of(made.scene, lit.phases);
     for (scene::Node& node : made.scene.nodes) {
         // Lamps go by what they are; by day those of the road are off, and signals are not.
         if (node.lamp != scene::kNone) {

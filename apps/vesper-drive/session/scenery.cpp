@@ -332,8 +332,8 @@ gpu_scene::SceneFrame Scenery::frame(const std::vector<traffic::Actor>& actors, 
         const auto factor = settings.lamps().find(lamp.name);
         const double wanted = factor == settings.lamps().end() ? 1 : factor->second;
         const bool on = shines(lamp, actors, daylight > kPhotocell) &&
-                        (lamp.lens == kNone ||
-                         (external.lenses.empty() ? lenses_[lamp.lens].otherwise : external.lenses[lamp.lens]));
+                        (lamp.lens == kNone || (external.lenses.empty() ? lenses_[lamp.lens].shines(external.seconds)
+                                                                        : external.lenses[lamp.lens]));
         made.dimming[lamp.node] = on ? float(wanted) : 0;
     }
     return made;

@@ -1,6 +1,7 @@
 #include "session/session.h"
 
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "base/angle.h"
@@ -70,6 +71,7 @@ void Session::update_external(std::optional<double> shown) {
         external_ = shown_ ? places_.place(timeline_.at(*shown_)) : ExternalState{};
         world_->place(external_.actors, external_.driver);
     }
+    external_.seconds = world_->seconds();
     actors_ = world_->actors();
 }
 
@@ -246,9 +248,14 @@ osi::Message Session::message_now() const {
     // A restart does not turn time back.
     message.nanoseconds = std::llround(double(traced_) * options_.time_step * 1e9);
     const std::vector<SignalLens>& lenses = scenery_.lenses();
+    // A signal that changes by itself is one light, which changes its colour: what no message says again, holds.
+    const bool by_plan = external_.lenses.empty();
+    std::map<std::string, size_t> firsts;
     for (size_t i = 0; i < lenses.size(); ++i) {
-        const bool lit = external_.lenses.empty() ? lenses[i].otherwise : external_.lenses[i];
-        message.traffic_lights.push_back({.id = i + 1,
+        const size_t first = by_plan && lenses[i].phase ? firsts.try_emplace(lenses[i].signal, i).first->second : i;
+        const bool lit = by_plan ? lenses[i].shines(external_.seconds) : external_.lenses[i];
+        if (by_plan && lenses[i].phase && !lit) continue;
+        message.traffic_lights.push_back({.id = first + 1,
                                           .signal = lenses[i].signal,
                                           .position = scenery_.message_frame().back(lenses[i].position),
                                           .colour = lenses[i].colour,

@@ -33,12 +33,23 @@ struct StreetLampOptions {
     double overhang = 1.2;          /**< from the pole towards the road, 0.1 to 20 m */
 };
 
+/** Lens that traffic lights show. */
+enum class SignalState {
+    Plan,  /**< by the controllers of the file, and a plan of phases in which no two crossing ways are green */
+    Red,   /**< all red */
+    Amber, /**< all amber, those for people on foot red */
+    Green, /**< all green */
+    Off    /**< all dark */
+};
+
 /** Options of convert_opendrive: those of `vesper convert ROADS.xodr`. */
 struct ConvertOptions {
     StreetLampOptions lamps = {}; /**< rows of street lamps */
     /** File of the street lamps, IES or EULUMDAT, used unscaled. Empty: a built-in luminaire, scaled with the square of
      * its height above 8 m. */
     std::filesystem::path luminaire = {};
+    SignalState signals = SignalState::Plan; /**< of all traffic lights */
+    double signal_time = 0;                  /**< s of the plan, 0 to 1e6, that is shown */
 };
 
 /** Report of a conversion, in lines of English. */

@@ -15,6 +15,7 @@ constexpr size_t kMaxStreetLamps = 20'000;
 constexpr double kHead = 0.6, kHeadWidth = 0.3;  // m, of the luminaire; its opening is that
 constexpr double kVerge = 0.7;                   // m from the edge of the road to the pole
 constexpr double kDesignHeight = 8;              // m, for which the standard luminaire gives its 18 lx
+constexpr double kOwnSection = 30;               // m along a road that cannot lead over itself
 constexpr double kSpacing = 30;                  // m
 constexpr double kColourTemperature = 3000;      // K
 
@@ -76,15 +77,31 @@ std::vector<double> highest_points(const LaneGraph& graph) {
     return highest;
 }
 
+/// A place beside a road.
+struct Beside {
+    uint32_t road = 0;
+    double s = 0;
+    glm::dvec3 foot{0};
+};
+
+/// Whether a lane is of the cross section that a place lies beside: a tilted one rises above it, and is no bridge.
+bool is_own_section(const RoadBuild& build, const Beside& beside, const Lane& lane, double along) {
+    if (lane.road != beside.road) return false;
+    const LaneSection& section = build.network.roads[lane.road].sections[lane.section];
+    const double s = lane.forwards ? section.s + along : section.end - along;
+    return std::abs(s - beside.s) < kOwnSection;
+}
+
 /// Whether a bridge is in the lamp's way.
-bool is_below_road(const RoadBuild& build, const std::vector<double>& highest, glm::dvec3 foot, double height) {
+bool is_below_road(const RoadBuild& build, const std::vector<double>& highest, const Beside& beside, double height) {
+    const glm::dvec3 foot = beside.foot;
     for (double up = 4; up < height + 4; up += 3) {
         const glm::dvec3 at = build.network.to_world(foot + glm::dvec3(0, 0, up));
         const auto place = build.lanes.nearest(at, 20, [&](const Lane& lane) {
             return is_driven(lane.type) &&
                    highest[static_cast<size_t>(&lane - build.lanes.lanes().data())] > at.y - up + 3;
         });
-        if (!place) continue;
+        if (!place || is_own_section(build, beside, build.lanes.lanes()[place->lane], place->along)) continue;
         const LanePose pose = build.lanes.pose(place->lane, place->along);
         if (std::abs(place->offset) < pose.width / 2 + 5 && pose.position.y > at.y - up + 3 &&
             pose.position.y < at.y - up + height + 2)
@@ -93,7 +110,13 @@ bool is_below_road(const RoadBuild& build, const std::vector<double>& highest, g
     return false;
 }
 
-void light_road(RoadBuild& build, const Road& road, double spacing, const std::vector<double>& highest, size_t& count) {
+struct LampCount {
+    size_t built = 0, left_out = 0;
+};
+
+void light_road(RoadBuild& build, uint32_t index, double spacing, const std::vector<double>& highest,
+                LampCount& count) {
+    const Road& road = build.network.roads[index];
     const StreetLampOptions& options = build.options.lamps;
     const double middle = road.length / 2;
     const LaneSection& section = road.sections[road.section_at(middle)];
@@ -109,11 +132,15 @@ void light_road(RoadBuild& build, const Road& road, double spacing, const std::v
             const int side = row.left ? 1 : -1;
             const double t = edge_of(road, here, side, s) + side * kVerge;
             BodyFrame frame = frame_at(road, s, t, 0);
-            if (is_on_road(build, frame.origin, 0.3) || is_below_road(build, highest, frame.origin, height)) continue;
+            if (is_on_road(build, frame.origin, 0.3) ||
+                is_below_road(build, highest, {index, s, frame.origin}, height)) {
+                ++count.left_out;
+                continue;
+            }
             // It stands on what is there: a pavement, or the ground.
             frame.origin.z =
                 std::max(frame.origin.z - 0.3, std::min(frame.origin.z, build.ground.height(glm::dvec2(frame.origin))));
-            if (++count > kMaxStreetLamps) return;
+            if (++count.built > kMaxStreetLamps) return;
             add_street_lamp(build, frame, height, -side);
         }
     }
@@ -171,15 +198,18 @@ void build_street_lamps(RoadBuild& build) {
     const bool has_own = std::any_of(build.scene.lamps.begin(), build.scene.lamps.end(),
                                      [](const scene::Lamp& lamp) { return lamp.name == "street lamp"; });
     if (has_own && !wanted) return;
-    size_t count = 0;
+    LampCount count;
     const std::vector<double> highest = highest_points(build.lanes);
-    for (const Road& road : build.network.roads)
-        if (road.junction == kNoRoad && !road.sections.empty() && road.length > 5)
-            light_road(build, road, spacing, highest, count);
-    if (count > kMaxStreetLamps)
+    for (uint32_t r = 0; r < build.network.roads.size(); ++r)
+        if (const Road& road = build.network.roads[r];
+            road.junction == kNoRoad && !road.sections.empty() && road.length > 5)
+            light_road(build, r, spacing, highest, count);
+    if (count.built > kMaxStreetLamps)
         build.notes.push_back("street lamps: more than " + std::to_string(kMaxStreetLamps) + ": the rest is left out");
-    build.notes.push_back("street lamps: " + std::to_string(std::min(count, kMaxStreetLamps)) + ", every " +
+    build.notes.push_back("street lamps: " + std::to_string(std::min(count.built, kMaxStreetLamps)) + ", every " +
                           std::to_string(std::lround(spacing)) + " m");
+    if (count.left_out > 0)
+        build.notes.push_back("street lamps left out on lanes and below bridges: " + std::to_string(count.left_out));
 }
 
 }  // namespace vesper::roads

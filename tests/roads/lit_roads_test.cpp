@@ -201,6 +201,18 @@ TEST(LitRoads, GroundLiesBelowRoads) {
     EXPECT_LT(std::abs(ground.height({49, 49}) - ground.height({30, 4})), 20);
 }
 
+// A road that leans is no bridge over the lamps beside it.
+TEST(LitRoads, LampsStandBesideRoadsThatLean) {
+    const auto lamps = [](double lean) {
+        const std::string profile = "<lateralProfile><superelevation s=\"0\"" + quantity("a", lean) +
+                                    " b=\"0\" c=\"0\" d=\"0\"/></lateralProfile>";
+        roads::LitRoadOptions options;
+        options.lamps.spacing = 25;
+        return lamps_of(lit_roads(straight(profile, 100), options).scene, "street_lamp_").size();
+    };
+    for (const double lean : {0.0, 0.7, 0.785398, 1.0, -0.785398, -1.0}) EXPECT_EQ(lamps(lean), 4u) << lean;
+}
+
 TEST(LitRoads, SignalsFaceTheirTraffic) {
     const std::string signals =
         "<signals><signal s=\"50\" t=\"-5\" id=\"7\" dynamic=\"yes\" orientation=\"+\" zOffset=\"3\" type=\"1000001\" "

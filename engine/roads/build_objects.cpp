@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/one_line.h"
 #include "roads/lit_road_parts.h"
 #include "roads/object_kind.h"
 #include "roads/object_places.h"
@@ -54,6 +55,7 @@ struct ObjectBuilder {
         if (kind == ObjectKind::GuidePost) return guide_post(frame, at);
         if (kind == ObjectKind::Tree || kind == ObjectKind::Bush) return tree(frame, at, kind == ObjectKind::Bush);
         if (const std::optional<Portal> portal = portal_of(road, object, at, kind)) return gantry(*portal);
+        if (kind == ObjectKind::Pole) ++build.dark_poles[object.name.empty() ? object.type : object.name];
         const bool pole = kind == ObjectKind::Pole, building = kind == ObjectKind::Building;
         const RoadMaterial stuff = pole || kind == ObjectKind::Gantry || kind == ObjectKind::Railing
                                        ? RoadMaterial::PoleSteel
@@ -280,6 +282,18 @@ struct ObjectBuilder {
     }
 };
 
+/// "name (3), other (1)", the first eight.
+std::string listed(const std::map<std::string, size_t>& names) {
+    constexpr size_t kMost = 8;
+    std::string text;
+    size_t number = 0;
+    for (const auto& [name, count] : names) {
+        if (number++ == kMost) return text + " and more";
+        text += (text.empty() ? "" : ", ") + one_line(name, 80) + " (" + std::to_string(count) + ")";
+    }
+    return text;
+}
+
 }  // namespace
 
 void build_objects(RoadBuild& build) {
@@ -294,6 +308,7 @@ void build_objects(RoadBuild& build) {
         }
         copies = builder.copies, pieces = builder.pieces;
     }
+    if (!build.dark_poles.empty()) build.notes.push_back("poles without light: " + listed(build.dark_poles));
     if (copies > 0)
         build.notes.push_back("objects: " + std::to_string(copies) +
                               (pieces > kMaxCopies ? ", more are left out" : ""));

@@ -1,4 +1,5 @@
 // Objects and signals: what they are taken for, and how they stand. SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -69,6 +70,33 @@ TEST(RoadObjects, AreKnownByWholeWords) {
     EXPECT_EQ(kind("parkingSpace", "", ""), ObjectKind::ParkingSpace);
     EXPECT_EQ(kind("trafficIsland", "", ""), ObjectKind::Island);
     EXPECT_EQ(kind("roadMark", "arrowLeft", ""), ObjectKind::RoadMark);
+}
+
+TEST(RoadObjects, LampsAreKnownInSeveralLanguages) {
+    for (const char* name :
+         {"luminaire",     "Lamp_03",   "light standard", "LightingColumn02", "Laterne",   "Straßenlaterne_04",
+          "Strassenlampe", "Lichtmast", "lampadaire",     "réverbère 7",      "Reverbere", "éclairage public",
+          "farola",        "farolas",   "luminaria",      "lampione",         "lantaarn",  "straatlantaarn",
+          "lantaarnpaal",  "latarnia",  "lampa",          "gatulampa",        "katuvalo",  "фонарь",
+          "路灯",          "路灯杆_01", "街灯",           "道路照明",         "가로등 2"}) {
+        EXPECT_EQ(kind("pole", "", name), ObjectKind::StreetLamp) << name;
+        EXPECT_EQ(kind("-1", "", name), ObjectKind::StreetLamp) << name;
+    }
+    EXPECT_EQ(kind("pole", "streetLamp", ""), ObjectKind::StreetLamp);
+    for (const char* name : {"Signal_Post", "信号灯", "powerPole", "clamp", "red light"})
+        EXPECT_EQ(kind("pole", "", name), ObjectKind::Pole) << name;
+}
+
+TEST(RoadObjects, PolesWithoutLightAreCountedByName) {
+    roads::LitRoadOptions options;
+    options.lamps.spacing = 0;
+    const auto notes =
+        roads::lit_roads(with("<objects><object id=\"1\" name=\"mystery\" type=\"pole\" s=\"40\" t=\"6\" "
+                              "height=\"8\"><repeat s=\"10\" length=\"20\" distance=\"10\"/></object><object id=\"2\" "
+                              "type=\"pole\" name=\"farola\" s=\"50\" t=\"6\" height=\"8\"/></objects>"),
+                         options)
+            .notes;
+    EXPECT_EQ(std::count(notes.begin(), notes.end(), "poles without light: mystery (3)"), 1);
 }
 
 constexpr const char* kCorners =

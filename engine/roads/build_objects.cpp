@@ -8,6 +8,7 @@
 #include "roads/object_places.h"
 #include "roads/road_lamps.h"
 #include "roads/signal_supports.h"
+#include "roads/stencils.h"
 
 namespace vesper::roads {
 namespace {
@@ -63,6 +64,12 @@ struct ObjectBuilder {
                                               : RoadMaterial::Concrete;
         const double height = at.height > 0 ? at.height : pole ? 3 : building ? 8 : 0;
         if (at.radius > 0) return height > kFlatObject ? add_cylinder(mesh, stuff, frame, at.radius, height) : void();
+        if (const std::optional<ArrowShape> arrow = arrow_of(object); kind == ObjectKind::RoadMark && arrow) {
+            Placed sized = at;
+            if (sized.length <= 0) sized.length = kArrowLength;
+            if (sized.width <= 0) sized.width = usual_width(*arrow);
+            return flat_rectangle(object, sized);
+        }
         const double width = at.width > 0 ? at.width
                              : pole       ? 0.1
                                           : 0,
@@ -101,6 +108,43 @@ struct ObjectBuilder {
         return {at.s + ds / (std::abs(stretch) > 0.1 ? stretch : 1), at.t + dt};
     }
 
+    /// The paint of an arrow between two corners in the object's plan, and none of a stencil whose shape is not known;
+    /// false: the object is neither.
+    bool stencil(const RoadObject& object, const Placed& at, glm::dvec2 low, glm::dvec2 high) {
+        if (kind != ObjectKind::RoadMark) return false;
+        const std::optional<ArrowShape> arrow = arrow_of(object);
+        if (!arrow) {
+            const bool unknown = is_shapeless(object);
+            if (unknown) ++build.shapeless[object.name.empty() ? object.subtype : object.name];
+            return unknown;
+        }
+        // It points as its lane leads.
+        const double ahead = (at.t > road.lane_offset.at(at.s)) == road.right_hand ? -1 : 1;
+        const double turn = std::cos(object.heading) * ahead < -0.5 ? -1 : 1;
+        const glm::dvec2 middle = (low + high) / 2.0, size = high - low;
+        const glm::dvec3 up = surface_point(road, at.s, at.t).up;
+        for (const std::vector<glm::dvec2>& part : arrow_parts(*arrow, size.x, size.y)) {
+            std::vector<glm::dvec3> corners;
+            for (const glm::dvec2& p : part) {
+                const glm::dvec2 place = road_place(object, at, middle.x + turn * p.x, middle.y + turn * p.y);
+                corners.push_back(on_surface(place.x, place.y, 0));
+            }
+            mesh.any_polygon(RoadMaterial::MarkWhite, corners, up);
+        }
+        return true;
+    }
+
+    /// A stencil whose outline is the rectangle around it.
+    bool framed_stencil(const RoadObject& object, const Placed& at, const ObjectOutline& outline) {
+        if (outline.corners.size() != 4 || (!arrow_of(object) && !is_shapeless(object))) return false;
+        glm::dvec2 low(INFINITY), high(-INFINITY);
+        for (const ObjectCorner& corner : outline.corners) {
+            if (!corner.local) return false;
+            low = glm::min(low, {corner.u, corner.v}), high = glm::max(high, {corner.u, corner.v});
+        }
+        return stencil(object, at, low, high);
+    }
+
     void flat_rectangle(const RoadObject& object, const Placed& at) {
         std::array<glm::dvec2, 4> places;  // rear right, front right, front left, rear left
         for (size_t i = 0; i < 4; ++i)
@@ -114,6 +158,7 @@ struct ObjectBuilder {
             for (size_t i = 0; i < 4; ++i)
                 if (marking.side == kSides[i]) painted(places[i], places[(i + 1) % 4], marking);
         if (!object.markings.empty()) return;
+        if (stencil(object, at, {-at.length / 2, -at.width / 2}, {at.length / 2, at.width / 2})) return;
         const auto corner = [&](size_t i) { return on_surface(places[i].x, places[i].y, 0); };
         mesh.quad(kind == ObjectKind::RoadMark ? RoadMaterial::MarkWhite : RoadMaterial::Shoulder, corner(0), corner(1),
                   corner(2), corner(3));
@@ -209,6 +254,7 @@ struct ObjectBuilder {
         if (!object.markings.empty() || places.size() < 3) return;
         if (kind == ObjectKind::Crosswalk) return zebra(places);
         if (kind == ObjectKind::ParkingSpace) return boundary(places);
+        if (framed_stencil(object, at, outline)) return;
         if (!outline.closed) return;  // a line on the ground without paint
         std::vector<glm::dvec3> corners;
         for (const glm::dvec2& p : places) corners.push_back(on_surface(p.x, p.y, 0));
@@ -309,6 +355,8 @@ void build_objects(RoadBuild& build) {
         copies = builder.copies, pieces = builder.pieces;
     }
     if (!build.dark_poles.empty()) build.notes.push_back("poles without light: " + listed(build.dark_poles));
+    if (!build.shapeless.empty())
+        build.notes.push_back("stencils left out, whose shape is not known: " + listed(build.shapeless));
     if (copies > 0)
         build.notes.push_back("objects: " + std::to_string(copies) +
                               (pieces > kMaxCopies ? ", more are left out" : ""));

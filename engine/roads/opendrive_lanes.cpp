@@ -105,6 +105,8 @@ RoadMark mark_of(OpenDriveReader& reader, const XmlElement& element, double from
     MarkLine like;
     like.colour = mark_colour(element.text_or("color", "standard"));
     like.width = element.number_or("width", 0, -100, 100);  // some write -1 where they know none
+    if (like.width == 0 && element.attribute("width"))
+        reader.note_once(element, "a mark of width 0 has the usual width: 0.12 m, bold 0.25 m");
     if (like.width <= 0) like.width = element.text_or("weight", "") == "bold" ? kBoldWidth : kWidth;
     read_patterns(element, mark, like);
     if (mark.lines.empty() && !mark.curb) add_named_lines(mark, like, lane);

@@ -9,8 +9,9 @@
 namespace vesper::roads {
 namespace {
 
-constexpr double kMaxSize = 1e4;  // m, of one object
-constexpr double kBeyond = 0.01;  // m beyond the ends of a road: rounding
+constexpr double kMaxSize = 1e4;                            // m, of one object
+constexpr double kBeyond = 0.01;                            // m beyond the ends of a road: rounding
+constexpr double kMarkingWidth = 0.1, kBoldMarking = 0.25;  // m, of lines whose width is not stated
 constexpr size_t kMaxCorners = 1000;
 
 char orientation_of(const XmlElement& element) {
@@ -51,7 +52,11 @@ void read_markings(OpenDriveReader& reader, const XmlElement& element, RoadObjec
     for (const XmlElement& each : element.children_of("markings", "marking")) {
         reader.count(each);
         ObjectMarking marking;
-        marking.width = each.number_or("width", 0.1, 0, 100);
+        marking.width = each.number_or("width", kMarkingWidth, -100, 100);
+        if (marking.width <= 0) {
+            marking.width = each.text_or("weight", "") == "bold" ? kBoldMarking : kMarkingWidth;
+            reader.note_once(each, "a marking of width 0 has the usual width: 0.1 m, bold 0.25 m");
+        }
         marking.z_offset = each.number_or("zOffset", 0.005, -10, 10);
         marking.line_length = each.number_or("lineLength", 0, 0, kMaxSize),
         marking.space_length = each.number_or("spaceLength", 0, 0, kMaxSize);

@@ -61,14 +61,14 @@ std::vector<std::vector<glm::dvec2>> arrow_parts(const ArrowShape& shape, double
     const double half = width / 2, stem = std::min(kStem, width / 6), rear = -length / 2;
     // With one turn the stem stands on the other side.
     const double middle = (shape.left == shape.right ? 0 : width / 4) * (shape.left ? -1 : 1);
-    const double room = half - std::abs(middle);
+    const double room = half - std::abs(middle), head = shape.left || shape.right ? std::min(room, width / 5) : room;
     const double across = shape.straight ? 0.05 * length : (0.5 - kHeadAlong) * length;  // where bars leave the stem
     const double bar = kBar * length, tip = length / 2, shoulder = tip - kHeadAhead * length;
     std::vector<std::vector<glm::dvec2>> parts;
     const double stem_end = shape.straight ? shoulder : across + bar;
     parts.push_back(
         {{rear, middle - stem}, {stem_end, middle - stem}, {stem_end, middle + stem}, {rear, middle + stem}});
-    if (shape.straight) parts.push_back({{shoulder, middle - room}, {tip, middle}, {shoulder, middle + room}});
+    if (shape.straight) parts.push_back({{shoulder, middle - head}, {tip, middle}, {shoulder, middle + head}});
     for (const double side : {1.0, -1.0}) {
         if (!(side > 0 ? shape.left : shape.right)) continue;
         const double end = side * half, base = end - kHeadAcross * (end - middle), begin = middle + side * stem;

@@ -4,6 +4,7 @@
 #include "io/image_file.h"
 #include "io/read_file.h"
 #include "places.h"
+#include "roads/crossing_text.h"
 #include "scene/read_scene.h"
 #include "support/program.h"
 
@@ -24,6 +25,23 @@ TEST_F(Roads, BecomeALitSceneThatRenders) {
     const Image picture = io::decode_image(io::read_file(folder / "out.png", 1 << 20), 1000);
     const auto luminance_at = [&](uint32_t x, uint32_t y) { return picture.rgba[4 * (size_t(y) * picture.width + x)]; };
     EXPECT_GT(luminance_at(48, 50), luminance_at(48, 5)) << "the road is brighter than the sky";
+}
+
+TEST_F(Roads, TrafficLightsAreChosen) {
+    folder.write("a.xodr", opendrive(crossing_text(false)));
+    const auto lit = [&](const std::string& options) {
+        EXPECT_EQ(run("convert a.xodr -o a.glb " + options), 0) << said;
+        std::string colours;
+        for (const scene::Node& node : scene::read_scene(folder / "a.glb").scene.nodes)
+            if (node.lamp != scene::kNone && node.name.starts_with("signal_W1/")) colours += node.name.substr(10);
+        return colours;
+    };
+    EXPECT_EQ(lit("--signals off"), "");
+    EXPECT_EQ(lit("--signals amber"), "yellow");
+    EXPECT_EQ(lit("--signals green"), "green");
+    EXPECT_EQ(lit("--signal-time 24"), "red") << "between two stages";
+    EXPECT_EQ(run("convert a.xodr --signals blue"), 2);
+    EXPECT_EQ(run("convert " VESPER_SOURCE_DIR "/data/rivoli/rivoli.gltf --signals red -o b.glb"), 2);
 }
 
 TEST_F(Roads, LampsAreChosen) {

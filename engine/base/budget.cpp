@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/decimal.h"
-#include "base/error.h"
 #include "base/limits.h"
 
 namespace vesper {
@@ -23,8 +22,8 @@ int64_t processor_time() {
 }
 
 [[noreturn]] void refuse(const std::string& limit) {
-    throw Error(budget->task + " takes more than " + limit +
-                " (VESPER_LIMITS=2 in the environment allows twice as much)");
+    throw OverLimit(budget->task + " takes more than " + limit +
+                    " (VESPER_LIMITS=2 in the environment allows twice as much)");
 }
 
 }  // namespace

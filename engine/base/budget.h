@@ -4,7 +4,14 @@
 #include <cstdint>
 #include <string>
 
+#include "base/error.h"
+
 namespace vesper {
+
+/// A file asks for more than a limit allows: it may be whole, and a higher limit would read it.
+struct OverLimit : Error {
+    using Error::Error;
+};
 
 /// Limits processor time and memory of this thread during its lifetime: 60 s and 2 GiB, both times the factor
 /// VESPER_LIMITS (base/limits.h). Memory is what is announced by spend(): it grows with the file. A
@@ -23,7 +30,7 @@ public:
     unsigned calls = 0;
 };
 
-/// Announces memory before it is taken. Throws Error if the budget does not have it.
+/// Announces memory before it is taken. Throws OverLimit if the budget does not have it.
 void spend(uint64_t bytes);
 
 /// Memory that is taken for a while.
@@ -38,8 +45,8 @@ private:
     uint64_t bytes_;
 };
 
-/// For loops whose length a file states. Throws Error if the time of the budget is over; looks at the clock at one call
-/// in 64.
+/// For loops whose length a file states. Throws OverLimit if the time of the budget is over; looks at the clock at one
+/// call in 64.
 void check_time();
 
 }  // namespace vesper

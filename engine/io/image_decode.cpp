@@ -1,5 +1,5 @@
-// PNG and JPEG, from memory. Both libraries report errors with longjmp, so what must be destroyed lives outside the
-// functions that call setjmp. SPDX-License-Identifier: MIT
+// PNG and JPEG, from memory; WebP is in image_webp.cpp. Both libraries report errors with longjmp, so what must be
+// destroyed lives outside the functions that call setjmp. SPDX-License-Identifier: MIT
 #include "io/image_file.h"
 
 #include <algorithm>
@@ -15,6 +15,7 @@
 #include "base/budget.h"
 #include "base/error.h"
 #include "base/one_line.h"
+#include "io/image_webp.h"
 
 namespace vesper::io {
 namespace {
@@ -25,6 +26,7 @@ struct Job {
     uint32_t max_side;
     uint64_t max_texels;
     bool wide = false;  // 16 bits a channel, of PNG alone
+    bool over_limit = false;
     size_t read = 0;
     Image image;
     WideImage wide_image;
@@ -36,14 +38,10 @@ struct Job {
 /// Whether such a picture may be made. A file too short for the pixels it declares is refused before memory is taken
 /// for them: neither format packs more than `max_texels_per_byte`.
 bool acceptable(Job& job, uint64_t width, uint64_t height, uint64_t max_texels_per_byte) {
-    const char* why = nullptr;
+    const char* why = over_limit(width, height, job.max_side, job.max_texels);
+    job.over_limit = why != nullptr;
     if (width == 0 || height == 0) why = "has no pixels";
-    if (width > job.max_side || height > job.max_side)
-        why = "is larger than the limit for one side";
-    else if (width * height > job.max_texels)
-        why = "takes the images over the limit of texels (VESPER_LIMITS=2 allows twice as many)";
-    else if (width * height / max_texels_per_byte > job.bytes.size())
-        why = "is cut off";
+    if (!why && width * height / max_texels_per_byte > job.bytes.size()) why = "is cut off";
     if (!why) return true;
     std::snprintf(job.reason, sizeof job.reason, "picture of %llu x %llu px %s", static_cast<unsigned long long>(width),
                   static_cast<unsigned long long>(height), why);
@@ -263,14 +261,16 @@ void run(Job& job) {
     } else {
         throw Error(type.empty() ? "is neither PNG nor JPEG" : "is " + type + ", neither PNG nor JPEG");
     }
-    if (!done)
-        throw Error(one_line(std::string(type == "image/png" ? "PNG: " : "JPEG: ") +
-                             (job.reason[0] ? job.reason : "out of memory")));
+    const std::string reason = one_line(std::string(type == "image/png" ? "PNG: " : "JPEG: ") +
+                                        (job.reason[0] ? job.reason : "out of memory"));
+    if (job.over_limit) throw OverLimit(reason);
+    if (!done) throw Error(reason);
 }
 
 }  // namespace
 
 Image decode_image(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t max_texels) {
+    if (reads_webp() && media_type(bytes) == "image/webp") return decode_webp(bytes, max_side, max_texels);
     Job job{.bytes = bytes, .max_side = max_side, .max_texels = max_texels};
     run(job);
     return std::move(job.image);

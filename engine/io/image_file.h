@@ -13,9 +13,10 @@
 
 namespace vesper::io {
 
-/// Decodes a PNG or JPEG held in memory to 8-bit RGBA. Throws Error (reason only; the caller adds the place) when it is
-/// neither, damaged, larger than `max_side` in either direction or of more than `max_texels`. 16-bit, palette, grey and
-/// CMYK files are converted; colour profiles and gamma chunks are ignored, as glTF demands.
+/// Decodes a PNG, JPEG or, where Vesper was built with libwebp, WebP held in memory to 8-bit RGBA. Throws Error (reason
+/// only; the caller adds the place) when it is none of them or damaged, OverLimit when it is larger than `max_side` px
+/// in either direction or of more than `max_texels`. 16-bit, palette, grey and CMYK files are converted; colour
+/// profiles and gamma chunks are ignored, as glTF demands.
 Image decode_image(std::span<const uint8_t> bytes, uint32_t max_side, uint64_t max_texels = UINT64_MAX);
 
 /// A picture of 16 bits per channel: RGBA, rows from the top, not linear.
@@ -28,6 +29,9 @@ WideImage decode_wide_png(std::span<const uint8_t> bytes, uint32_t max_side, uin
 
 /// The media type of a PNG or JPEG ("image/png"), or of another picture format we know but do not read; "" otherwise.
 std::string media_type(std::span<const uint8_t> bytes);
+
+/// Whether decode_image reads WebP.
+bool reads_webp();
 
 /// Whether a picture is a PNG of 16 bits a channel.
 bool is_16_bit_png(std::span<const uint8_t> bytes);

@@ -54,8 +54,8 @@ std::vector<uint8_t> read_bytes(const Descriptor& in, const fs::path& file, uint
 std::vector<uint8_t> read_file(const fs::path& file, uint64_t max_bytes) {
     const auto [in, size] = open_file(file);
     if (size > max_bytes)
-        throw Error(one_line(file.string()) + ": has " + std::to_string(size) + " bytes, more than the limit of " +
-                    std::to_string(max_bytes));
+        throw OverLimit(one_line(file.string()) + ": has " + std::to_string(size) + " bytes, more than the limit of " +
+                        std::to_string(max_bytes));
     return read_bytes(in, file, size);
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdio>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/one_line.h"
 #include "io/read_file.h"
@@ -14,7 +15,7 @@
 namespace vesper::scene {
 namespace {
 
-constexpr std::array<std::string_view, 9> kSupported = {
+constexpr std::array<std::string_view, 13> kSupported = {
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_unlit",
@@ -24,6 +25,11 @@ constexpr std::array<std::string_view, 9> kSupported = {
     "EXT_mesh_gpu_instancing",
     "EXT_lights_ies",
     "KHR_node_visibility",
+    // Pictures: a material whose picture cannot be read shows its factors.
+    "EXT_texture_webp",
+    "EXT_texture_avif",
+    "KHR_texture_basisu",
+    "MSFT_texture_dds",
 };
 constexpr uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 
@@ -133,11 +139,22 @@ JsonValue GltfDocument::element(const char* key, const JsonValue& reference) {
 std::vector<uint8_t> GltfDocument::bytes_of_uri(const JsonValue& uri) {
     // Many URIs may name the same large file: the sum is bounded as well.
     std::vector<uint8_t> bytes;
+    std::filesystem::path file;
+    const bool data = is_data_uri(uri.text());
     try {
-        if (is_data_uri(uri.text())) return decode_data_uri(uri.text());
-        bytes = io::read_file(resolve_uri(folder_, uri.text()), limits_.file_bytes);
+        if (!data) file = resolve_uri(folder_, uri.text());
     } catch (const Error& error) {
         uri.fail(error.what());
+    }
+    try {
+        if (data) return decode_data_uri(uri.text());
+        bytes = io::read_file(file, limits_.file_bytes);
+    } catch (const OutOfHostMemory&) {
+        throw;
+    } catch (const OverLimit& error) {
+        uri.fail(error.what());
+    } catch (const Error& error) {
+        throw UnreadFile(uri.place() + ": " + error.what(), error.what());
     }
     bytes_read_ += bytes.size();
     if (bytes_read_ / 4 > limits_.file_bytes)

@@ -11,11 +11,18 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "scene/json_value.h"
 #include "scene/read_scene.h"
 #include "scene/tinygltf.h"
 
 namespace vesper::scene {
+
+/// A file that a document names is missing or damaged. The message has the place; `reason` does not.
+struct UnreadFile : Error {
+    UnreadFile(const std::string& message, std::string why) : Error(message), reason(std::move(why)) {}
+    std::string reason;
+};
 
 /// A part of a file as tinygltf reads it, and the JSON that it is read from, for messages and extensions.
 template <class T>
@@ -57,7 +64,7 @@ public:
     /// Bytes of buffer or buffer view `index`, valid as long as the document.
     std::span<const uint8_t> buffer(uint32_t index);
     std::span<const uint8_t> view(uint32_t index);
-    /// Bytes of an encoded picture, from buffer view, data URI or file.
+    /// Bytes of an encoded picture, from buffer view, data URI or file. Throws UnreadFile where they are not there.
     std::vector<uint8_t> image(uint32_t index) { return file_of(list("images")[index]); }
     /// Bytes of a file that an object names by `uri` or `bufferView`.
     std::vector<uint8_t> file_of(const JsonValue& holder);

@@ -2,39 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/error.h"
-#include "io/image_file.h"
 #include "scene/gltf_reader.h"
 #include "scene/reflectance.h"
-#include "scene/uri.h"
 
 namespace vesper::scene {
 namespace {
-
-uint32_t read_image(GltfReader& reader, uint32_t index) {
-    const JsonValue entry = reader.document.list("images")[index];
-    if (reader.image_of[index] != kUnread) return reader.image_of[index];
-    const std::vector<uint8_t> bytes = reader.document.image(index);
-    const std::string type = io::media_type(bytes);
-    if (!type.empty() && type != "image/png" && type != "image/jpeg") {
-        reader.notes.add("a picture of type " + type + " is not read: its texture is left out");
-        return reader.image_of[index] = kNone;
-    }
-    Image image;
-    try {
-        image = io::decode_image(bytes, reader.limits.image_side, reader.limits.texels - reader.texels);
-    } catch (const Error& error) {
-        entry.fail(error.what());
-    }
-    if (io::is_16_bit_png(bytes))
-        reader.notes.add("a picture of 16 bits is read at 8: below 0.01 its values are coarse");
-    reader.texels += static_cast<uint64_t>(image.width) * image.height;
-    const auto uri = entry.find("uri");
-    const bool named = uri && uri->text().size() < 256 && !is_data_uri(uri->text());
-    image.name = entry.text_or("name", named ? uri->text() : "image " + std::to_string(index));
-    reader.scene.images.push_back(std::move(image));
-    return reader.image_of[index] = static_cast<uint32_t>(reader.scene.images.size() - 1);
-}
 
 Wrap wrap_of(GltfReader& reader, int mode) {
     switch (mode) {
@@ -81,28 +53,23 @@ void read_sampler(GltfReader& reader, uint32_t index, TextureUse& use) {
 
 namespace {
 
-const tinygltf::Texture& texture_of(GltfReader& reader, const JsonValue& info) {
-    const auto& textures = reader.document.model().textures;
-    return textures[info.at("index").index(textures.size(), "textures")];
+uint32_t texture_of(GltfReader& reader, const JsonValue& info) {
+    return info.at("index").index(reader.document.model().textures.size(), "textures");
 }
 
 /// A textureInfo object without its image: sampled how, and where its uv come from.
 TextureUse read_place(GltfReader& reader, const JsonValue& info, UvMapping& mapping) {
     mapping = read_uv_mapping(info);
     TextureUse use;
-    if (const tinygltf::Texture& texture = texture_of(reader, info); texture.sampler >= 0)
-        read_sampler(reader, static_cast<uint32_t>(texture.sampler), use);
+    if (const int sampler = reader.document.model().textures[texture_of(reader, info)].sampler; sampler >= 0)
+        read_sampler(reader, static_cast<uint32_t>(sampler), use);
     return use;
 }
 
 /// A textureInfo object: which image, sampled how, and where its uv come from.
 TextureUse read_texture(GltfReader& reader, const JsonValue& info, UvMapping& mapping) {
     TextureUse use = read_place(reader, info, mapping);
-    const tinygltf::Texture& texture = texture_of(reader, info);
-    if (texture.source >= 0)
-        use.image = read_image(reader, static_cast<uint32_t>(texture.source));
-    else
-        reader.notes.add("a texture without a PNG or JPEG source is left out");
+    use.image = read_picture(reader, texture_of(reader, info));
     return use;
 }
 
@@ -124,6 +91,14 @@ glm::vec4 unit_vec4(GltfReader& reader, const Numbers& v) {
     return {unit_number(reader, v[0]), unit_number(reader, v[1]), unit_number(reader, v[2]), unit_number(reader, v[3])};
 }
 
+/// The base colour texture. Beside one exporters write a white factor, which says nothing where its picture is missing:
+/// the surface is then as one without material.
+void read_base_colour(GltfReader& reader, const JsonValue& info, Properties& p) {
+    p.made.base_colour_texture = read_texture(reader, info, p.base_uv);
+    if (p.made.base_colour_texture.image == kNone && glm::vec3(p.made.base_colour) == glm::vec3(1))
+        p.made.base_colour = glm::vec4(glm::vec3(kImpliedReflectance), p.made.base_colour.a);
+}
+
 void read_metallic_roughness(GltfReader& reader, Properties& p) {
     const tinygltf::PbrMetallicRoughness& factors = p.material->pbrMetallicRoughness;
     p.made.base_colour = unit_vec4(reader, factors.baseColorFactor);
@@ -131,10 +106,12 @@ void read_metallic_roughness(GltfReader& reader, Properties& p) {
     p.made.roughness = unit_number(reader, factors.roughnessFactor);
     const auto pbr = p.material.json.find("pbrMetallicRoughness");
     if (!pbr) return;
-    if (const auto texture = pbr->find("baseColorTexture"))
-        p.made.base_colour_texture = read_texture(reader, *texture, p.base_uv);
-    if (const auto texture = pbr->find("metallicRoughnessTexture"))
+    if (const auto texture = pbr->find("baseColorTexture")) read_base_colour(reader, *texture, p);
+    if (const auto texture = pbr->find("metallicRoughnessTexture")) {
         p.made.metallic_roughness_texture = read_texture(reader, *texture, p.roughness_uv);
+        // A factor of 1 is for the texture to lower: a metal would be black at night.
+        if (p.made.metallic_roughness_texture.image == kNone && p.made.metallic == 1) p.made.metallic = 0;
+    }
 }
 
 /// KHR_materials_pbrSpecularGlossiness: the diffuse part is what we keep, less what is reflected before it: c_diff =
@@ -164,8 +141,7 @@ void read_specular_glossiness(GltfReader& reader, const JsonValue& model, Proper
     }
     p.made.roughness = static_cast<float>(1 - glossiness);
     if (const auto factor = model.find("diffuseFactor")) p.made.base_colour = unit_vec4(reader, factor->numbers<4>());
-    if (const auto texture = model.find("diffuseTexture"))
-        p.made.base_colour_texture = read_texture(reader, *texture, p.base_uv);
+    if (const auto texture = model.find("diffuseTexture")) read_base_colour(reader, *texture, p);
     const auto rest = static_cast<float>(1 - std::max({specular.r, specular.g, specular.b}));
     p.made.base_colour *= glm::vec4(rest, rest, rest, 1);
     reader.notes.add("a material with KHR_materials_pbrSpecularGlossiness is read as its diffuse part and glossiness");

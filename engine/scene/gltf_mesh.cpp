@@ -11,12 +11,13 @@ namespace {
 
 enum class Mode : uint8_t { Points, Lines, LineLoop, LineStrip, Triangles, Strip, Fan };
 
-/// Material for primitives that name none: grey, reflectance 0.5, Lambert.
+/// Material for primitives that name none: grey, Lambert.
 uint32_t default_material(GltfReader& reader) {
     if (reader.source.implied_material == kNone) {
         Material grey;
         grey.name = "default";
-        grey.base_colour = glm::vec4(0.5f, 0.5f, 0.5f, 1.0f);  // glTF's own, white metal, would be black at night
+        grey.base_colour =
+            glm::vec4(glm::vec3(kImpliedReflectance), 1.0f);  // glTF's own, white metal, would be black at night
         reader.scene.materials.push_back(grey);
         reader.uv_mappings.emplace_back();
         reader.source.implied_material = static_cast<uint32_t>(reader.scene.materials.size() - 1);

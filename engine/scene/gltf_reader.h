@@ -40,8 +40,11 @@ struct MaterialUv {
     UvMapping surface, emission;
 };
 
-/// In `image_of`: not looked at. kNone there: a format we do not read.
+/// In `image_of`: not looked at. kNone there: a picture that cannot be read.
 constexpr uint32_t kUnread = kNone - 1;
+
+/// Reflectance of a surface whose file does not say one: no material, or a missing picture times a white factor.
+constexpr float kImpliedReflectance = 0.5f;
 
 /// Joints at rest, with their inverse bind matrices: vertices as modelled to the frame of a node.
 struct Skin {
@@ -65,6 +68,7 @@ struct GltfReader {
     Notes notes{};
     std::vector<MaterialUv> uv_mappings{};  ///< one per scene material
     std::vector<uint32_t> node_of{}, image_of{};
+    std::map<uint32_t, std::string> unread_images{};  ///< why, for those that are kNone in image_of
     /// Scene mesh for a mesh of the file, the skin that puts it in place or kNone, and the node's weights.
     std::map<std::tuple<uint32_t, uint32_t, std::vector<float>>, uint32_t> meshes{};
     std::map<uint32_t, bool> jointed{};               ///< see hangs_on_joints
@@ -85,6 +89,8 @@ struct GltfReader {
 UvMapping read_uv_mapping(const JsonValue& info);
 /// Wrapping and magnification of a sampler of the file.
 void read_sampler(GltfReader& reader, uint32_t index, TextureUse& use);
+/// The scene's image for a texture of the file; kNone, with a note, if it has no picture that can be read.
+uint32_t read_picture(GltfReader& reader, uint32_t texture);
 void read_materials(GltfReader& reader);
 /// The scene's mesh for a mesh of the file, read when first needed.
 uint32_t read_mesh(GltfReader& reader, uint32_t index, const Pose& pose = {});

@@ -29,9 +29,8 @@ Parts collect(GltfDocument& document, std::vector<std::string>& warnings) {
                 parts.images[i] = document.image(i);
             } catch (const OutOfHostMemory&) {
                 throw;
-            } catch (const Error& error) {  // nothing that is read shows it: the document was read before
-                warnings.push_back(std::string(error.what()) +
-                                   "; nothing shown needs it, and the output names it as before");
+            } catch (const Error& error) {  // nothing shows it: the document was read before
+                warnings.push_back(std::string(error.what()) + "; the output names it as before");
             }
     return parts;
 }

@@ -25,7 +25,7 @@ TEST(GltfMalformed, NamesThePlaceOfWhatIsWrong) {
         {"/asset/version", "1.0", "/asset/version"},
         {"/asset/minVersion", "2.1", "/asset/minVersion"},
         {"/extensionsRequired", {"KHR_draco_mesh_compression"}, "KHR_draco_mesh_compression"},
-        {"/extensionsRequired", {"KHR_texture_basisu"}, "KHR_texture_basisu"},
+        {"/extensionsRequired", {"KHR_materials_unknown"}, "KHR_materials_unknown"},
         {"/extensionsRequired", {"EXT_meshopt_compression"}, "EXT_meshopt_compression"},
         {"/meshes/0/primitives/0/attributes/POSITION", 17, "/meshes/0/primitives/0/attributes/POSITION"},
         {"/meshes/0/primitives/0/indices", 0, "/accessors/0"},  // not scalar

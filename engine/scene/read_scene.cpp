@@ -7,8 +7,10 @@
 #include "base/error.h"
 #include "base/lower.h"
 #include "base/one_line.h"
+#include "io/image_file.h"
 #include "io/read_file.h"
 #include "scene/gltf.h"
+#include "scene/other_formats.h"
 
 namespace vesper::scene {
 namespace {
@@ -27,8 +29,6 @@ constexpr SceneReader kReaders[]{
     {kGltfEndings, begins_like_gltf, read_gltf},
 };
 
-constexpr size_t kStart = 64;  // bytes that tell formats apart
-
 bool has_ending(const SceneReader& reader, const std::filesystem::path& file) {
     const std::string ending = lower(file.extension().string());
     return std::ranges::find(reader.endings, ending) != reader.endings.end();
@@ -37,11 +37,17 @@ bool has_ending(const SceneReader& reader, const std::filesystem::path& file) {
 }  // namespace
 
 LoadedScene read_scene(const std::filesystem::path& file, const SceneLimits& limits) {
-    for (const SceneReader& reader : kReaders)
-        if (has_ending(reader, file)) return reader.read(file, limits);
-    const std::vector<uint8_t> start = io::read_start(file, kStart);
+    const std::vector<uint8_t> start = io::read_start(file, kOtherStart);
     for (const SceneReader& reader : kReaders)
         if (reader.begins(start)) return reader.read(file, limits);
+    std::error_code failed;
+    const uintmax_t size = std::filesystem::file_size(file, failed);
+    const std::string other = other_format(start, failed ? 0 : size, lower(file.extension().string()));
+    if (!other.empty()) throw Error(one_line(file.string()) + ": " + other);
+    if (const std::string picture = io::media_type(start); !picture.empty())
+        throw Error(one_line(file.string()) + ": is no scene but a picture of type " + picture);
+    for (const SceneReader& reader : kReaders)
+        if (has_ending(reader, file)) return reader.read(file, limits);
     throw Error(one_line(file.string()) + ": is no scene: " + scene_endings() + " is expected");
 }
 

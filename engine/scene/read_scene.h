@@ -49,8 +49,9 @@ struct LoadedScene {
     SceneSource source{};
 };
 
-/// Reads a scene: glTF 2.0 (docs/gltf.md). The name's ending chooses the format; of a file with another ending, its
-/// first bytes. Throws Error naming the file, the place in it and the reason.
+/// Reads a scene: glTF 2.0 (docs/gltf.md). Its first bytes choose the format; where they tell none, the name's ending.
+/// Throws Error naming the file, the place in it and the reason; of another program's file, the format and the way to
+/// glTF.
 LoadedScene read_scene(const std::filesystem::path& file, const SceneLimits& limits = {});
 
 /// Whether the name of a file ends as those of scenes do, in capitals or not.

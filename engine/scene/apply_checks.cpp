@@ -114,13 +114,6 @@ void check_forgotten(Application& application, const std::set<uint32_t>& lamp_no
 
 }  // namespace
 
-bool sounds_like_light(const std::string& name) {
-    const std::string lowered = lower(name);
-    for (const char* word : {"lamp", "light", "lantern", "headl", "taill", "glow", "neon", "bulb", "emissi", "emitter"})
-        if (lowered.find(word) != std::string::npos) return true;
-    return false;
-}
-
 void check_plausibility(Application& application, const std::set<uint32_t>& lamp_nodes) {
     check_size(application);
     check_lamps(application);

@@ -69,6 +69,15 @@ TEST(OpenDrive, ErrorsNameFileLineAndReason) {
         std::string::npos);
     EXPECT_NE(complaint_of_plan(geometry(0, 0, 0, 0, -5, "<line/>")).find("length '-5' is out of range"),
               std::string::npos);
+    // A point of a spiral takes work for each rad: one of 400 bytes took a minute.
+    for (const char* spiral :
+         {"<spiral curvStart=\"0\" curvEnd=\"10\"/>", "<spiral curvStart=\"-10\" curvEnd=\"0\"/>",
+          "<spiral curvStart=\"9\" curvEnd=\"-10\"/>", "<spiral curvStart=\"10\" curvEnd=\"10\"/>"}) {
+        EXPECT_NE(complaint_of_plan(geometry(0, 0, 0, 0, 10.1, spiral)).find("turns round more often"),
+                  std::string::npos)
+            << spiral;
+        EXPECT_EQ(complaint_of_plan(geometry(0, 0, 0, 0, 9.9, spiral)), "") << spiral;
+    }
     EXPECT_NE(complaint_of_plan(geometry(0, 0, 0, 0, 1e5, "<arc curvature=\"5000\"/>")).find("turns round more often"),
               std::string::npos);
     EXPECT_NE(complaint_of_plan(geometry(0, 0, 0, 0, 10, "<paramPoly3 pRange=\"normalized\" bU=\"1e8\"/>"))

@@ -7,6 +7,7 @@
 #include <exception>
 #include <mutex>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -50,10 +51,13 @@ bool in_parallel(size_t count, size_t part, const std::function<void(size_t, siz
         std::vector<std::jthread> threads;
         const size_t parts = (count + part - 1) / part, wanted = parallel_threads();
         try {
-            for (size_t i = 1; i < std::min(parts, wanted); ++i)
-                threads.emplace_back([&step] {
-                    while (step()) continue;
-                });
+            try {
+                for (size_t i = 1; i < std::min(parts, wanted); ++i)
+                    threads.emplace_back([&step] {
+                        while (step()) continue;
+                    });
+            } catch (const std::system_error&) {  // the host has no more: those there are do the work
+            }
             while (step())
                 if (progress && !progress(done)) ends = true;
         } catch (...) {

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <deque>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -80,7 +81,11 @@ struct Receiver::Impl {
         socklen_t size = sizeof own;
         ::getsockname(socket.number(), reinterpret_cast<sockaddr*>(&own), &size);
         port = ntohs(own.sin_port);
-        listener = std::thread([this] { listen(); });
+        try {
+            listener = std::thread([this] { listen(); });
+        } catch (const std::system_error& error) {
+            throw Error(place + "no thread can be created to listen: " + error.code().message());
+        }
     }
     ~Impl() {
         ends = true;

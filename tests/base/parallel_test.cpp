@@ -1,9 +1,14 @@
 // Loops on all processors: what is done, and how they end. SPDX-License-Identifier: MIT
 #include "base/parallel.h"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
+#include <fstream>
 #include <mutex>
 #include <set>
 #include <stdexcept>
@@ -51,6 +56,22 @@ TEST(Parallel, UsesOtherThreads) {
         threads.insert(std::this_thread::get_id());
     });
     EXPECT_EQ(threads.size(), 2u);
+}
+
+// 1024 stacks of some MiB do not fit into the address space that is left: the threads that there are do the work.
+TEST(Parallel, ThreadsThatCannotBeCreatedAreDoneWithout) {
+    const auto work = [] {
+        uint64_t pages = 0;
+        std::ifstream("/proc/self/statm") >> pages;
+        const rlim_t bytes = pages * uint64_t(::sysconf(_SC_PAGESIZE)) + (64u << 20);
+        const rlimit limit{bytes, bytes};
+        ::setenv(kThreadsVariable, "1024", 1);
+        std::atomic<size_t> done{0};
+        if (::setrlimit(RLIMIT_AS, &limit) != 0) std::_Exit(2);
+        const bool whole = in_parallel(5000, 1, [&](size_t begin, size_t end) { done += end - begin; });
+        std::_Exit(whole && done == 5000 ? 0 : 1);
+    };
+    EXPECT_EXIT(work(), testing::ExitedWithCode(0), "");
 }
 
 TEST(Parallel, NumbersOfThreadsAreWholeAndAtMost1024) {

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <mutex>
 #include <sstream>
+#include <system_error>
 #include <thread>
 
 #include "base/digest.h"
@@ -209,7 +210,11 @@ Ranks::Ranks() : shared_(std::make_unique<Shared>()) {
     const auto size = size_t(s.passing->size);
     s.roles.resize(size), s.hosts.resize(size);
     s.heard.assign(size, Clock::now());
-    if (size > 1) s.beats = std::thread([&s] { s.beat(); });
+    if (size > 1) try {
+            s.beats = std::thread([&s] { s.beat(); });
+        } catch (const std::system_error& error) {  // without it the others would take this rank for dead
+            throw Error("no thread can be created for messages to other ranks: " + error.code().message());
+        }
 }
 
 Ranks::~Ranks() {

@@ -1,6 +1,7 @@
 #include "session/light_gatherer.h"
 
 #include <exception>
+#include <system_error>
 #include <utility>
 
 #include "base/error.h"
@@ -17,19 +18,26 @@ constexpr double kRoughShare = 0.05;  // of the work
 
 LightGatherer::LightGatherer(const scene::Scene& scene, std::vector<glm::dmat4> world, std::vector<bool> moving,
                              std::shared_ptr<Cache> cache)
-    : cache_(std::move(cache)), thread_([this, &scene, world = std::move(world), moving = std::move(moving)] {
-          try {
-              run(scene, world, moving);
-          } catch (const std::exception& error) {
-              const std::lock_guard lock(mutex_);
-              failure_ = error.what();
-          }
-          done_ = true;
-      }) {}
+    : cache_(std::move(cache)) {
+    const auto work = [this, &scene, world = std::move(world), moving = std::move(moving)] {
+        try {
+            run(scene, world, moving);
+        } catch (const std::exception& error) {
+            const std::lock_guard lock(mutex_);
+            failure_ = error.what();
+        }
+        done_ = true;
+    };
+    try {
+        thread_ = std::thread(work);
+    } catch (const std::system_error&) {  // the host has no more: the first picture waits
+        work();
+    }
+}
 
 LightGatherer::~LightGatherer() {
     ends_ = true;
-    thread_.join();
+    if (thread_.joinable()) thread_.join();
 }
 
 void LightGatherer::give(transport::Radiosity&& radiosity, const std::string& problem) {

@@ -100,6 +100,10 @@ TEST_F(ClosedDoors, ScenesNameNoFilesOutsideTheirFolder) {
         expect_refused("inspect scene/s.gltf", {outside});
         EXPECT_EQ(run("inspect --allow-outside . scene/s.gltf"), 0) << uri << said;
         EXPECT_EQ(run("inspect scene/s.gltf --allow-outside"), 0) << uri << said;
+        EXPECT_EQ(run("inspect --allow-outside all scene/s.gltf"), 0) << uri << said;
+        EXPECT_EQ(run("inspect --allow-outside=all scene/s.gltf"), 0) << uri << said;
+        EXPECT_EQ(run("inspect scene/s.gltf --allow-outside elsewhere --allow-outside all"), 0) << uri << said;
+        expect_refused("inspect scene/s.gltf --allow-outside ./all", {"./all", "no such folder"});
         fs::create_directories(folder / "elsewhere");
         expect_refused("inspect scene/s.gltf --allow-outside elsewhere", {outside});
     }

@@ -187,15 +187,18 @@ void Command::add_allow_outside() {
     const auto folders = std::make_shared<std::vector<std::unique_ptr<const io::AllowedFolder>>>();
     const CLI::callback_t allow = [folders](const CLI::results_t& given) {
         for (const std::string& value : given) {
-            const std::string folder = value.empty() || value == "{}" ? "/" : value;  // CLI11 says "{}" for no value
+            // CLI11 says "{}" for no value.
+            const std::string folder = value.empty() || value == "{}" || value == "all" ? "/" : value;
             if (!std::filesystem::is_directory(folder))
-                throw Error("--allow-outside " + one_line(folder) + ": there is no such folder");
+                throw Error("--allow-outside " + one_line(folder) +
+                            ": there is no such folder (all opens every folder)");
             folders->push_back(std::make_unique<const io::AllowedFolder>(folder));
         }
         return true;
     };
     app_->add_option("--allow-outside", allow,
-                     "Read files that the scene names outside of its folder: those in FOLDER, or all; may be repeated")
+                     "Read files that the scene names outside of its folder: those in FOLDER; all, or no value, opens "
+                     "every folder (./all is a folder of that name); may be repeated")
         ->type_name("FOLDER")
         ->expected(0, 1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scene/scene.h"
 #include "transport/light_tracer.h"
 
 namespace vesper::commands {
@@ -35,6 +36,7 @@ struct Inspection {
 std::string notes_text(const std::vector<std::string>&);
 
 Inspection inspect_scene(const InspectArguments&);
+Inspection inspect_names(const scene::Scene&);              ///< of nodes, materials and pictures, sorted, some of many
 Inspection inspect_light(const InspectArguments&);          ///< at points of a scene
 void announce_light_picture(const InspectArguments&);       ///< of the files that the next one writes (FileGate)
 Inspection inspect_light_picture(const InspectArguments&);  ///< of what a camera sees; writes the pictures

@@ -138,7 +138,8 @@ Inspection inspect_scene(const InspectArguments& arguments) {
     text += "cameras: ";
     for (size_t i = 0; i < report.cameras.size(); ++i) text += (i ? ", " : "") + one_line(report.cameras[i]);
     text += report.cameras.empty() ? "none\n" : "\n";
-    text += lamps_text(report) + materials_text(report);
+    const Inspection names = inspect_names(scene);
+    text += lamps_text(report) + materials_text(report) + names.text;
     text += notes_text(loaded.notes);
     text += report.warnings.empty() ? "\nnothing implausible\n" : "\nimplausible:\n";
     for (const std::string& warning : report.warnings) text += "  " + warning + "\n";
@@ -146,6 +147,7 @@ Inspection inspect_scene(const InspectArguments& arguments) {
     json["ambient_illuminance_lx"] = scene.ambient_illuminance;
     json["sky_luminance_cd_m2"] = scene.sky_luminance;
     json["notes"] = loaded.notes;
+    json["names"] = names.json;
     return {text, json};
 }
 

@@ -50,6 +50,27 @@ protected:
     }
 };
 
+// Rules of photometry go by names: of a kind some are printed, in order, and how many there are.
+TEST_F(Inspect, NamesOfAScene) {
+    nlohmann::json file = {{"asset", {{"version", "2.0"}}}};
+    for (int i = 39; i >= 0; --i)
+        file["nodes"].push_back({{"name", "pole " + std::string(1, char('0' + i / 10)) + char('0' + i % 10)}});
+    file["nodes"].push_back({{"name", "pole 07"}});
+    file["nodes"].push_back(nlohmann::json::object());
+    file["materials"] = {{{"name", "wall"}}, {{"name", "asphalt"}}};
+    folder.write("s.gltf", file.dump());
+    ASSERT_EQ(inspect("s.gltf --json a.json"), 0) << said;
+    EXPECT_TRUE(prints("nodes: 42, of 40 names: pole 00, pole 01, ")) << printed;
+    EXPECT_TRUE(prints("pole 07 (2), ")) << printed;
+    EXPECT_TRUE(prints("pole 29, ... and 10 more (--json has them)")) << printed;
+    EXPECT_TRUE(prints("materials: 2, of 2 names: asphalt, wall\n")) << printed;
+    EXPECT_TRUE(prints("pictures: 0, of 0 names\n")) << printed;
+    const auto names = json("a.json")["names"];
+    EXPECT_EQ(names["nodes"].size(), 40u);
+    EXPECT_EQ(names["nodes"][7], (nlohmann::json{{"name", "pole 07"}, {"number", 2}}));
+    EXPECT_EQ(names["materials"][0]["name"], "asphalt");
+}
+
 TEST_F(Inspect, AScene) {
     ASSERT_EQ(inspect(kOwnData + "rivoli/rivoli.gltf --json a.json"), 0) << said;
     EXPECT_TRUE(prints("lx from the sky are no night")) << printed;

@@ -384,6 +384,31 @@ TEST(Channels, FilesAreReadOrRefused) {
                  Error);
 }
 
+// 40 bytes a pixel: 2 GiB are 53,687,091 px in one process. Ranks share them; half a picture less is read.
+TEST(Channels, OfOneProcessTakeAtMostTwoGibibytes) {
+    const TempFolder folder;
+    const auto complaint = [&](int screens, int width, int height, int of_each_rank) {
+        nlohmann::json file = {{"version", 1}};
+        for (int i = 0; i < screens; ++i)
+            file["channels"].push_back({{"name", std::to_string(i)},
+                                        {"size_px", {width, height}},
+                                        {"yaw_deg", 10 * i - 150},
+                                        {"left_deg", -4},
+                                        {"right_deg", 4},
+                                        {"bottom_deg", -4},
+                                        {"top_deg", 4},
+                                        {"rank", i / of_each_rank}});
+        return complaint_of([&] { drive::read_channels(folder.write("wall.json", file.dump())); });
+    };
+    const std::string said = complaint(30, 2000, 2000, 30);
+    EXPECT_TRUE(contains(said, "wall.json: /channels: have 120000000 px in one process, more than the 53687091 px"))
+        << said;
+    EXPECT_TRUE(contains(complaint(14, 2000, 2000, 14), "56000000 px"));
+    EXPECT_EQ(complaint(13, 2000, 2000, 13), "");
+    EXPECT_EQ(complaint(30, 2000, 2000, 10), "");
+    EXPECT_TRUE(contains(complaint(1, 16384, 4096, 1), "67108864 px"));
+}
+
 // Two projectors side by side, so many degrees apart, each 40 wide.
 std::string projectors(double apart, const std::string& left = "", const std::string& right = "") {
     const std::string edges = R"(, "left_deg": -20, "right_deg": 20, "bottom_deg": -10, "top_deg": 10)";
@@ -397,6 +422,12 @@ TEST(Channels, ThatOverlapNeedMaps) {
     const auto read = [&](const std::string& text) { return drive::read_channels(folder.write("rig.json", text)); };
     folder.write("mesh.data", "2\n2 2\n-2 -1 0 0 1\n2 -1 1 0 1\n-2 1 0 1 1\n2 1 1 1 1\n");
     const std::string warp = R"(, "warp": "mesh.data")";
+    for (const char* key : {"warp", "mask", "display"}) {
+        const std::string said =
+            complaint_of([&] { read(projectors(40, ", \"" + std::string(key) + "\": \"gone.x\"")); });
+        EXPECT_TRUE(contains(said, "rig.json: /channels/0/" + std::string(key) + ": ")) << said;
+        EXPECT_TRUE(contains(said, "gone.x: cannot be opened")) << said;
+    }
     EXPECT_EQ(read(projectors(40)).screens.size(), 2u);
     EXPECT_EQ(read(projectors(180)).screens.size(), 2u);
     EXPECT_NE(complaint_of([&] { read(projectors(37)); }).find("/channels: channels l and r overlap: "),

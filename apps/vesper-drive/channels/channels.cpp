@@ -4,12 +4,14 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "base/angle.h"
 #include "base/budget.h"
+#include "base/limits.h"
 #include "base/one_line.h"
 #include "graph/times.h"
 #include "io/named_file.h"
@@ -21,6 +23,8 @@ namespace vesper::drive {
 namespace {
 
 constexpr size_t kMost = 32;
+constexpr uint64_t kMostBytes = 2ull << 30;   // of the pictures of one process, times VESPER_LIMITS
+constexpr uint64_t kBytesPerPixel = 40;       // of a channel, as 32 of 2000 x 2000 px take with glare and the eye
 constexpr uint64_t kMostPixels = 1ull << 27;  // of all: sixteen times 3840 x 2160
 
 // What projectors of a channel are given. `folder`: of the file of channels.
@@ -34,15 +38,25 @@ void read_projector(const scene::JsonValue& value, const std::filesystem::path& 
             name->fail(error.what());
         }
     };
+    // A file that cannot be read is named with the member that names it.
+    const auto read = [&](const char* key, const std::filesystem::path& file, const auto& reader) {
+        try {
+            return reader(file);
+        } catch (const OutOfHostMemory&) {
+            throw;
+        } catch (const Error& error) {
+            value.at(key).fail(error.what());
+        }
+    };
     if (const std::filesystem::path profile = file_of("display"); !profile.empty())
-        c.display = scene::read_display(profile);
+        c.display = read("display", profile, [](const auto& file) { return scene::read_display(file); });
     const std::filesystem::path warp = file_of("warp"), mask = file_of("mask");
     if (warp.empty() && mask.empty()) return;
     spend(uint64_t{c.extent.width} * c.extent.height * sizeof(shared::ProjectedPixel));
     std::optional<vision::WarpMesh> mesh;
     std::optional<vision::BlendMask> factors;
-    if (!warp.empty()) mesh = vision::read_warp_mesh(warp);
-    if (!mask.empty()) factors = vision::read_blend_mask(mask);
+    if (!warp.empty()) mesh = read("warp", warp, vision::read_warp_mesh);
+    if (!mask.empty()) factors = read("mask", mask, vision::read_blend_mask);
     c.projection = std::make_shared<const eye::Projection>(
         eye::projection_of(c.extent, c.extent, mesh ? &*mesh : nullptr, factors ? &*factors : nullptr));
 }
@@ -180,6 +194,23 @@ void take_seen(render::Frame& frame, const render::SharedEye::Seen& seen, VkExte
     frame.milliseconds += seen.milliseconds;
 }
 
+/// Refuses pictures whose memory, of those that one process shows, is over the limit.
+void check_pixels(const Channels& channels, const scene::JsonValue& place) {
+    uint64_t pixels = 0;
+    std::map<int, uint64_t> of_rank;
+    for (const ScreenChannel& c : channels.screens) {
+        const uint64_t own = uint64_t(c.extent.width) * c.extent.height;
+        pixels += own, of_rank[c.rank.value_or(0)] += own;
+    }
+    if (pixels > kMostPixels) place.fail("have more than " + std::to_string(kMostPixels) + " px in all");
+    const uint64_t most = scaled_limit(kMostBytes) / kBytesPerPixel;
+    for (const auto& [rank, own] : of_rank)
+        if (own > most)
+            place.fail("have " + std::to_string(own) + " px in one process, more than the " + std::to_string(most) +
+                       " px whose pictures take 2 GiB: fewer px, ranks for some of them, or VESPER_LIMITS=2 in the "
+                       "environment");
+}
+
 }  // namespace
 
 Channels read_channels(const std::filesystem::path& file) {
@@ -199,9 +230,7 @@ Channels read_channels(const std::filesystem::path& file) {
     }
     if (channels.screens.empty() || channels.screens.size() > kMost)
         root.at("channels").fail("1 to " + std::to_string(kMost) + " are expected");
-    uint64_t pixels = 0;
-    for (const ScreenChannel& c : channels.screens) pixels += uint64_t(c.extent.width) * c.extent.height;
-    if (pixels > kMostPixels) root.at("channels").fail("have more than " + std::to_string(kMostPixels) + " px in all");
+    check_pixels(channels, root.at("channels"));
     if (const auto gaze = root.find("gaze")) {
         const auto named = std::find_if(channels.screens.begin(), channels.screens.end(),
                                         [&](const ScreenChannel& c) { return c.name == gaze->text(); });

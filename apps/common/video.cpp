@@ -1,6 +1,7 @@
 #include "video.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -11,6 +12,7 @@
 #include <csignal>
 #include <cstring>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "base/error.h"
@@ -23,8 +25,9 @@ extern char** environ;
 namespace vesper::apps {
 namespace {
 
-constexpr const char* kThreads = "4";  // of its own, or films would depend on how many processors there are
-constexpr int kFilm = 3;               // the descriptor of the film in ffmpeg
+constexpr const char* kThreads = "4";           // of its own, or films would depend on how many processors there are
+constexpr std::chrono::milliseconds kLook{10};  // between looks at ffmpeg while it is waited for
+constexpr int kFilm = 3;                        // the descriptor of the film in ffmpeg
 
 std::vector<std::string> command_line(uint32_t width, uint32_t height, double fps, const vision::Display& display,
                                       const std::string& comment) {
@@ -80,6 +83,7 @@ Video::Video(std::string file, uint32_t width, uint32_t height, double fps, cons
     if (!log_.is_open() || ::pipe2(ends, O_CLOEXEC) != 0) io::fail(file_, "no pipe to ffmpeg", errno);
     const io::Descriptor frames(ends[0]);
     pipe_ = io::Descriptor(ends[1]);
+    ::fcntl(pipe_.number(), F_SETFL, O_NONBLOCK);  // of this end alone: a stopped ffmpeg is not waited for
     // Copies above the numbers that ffmpeg will see, so that none of those is replaced before it is copied.
     const auto copied = [](int number) { return io::Descriptor(::fcntl(number, F_DUPFD_CLOEXEC, kFilm + 1)); };
     const io::Descriptor in = copied(frames.number()), out = copied(film_.descriptor().number()),
@@ -104,18 +108,50 @@ Video::Video(std::string file, uint32_t width, uint32_t height, double fps, cons
 
 Video::~Video() {
     if (process_ <= 0) return;
-    ::kill(process_, SIGTERM);
-    wait();
+    ::kill(process_, SIGKILL);  // also where it is stopped: its film is not kept
+    while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) continue;
+}
+
+/// Looks at ffmpeg. Throws Error, and ends it, where it has been stopped for too long.
+bool Video::has_ended() {
+    if (process_ <= 0) return true;
+    int status = -1;
+    const pid_t changed = ::waitpid(process_, &status, WNOHANG | WUNTRACED | WCONTINUED);
+    if (changed < 0 && errno != EINTR) process_ = -1;
+    if (changed > 0) {
+        if (WIFSTOPPED(status))
+            stopped_ = std::chrono::steady_clock::now();
+        else if (WIFCONTINUED(status))
+            stopped_.reset();
+        else
+            status_ = status, process_ = -1;
+    }
+    if (process_ > 0 && stopped_ && std::chrono::steady_clock::now() - *stopped_ > longest_stop)
+        throw Error(one_line(file_) + format(": ffmpeg was stopped by a signal and has not gone on for %.3g s",
+                                             std::chrono::duration<double>(longest_stop).count()));
+    return process_ <= 0;
 }
 
 int Video::wait() {
     pipe_.close();
-    int status = -1;
-    if (process_ > 0)
-        while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    while (!has_ended()) std::this_thread::sleep_for(kLook);
+    return status_;
+}
+
+/// Writes to ffmpeg, which may be slow. Returns 0 or the error code.
+int Video::write(std::span<const uint8_t> codes) {
+    while (!codes.empty()) {
+        const ssize_t written = ::write(pipe_.number(), codes.data(), codes.size());
+        if (written >= 0) {
+            codes = codes.subspan(size_t(written));
+        } else if (errno == EAGAIN) {
+            pollfd room{.fd = pipe_.number(), .events = POLLOUT, .revents = 0};
+            if (::poll(&room, 1, int(kLook.count())) == 0 && has_ended()) return EPIPE;
+        } else if (errno != EINTR) {
+            return errno;
         }
-    process_ = -1;
-    return status;
+    }
+    return 0;
 }
 
 void Video::give_up() {
@@ -129,7 +165,7 @@ void Video::give_up() {
 
 void Video::add(std::span<const uint8_t> codes) {
     if (codes.size() != frame_bytes_) throw Error(one_line(file_) + ": all pictures of a film must have one size");
-    if (pipe_.write(codes) != 0) give_up();
+    if (write(codes) != 0) give_up();
 }
 
 void Video::finish() {

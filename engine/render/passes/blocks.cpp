@@ -39,8 +39,10 @@ Blocks add_blocks(const FrameContext& frame, const GBuffer& surfaces, const Clus
     const uint32_t count = grid.x * grid.y;
     if ((count + shared::kBlocksPerGroup - 1) / shared::kBlocksPerGroup >
         frame.kernels.device().limits().maxComputeWorkGroupCount[0])
-        throw Error("an image of " + std::to_string(extent.width) + " x " + std::to_string(extent.height) +
-                    " has more blocks than the device can shade in one dispatch");
+        throw Error(
+            "an image of " + std::to_string(extent.width) + " x " + std::to_string(extent.height) +
+            " has more blocks than the device can shade in one dispatch: a smaller one (--size, or size_px of a "
+            "channel) has fewer");
     const Blocks blocks{
         .columns = grid.x,
         .count = count,

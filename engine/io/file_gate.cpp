@@ -39,7 +39,7 @@ std::vector<FileIdentity> identities_of(const fs::path& file) {
 
 void refuse_written(const FileIdentity& identity) {
     if (const auto writer = gate->written.find(identity); writer != gate->written.end())
-        throw Error(writer->second + ": would replace what is read");
+        throw WouldReplace(writer->second + ": would replace what is read");
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ void announce_write(const std::string& option, const fs::path& file) {
     if (!fs::is_directory(folder, failed)) throw Error(place + ": there is no folder " + one_line(folder.string()));
     if (!gate) return;
     for (const FileIdentity& identity : identities_of(file)) {
-        if (gate->read.contains(identity)) throw Error(place + ": would replace what is read");
+        if (gate->read.contains(identity)) throw WouldReplace(place + ": would replace what is read");
         if (!gate->written.emplace(identity, place).second) throw Error(place + ": would be written twice");
     }
 }
@@ -94,7 +94,7 @@ void gate_read(int descriptor, const fs::path& file) {
 void gate_write(const fs::path& file) {
     if (!gate) return;
     if (const auto identity = existing(file); identity && gate->read.contains(*identity))
-        throw Error(one_line(file.string()) + ": would replace what is read");
+        throw WouldReplace(one_line(file.string()) + ": would replace what is read");
 }
 
 void gate_grows(const fs::path& file) {

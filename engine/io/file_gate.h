@@ -11,6 +11,7 @@
 #include <string>
 
 #include "base/digest.h"
+#include "base/error.h"
 
 namespace vesper::io {
 
@@ -21,6 +22,11 @@ struct FileIdentity {
     std::string name;  ///< in that folder; empty for a file that exists
 
     auto operator<=>(const FileIdentity&) const = default;
+};
+
+/// Writing would replace a file that is read.
+struct WouldReplace : Error {
+    using Error::Error;
 };
 
 /// The one gate of a task for its files, for the thread that makes it and as long as it lives: no output replaces a

@@ -16,7 +16,7 @@ constexpr size_t kMaxSignals = 20'000;
 /// EN 12368: 200 mm lenses, performance level 2: 200 cd on the axis, within it cosine-like.
 constexpr double kLens = 0.2;        // m
 constexpr float kLensCandela = 200;  // cd
-/// Lower edges where the file states none. Traffic lights: RiLSA 2015, 6.2.3; signs: VwV-StVO to §§ 39 to 43, III 13.
+/// Lower edges where the file states none. Traffic lights: RiLSA 2015; signs: VwV-StVO to §§ 39 to 43, III 13.
 constexpr double kLightBeside = 2.1, kSignBeside = 2.0, kOverLanes = 4.5;  // m
 constexpr double kNoOffset = 0.05;                                         // m
 constexpr double kWithPole = 1.8;   // m; the stated height of higher ones is that of their pole

@@ -16,7 +16,7 @@
 namespace vesper::roads {
 namespace {
 
-// RiLSA 2015, 2.7: 3 s of amber at 50 km/h. A green of 20 s and 2 s of clearance are usual in towns.
+// RiLSA 2015: 3 s of amber at 50 km/h. A green of 20 s and 2 s of clearance are usual in towns.
 constexpr double kGreen = 20, kAmber = 3, kClear = 2;  // s
 constexpr double kOnFoot = 12;                         // s of green; the rest of their stage clears the road
 constexpr double kStage = kGreen + kAmber + kClear;    // s

@@ -7,8 +7,8 @@
 namespace vesper::roads {
 namespace {
 
-constexpr double kSamePlace = 0.6;  // m; a post within this of a signal is the signal's
-constexpr double kArmReach = 20;    // m; the longest mast arms in use have 65 ft (Caltrans Standard Plan ES-7, type 61)
+constexpr double kSamePlace = 0.6;                         // m; a post within this of a signal is the signal's
+constexpr double kArmReach = 20;                           // m; the longest usual mast arms
 constexpr double kShortestMast = 2.5;                      // m; lower posts are bollards and railings
 constexpr double kBesideBeam = 1.5;                        // m in plan between a signal and the axis of its beam
 constexpr double kBelowBeam = 3;                           // m between a signal and a beam or a wire over it

@@ -8,6 +8,7 @@
 #include "base/budget.h"
 #include "base/error.h"
 #include "base/one_line.h"
+#include "io/file_gate.h"
 #include "io/read_file.h"
 #include "scene/gltf_model.h"
 #include "scene/uri.h"
@@ -150,6 +151,8 @@ std::vector<uint8_t> GltfDocument::bytes_of_uri(const JsonValue& uri) {
         if (data) return decode_data_uri(uri.text());
         bytes = io::read_file(file, limits_.file_bytes);
     } catch (const OutOfHostMemory&) {
+        throw;
+    } catch (const io::WouldReplace&) {
         throw;
     } catch (const OverLimit& error) {
         uri.fail(error.what());

@@ -58,8 +58,9 @@ TEST(OtherFormats, AreNamedByTheirBytes) {
         for (const char* name : {"scene.gltf", "scene.glb", "scene.xyz", "scene"}) {
             const std::string said = refused(name, file.bytes);
             EXPECT_TRUE(contains(said, file.name)) << said;
-            if (contains(file.name, "FBX") || contains(file.name, "OBJ"))
+            if (contains(file.name, "FBX") || contains(file.name, "OBJ")) {
                 EXPECT_TRUE(contains(said, "export it: File > Export > glTF 2.0")) << said;
+            }
         }
     for (const std::string& packed : {"\x28\xb5\x2f\xfd\x04\x58\1"s, "\x1f\x8b\x08\0\0\0"s})
         EXPECT_TRUE(contains(refused("a.BLEND", packed), "is a Blender file"));

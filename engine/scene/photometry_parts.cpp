@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/angle.h"
+#include "base/decimal.h"
 #include "base/error.h"
 #include "io/hdr_image.h"
 #include "io/named_file.h"
@@ -62,6 +63,12 @@ SkyPicture read_sky_picture(const JsonValue& source, const std::filesystem::path
     } catch (const Error& error) {
         source.fail(error.what());
     }
+    const bool stated = source.find("scale") || source.find("luminance_cd_m2") || source.find("illuminance_lx");
+    if (!stated && !(white > 0))
+        sky.notes.push_back("does not say how much its value 1 is (whiteLuminance): taken for 1 cd/m^2, which makes " +
+                            decimal(photometry::sky_luminance(sky.environment)) + " cd/m^2 in the mean and " +
+                            decimal(photometry::horizontal_illuminance(sky.environment)) +
+                            " lx on the ground; \"scale\", \"luminance_cd_m2\" or \"illuminance_lx\" states it");
     sky.environment.rotation = source.number_or("rotation_deg", 0, -360, 360) * kRadiansPerDegree;
     return sky;
 }

@@ -60,6 +60,11 @@ void add_cut_off(Inspection& made, const photometry::BeamFigures& f) {
     made.text +=
         "  luminous intensity class (EN 13201-2, annex A): " + (f.glare_class.empty() ? "none" : f.glare_class) + "\n";
     made.text += format("  light above the horizontal: %.2f %% of the flux\n", 100 * f.upward_share);
+    if (f.upward_share > 0.5) {
+        const char* doubt = "implausible for a road: more light goes up than down; is the file upside down?";
+        made.text += std::string("  ") + doubt + "\n";
+        made.json["doubt"] = doubt;
+    }
     made.json["cd_per_klm"] = {{"70", g[0]}, {"80", g[1]}, {"90", g[2]}, {"95_and_up", g[3]}};
     made.json["intensity_class"] = f.glare_class;
     made.json["upward_share"] = f.upward_share;
@@ -116,6 +121,10 @@ Inspection inspect_distribution(const InspectArguments& arguments) {
     add_widths(made, d, f);
     if (c && f.flux > 0) add_cut_off(made, f);
     if (!c && f.largest > 2000) add_beam_points(made, d);
+    for (const std::string& note : d.notes) {
+        made.text += "  note         " + note + "\n";
+        made.json["notes"].push_back(note);
+    }
     if (!d.metadata.empty()) made.text += "\n";
     for (const auto& [key, value] : d.metadata) {
         made.text += "  " + key + ": " + value + "\n";

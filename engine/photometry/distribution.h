@@ -43,6 +43,7 @@ struct Distribution {
     double lamp_flux = 0;            ///< of the bare lamps the intensities refer to, lm; 0: absolute photometry
     LuminousOpening opening;
     std::vector<std::pair<std::string, std::string>> metadata;  ///< keywords and texts of the file, in its order
+    std::vector<std::string> notes{};  ///< of its reader: what was assumed where readers of such files disagree
 
     double at(size_t h, size_t v) const { return candela[h * vertical.size() + v]; }
 };

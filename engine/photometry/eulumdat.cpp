@@ -166,6 +166,7 @@ Distribution parse_eulumdat(std::span<const uint8_t> text, const std::string& na
                                                     : candela_line,
                       fault);
     });
+    note_flux(made);
     return made;
 }
 

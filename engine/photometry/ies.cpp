@@ -278,6 +278,7 @@ void read_numbers(Distribution& made, LineReader lines, const IesHeader& header,
     finish_table(made, true, [&](TablePart part, const std::string& fault) {
         lines.fail_at(starts[static_cast<size_t>(part)], fault);
     });
+    note_flux(made);
 }
 
 }  // namespace

@@ -72,15 +72,28 @@ std::string write_ies(const Distribution& d) {
         horizontal.insert(horizontal.begin(), -1e-3);
         candela.insert(candela.begin(), d.vertical.size(), 0.0);
     }
+    // V from 0, too: a dark row just below it.
+    std::vector<double> vertical = d.vertical;
+    if (d.goniometry != Goniometry::CGamma && std::abs(vertical.front()) < 1e-6) {
+        const size_t count = vertical.size();
+        std::vector<double> with_row;
+        for (size_t h = 0; h < horizontal.size(); ++h) {
+            with_row.push_back(0);
+            with_row.insert(with_row.end(), candela.begin() + ptrdiff_t(h * count),
+                            candela.begin() + ptrdiff_t((h + 1) * count));
+        }
+        vertical.insert(vertical.begin(), -1e-3);
+        candela = std::move(with_row);
+    }
     const int type = d.goniometry == Goniometry::CGamma ? 1 : d.goniometry == Goniometry::TypeB ? 2 : 3;
     const double sign = d.opening.round ? -1 : 1;
-    append<double>(file, {1, d.lamp_flux > 0 ? d.lamp_flux : -1, 1, static_cast<double>(d.vertical.size()),
+    append<double>(file, {1, d.lamp_flux > 0 ? d.lamp_flux : -1, 1, static_cast<double>(vertical.size()),
                           static_cast<double>(horizontal.size()), static_cast<double>(type), 2, sign * d.opening.width,
                           sign * d.opening.length, d.opening.height});
     append<double>(file, {1, 1.00001, 0});  // ballast factor, how the file was generated (not stated), watts
-    append(file, d.vertical);
+    append(file, vertical);
     append(file, horizontal);
-    const auto planes = static_cast<ptrdiff_t>(d.vertical.size());
+    const auto planes = static_cast<ptrdiff_t>(vertical.size());
     for (auto plane = candela.begin(); plane != candela.end(); plane += planes)
         append(file, std::vector<float>(plane, plane + planes));
     return file;

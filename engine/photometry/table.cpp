@@ -13,6 +13,9 @@ namespace {
 constexpr double kSame = 1e-6;    // deg: angles closer than this are one
 constexpr double kClosing = 0.1;  // of the largest intensity: what C0 and C360 as measured may differ by
 
+constexpr double kDark = 0.02, kNadir = 0.05;  // of the largest intensity
+constexpr double kMoreLight = 1.05;            // than the lamps give: rounding of files is less
+
 bool same(double a, double b) { return std::abs(a - b) < kSame; }
 
 std::string number(double value) { return decimal(value, 6); }
@@ -79,6 +82,7 @@ bool close_planes(Distribution& table, double largest, const TableFault& fault) 
             table.candela[v] = table.candela[end + v] = (table.candela[v] + table.candela[end + v]) / 2;
         }
     } else if (same(first, 0) && last > 180 && go_round(list)) {
+        table.notes.push_back("C planes end at " + number(last) + " deg: C0 closes the circle");
         list.front() = 0;
         list.push_back(360);
         table.candela.reserve(list.size() * table.vertical.size());
@@ -127,6 +131,45 @@ std::string objection_to(const std::vector<double>& angles, const char* what, do
     return {};
 }
 
+/// Whether types A and B begin at V = 0 with light there.
+bool is_bright_from_zero(const Distribution& table, double largest) {
+    if (table.goniometry == Goniometry::CGamma || !same(table.vertical.front(), 0)) return false;
+    for (size_t h = 0; h < table.horizontal.size(); ++h)
+        if (table.at(h, 0) > kDark * largest) return true;
+    return false;
+}
+
+/// V from 0 as V of both signs.
+void mirror_below(Distribution& table) {
+    const size_t count = table.vertical.size(), all = 2 * count - 1;
+    std::vector<double> angles(all), candela(all * table.horizontal.size());
+    for (size_t v = 0; v < count; ++v)
+        angles[count - 1 + v] = table.vertical[v], angles[count - 1 - v] = -table.vertical[v];
+    angles[count - 1] = 0;
+    for (size_t h = 0; h < table.horizontal.size(); ++h)
+        for (size_t v = 0; v < count; ++v)
+            candela[h * all + count - 1 + v] = candela[h * all + count - 1 - v] = table.at(h, v);
+    table.vertical = std::move(angles), table.candela = std::move(candela);
+}
+
+/// Where programs read tables of type C in other ways.
+void note_planes(Distribution& table, double largest) {
+    if (same(table.vertical.front(), 0)) {
+        double least = table.at(0, 0), most = least;
+        for (size_t h = 0; h < table.horizontal.size(); ++h)
+            least = std::min(least, table.at(h, 0)), most = std::max(most, table.at(h, 0));
+        if (most - least > kNadir * largest)
+            table.notes.push_back("planes differ at the nadir, from " + number(least) + " to " + number(most) +
+                                  " cd: each is taken as it is");
+    }
+    double edge = 0;
+    for (size_t h = 0; h < table.horizontal.size(); ++h) edge = std::max(edge, table.at(h, table.vertical.size() - 1));
+    const double last = table.vertical.back();  // 90 and 180 say that light of a hemisphere or both is known
+    if (!same(last, 90) && !same(last, 180) && edge > kDark * largest)
+        table.notes.push_back("gamma ends at " + number(last) + " deg with " + number(edge) +
+                              " cd: beyond there is no light");
+}
+
 }  // namespace
 
 std::string objection_to_size(double horizontal, double vertical) {
@@ -168,21 +211,37 @@ void finish_table(Distribution& table, bool halves, const TableFault& fault) {
         if (!(candela > 0)) candela = 0;  // also -0
     }
     const double range = table.horizontal.back() - table.horizontal.front();
+    const bool below = halves && is_bright_from_zero(table, largest);
     const size_t copies = !c || table.horizontal.size() == 1 || range > 181 ? 1 : range > 91 ? 2 : 4;
-    if (copies * table.candela.size() > kMaxCells)
+    if (copies * (below ? 2 : 1) * table.candela.size() > kMaxCells)
         fault(TablePart::Horizontal, "more than " + std::to_string(kMaxCells) + " intensities, symmetry expanded");
     if (c && !close_planes(table, largest, fault))
         fault(TablePart::Horizontal,
               "C planes from " + number(table.horizontal.front()) + " to " + number(table.horizontal.back()) +
                   " are no range that is defined (0 to 90, 180 or 360; 90 to 270), and do not go round");
-    if (c) return;
+    if (c) return note_planes(table, largest);
+    if (below) {
+        mirror_below(table);
+        table.notes.push_back("V begins at 0, where it is bright: taken for both sides of V = 0 (readers differ)");
+    } else if (halves && same(table.vertical.front(), 0)) {
+        table.notes.push_back("V begins at 0, where it is dark: below V = 0 there is no light (readers differ)");
+    }
     if (table.horizontal.size() < 2) fault(TablePart::Horizontal, "one horizontal angle makes no distribution");
     if (halves && same(table.horizontal.front(), 0)) {
         std::vector<double> angles = table.horizontal;
         angles.front() = 0;
         for (const double angle : table.horizontal) angles.push_back(-angle);
         rebuild(table, angles, [](double h) { return std::abs(h); });
+        table.notes.push_back("H begins at 0: taken for both sides of H = 0");
     }
+}
+
+void note_flux(Distribution& table) {
+    const double flux = luminous_flux(table);
+    const bool more = table.lamp_flux > 0 && flux > kMoreLight * table.lamp_flux;
+    if (table.notes.empty() && !more) return;
+    table.notes.push_back("its intensities are " + number(flux) + " lm in all; the file states " +
+                          (table.lamp_flux > 0 ? number(table.lamp_flux) + " lm of lamps" : "none (absolute)"));
 }
 
 Distribution mirrored(const Distribution& original) {

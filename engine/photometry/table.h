@@ -69,7 +69,12 @@ bool go_round(const std::vector<double>& planes);
 /// Completes a table as read from a file: checks angles and intensities, drops a repeated last angle, sets negative
 /// noise (down to -1 % of the largest intensity) to 0 and expands symmetry. C planes may be one; 0 to 90, 180 or 360
 /// (whose two ends differ by at most 10 % of the largest intensity: their mean is taken); 0 to less than 360 if they
-/// close the circle; 90 to 270; -90 to 90. `halves`: H of types A and B from 0 stands for both sides.
+/// close the circle; 90 to 270; -90 to 90. `halves`: H of types A and B from 0 stands for both sides, and so does V
+/// from 0 where the table is bright there, as no luminaire ends its light on such a line. Notes say what was assumed.
 void finish_table(Distribution& table, bool halves, const TableFault& fault);
+
+/// Adds a note of the luminous flux, beside what the file states, to a table with other notes, or one that gives more
+/// light than its lamps.
+void note_flux(Distribution& table);
 
 }  // namespace vesper::photometry

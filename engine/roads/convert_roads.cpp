@@ -18,6 +18,9 @@ RoadConversion convert_roads(const std::filesystem::path& opendrive, const std::
     if (!options.luminaire.empty()) lit.luminaire = photometry::read_distribution(options.luminaire);
     const RoadNetwork network = read_opendrive(opendrive);
     LitRoads roads = io::in_file(opendrive.string(), [&] { return lit_roads(network, lit); });
+    if (lit.luminaire)
+        for (const std::string& note : lit.luminaire->notes)
+            roads.notes.push_back(one_line(options.luminaire.string()) + ": " + note);
     scene::save_gltf(roads.scene, opendrive.filename().string(), scene);
     return {std::move(roads.notes), network.notes};
 }

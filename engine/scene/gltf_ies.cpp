@@ -20,6 +20,7 @@ photometry::Distribution read_profile(GltfReader& reader, const JsonValue& profi
     photometry::Distribution made = photometry::parse_ies(bytes, profile.place());
     const std::string name = profile.text_or("name", "");
     if (!name.empty()) made.name = name;
+    for (const std::string& note : made.notes) reader.notes.add("a measured lamp: " + note);
     return made;
 }
 

@@ -2,8 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include "photometry/ies.h"
 
+#include <algorithm>
+
+#include "photometry/beam.h"
 #include "photometry/distributions.h"
 #include "support/complaints.h"
+#include "support/shared_data.h"
 #include "support/temp_folder.h"
 
 namespace vesper::test {
@@ -35,6 +39,83 @@ TEST(Ies, ReadsRotationalSymmetry) {
     EXPECT_EQ(d.lamp_flux, 0);
     ASSERT_EQ(d.metadata.size(), 2u);
     EXPECT_EQ(d.metadata[1], (std::pair<std::string, std::string>("MANUFAC", "M")));
+}
+
+/// A file of types A (3) or B (2).
+std::string file_of_type(int type, const std::string& vertical, const std::string& horizontal,
+                         const std::string& candela, const std::string& counts, const std::string& lamps = "1 -1 1") {
+    return "IESNA:LM-63-2002\nTILT=NONE\n" + lamps + " " + counts + " " + std::to_string(type) + " 2 0 0 0\n1 1 20\n" +
+           vertical + "\n" + horizontal + "\n" + candela + "\n";
+}
+
+bool is_noted(const Distribution& d, const std::string& words) {
+    return std::any_of(d.notes.begin(), d.notes.end(),
+                       [&](const std::string& note) { return note.find(words) != note.npos; });
+}
+
+// V from 0 of a luminaire that is bright there: light does not end on a line. All four quadrants are the one.
+TEST(Ies, AQuadrantOfTypesAAndBIsMirroredWhereItIsBright) {
+    for (const int type : {2, 3}) {
+        const Distribution quarter =
+            parsed_ies(file_of_type(type, "0 10 20", "0 30", "100 60 10 40 20 0", "3 2", "1 40 1"));
+        EXPECT_EQ(quarter.vertical, (std::vector<double>{-20, -10, 0, 10, 20}));
+        EXPECT_EQ(quarter.horizontal, (std::vector<double>{-30, 0, 30}));
+        EXPECT_EQ(quarter.candela, (std::vector<double>{0, 20, 40, 20, 0, 10, 60, 100, 60, 10, 0, 20, 40, 20, 0}));
+        EXPECT_TRUE(is_noted(quarter, "taken for both sides of V = 0"));
+        EXPECT_TRUE(is_noted(quarter, "taken for both sides of H = 0"));
+        EXPECT_TRUE(is_noted(quarter, " lm in all; the file states 40 lm of lamps"));
+
+        const Distribution whole = parsed_ies(
+            file_of_type(type, "-20 -10 0 10 20", "-30 0 30", "0 20 40 20 0 10 60 100 60 10 0 20 40 20 0", "5 3"));
+        EXPECT_TRUE(whole.notes.empty());
+        EXPECT_NEAR(photometry::luminous_flux(quarter), photometry::luminous_flux(whole), 1e-9);
+
+        const Distribution half = parsed_ies(file_of_type(type, "0 10 20", "-30 30", "100 60 10 40 20 0", "3 2"));
+        EXPECT_EQ(half.horizontal, (std::vector<double>{-30, 30}));
+        EXPECT_EQ(half.candela, (std::vector<double>{10, 60, 100, 60, 10, 0, 20, 40, 20, 0}));
+
+        const Distribution dark = parsed_ies(file_of_type(type, "0 10 20", "-30 30", "0 60 10 0 20 0", "3 2"));
+        EXPECT_EQ(dark.vertical, (std::vector<double>{0, 10, 20}));
+        EXPECT_TRUE(is_noted(dark, "below V = 0 there is no light"));
+    }
+    // A table that is dark below V = 0 comes back as it is.
+    Distribution bright = parsed_ies(file_of_type(2, "0 10 20", "-30 30", "0 60 10 0 20 0", "3 2"));
+    bright.candela = {100, 60, 10, 40, 20, 0};
+    const Distribution back = parsed_ies(photometry::write_ies(bright));
+    EXPECT_EQ(back.vertical.front(), -1e-3);
+    EXPECT_NEAR(photometry::luminous_flux(back), photometry::luminous_flux(bright), 1e-3);
+    for (const double v : {-5.0, 0.0, 7.0})
+        EXPECT_NEAR(photometry::intensity_at(back, 10, v), photometry::intensity_at(bright, 10, v), 1e-9) << v;
+}
+
+TEST(Ies, TheSharedQuadrantIsMirrored) {
+    const auto shared = shared_data("bugs-t3/photometry/type-b-quadrant.ies");
+    if (!is_here(shared)) GTEST_SKIP() << "no shared data";
+    const Distribution d = photometry::read_distribution(shared);
+    EXPECT_NEAR(photometry::luminous_flux(d), 2 * 1044.6, 0.2);
+}
+
+// What other programs read in another way is noted, with the light that results.
+TEST(Ies, FormsThatReadersDisagreeOnAreNoted) {
+    EXPECT_TRUE(parsed_ies(kPlainIes).notes.empty());
+    const auto c_file = [](const std::string& gammas, const std::string& planes, const std::string& candela,
+                           const std::string& counts, const std::string& lumens) {
+        return "IESNA:LM-63-2002\nTILT=NONE\n1 " + lumens + " 1 " + counts + " 1 2 0 0 0\n1 1 20\n" + gammas + "\n" +
+               planes + "\n" + candela + "\n";
+    };
+    const Distribution ends = parsed_ies(c_file("0 40 80", "0", "100 50 25", "3 1", "-1"));
+    EXPECT_TRUE(is_noted(ends, "gamma ends at 80 deg with 25 cd"));
+    EXPECT_TRUE(is_noted(ends, "states none (absolute)"));
+    EXPECT_TRUE(parsed_ies(c_file("0 40 80", "0", "100 50 1", "3 1", "-1")).notes.empty()) << "dark there";
+    const Distribution nadir = parsed_ies(c_file("0 45 90", "0 90", "100 50 0 80 40 0", "3 2", "-1"));
+    EXPECT_TRUE(is_noted(nadir, "planes differ at the nadir, from 80 to 100 cd"));
+    EXPECT_TRUE(parsed_ies(c_file("0 45 90", "0 90", "100 50 0 98 40 0", "3 2", "-1")).notes.empty());
+    const Distribution open =
+        parsed_ies(c_file("0 45 90", "0 90 180 270", "100 50 0 100 50 0 100 50 0 100 50 0", "3 4", "-1"));
+    EXPECT_TRUE(is_noted(open, "C planes end at 270 deg"));
+    const Distribution more = parsed_ies(c_file("0 45 90", "0", "100 50 25", "3 1", "200"));
+    EXPECT_TRUE(is_noted(more, "lm in all; the file states 200 lm of lamps"));
+    EXPECT_TRUE(parsed_ies(c_file("0 45 90", "0", "100 50 25", "3 1", "900")).notes.empty());
 }
 
 TEST(Ies, MultipliesByWhatTheVersionSays) {

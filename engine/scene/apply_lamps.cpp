@@ -88,10 +88,11 @@ uint32_t lamp_of(Application& application, const LampRule& rule, Profiles& profi
 }
 
 /// Puts a lamp on a node, or on a new child of it. Returns the node that has it.
-uint32_t add_lamp(Scene& scene, const LampRule& rule, uint32_t lamp, uint32_t node, glm::dvec3 scale) {
+uint32_t add_lamp(Scene& scene, const LampRule& rule, uint32_t lamp, uint32_t node, const glm::dmat4& world) {
     // A measured lamp has no name but that of its node.
     const bool named = rule.lamp.kind != Lamp::Kind::Measured || scene.nodes[node].name == rule.name;
-    const bool plain = named && !rule.aim && !rule.turn && rule.offset == glm::dvec3(0);
+    const bool turned = rule.aim || rule.turn || is_turned_down(rule, world);
+    const bool plain = named && !turned && rule.offset == glm::dvec3(0);
     if (plain && scene.nodes[node].lamp == kNone) {
         scene.nodes[node].lamp = lamp;
         return node;
@@ -100,8 +101,8 @@ uint32_t add_lamp(Scene& scene, const LampRule& rule, uint32_t lamp, uint32_t no
     child.name = rule.name;
     child.parent = node;
     child.lamp = lamp;
-    child.translation = rule.offset / scale;
-    if (rule.aim || rule.turn) child.rotation = settled_rotation(rule.turn ? *rule.turn : turn_to(*rule.aim));
+    child.translation = rule.offset / axis_lengths(world);
+    if (turned) child.rotation = settled_rotation(turn_of(rule, world));
     scene.nodes.push_back(std::move(child));
     return static_cast<uint32_t>(scene.nodes.size() - 1);
 }
@@ -114,7 +115,7 @@ void add_lamps(Application& application, const LampRule& rule, const std::vector
     if (!own && !none) fixtures = named_fixtures(application, rule, nodes);
     const uint32_t lamp = lamp_of(application, rule, profiles);
     for (size_t i = 0; i < nodes.size(); ++i) {
-        const uint32_t holder = add_lamp(application.scene, rule, lamp, nodes[i], axis_lengths(world[nodes[i]]));
+        const uint32_t holder = add_lamp(application.scene, rule, lamp, nodes[i], world[nodes[i]]);
         if (!own) application.scene.nodes[holder].fixture = fixtures[i];
     }
 }
@@ -191,6 +192,22 @@ void warn_of_mirrors(Application& application, const LampRule& rule, const std::
             "it");
 }
 
+/// Of the distribution of a rule, and of where it shines.
+void warn_of_measurement(Application& application, const LampRule& rule, const std::vector<uint32_t>& nodes,
+                         const std::vector<glm::dmat4>& world, std::set<uint32_t>& told) {
+    if (rule.lamp.kind != Lamp::Kind::Measured) return;
+    std::vector<std::string>& warnings = application.report.warnings;
+    const MeasuredLamp& lamp = application.photometry.measured[rule.lamp.distribution];
+    if (told.insert(rule.lamp.distribution).second)
+        for (const std::string& note : lamp.distribution.notes) warnings.push_back(in_quotes(lamp.file) + ": " + note);
+    const auto turned = static_cast<size_t>(
+        std::count_if(nodes.begin(), nodes.end(), [&](uint32_t node) { return is_turned_down(rule, world[node]); }));
+    if (turned > 0)
+        warnings.push_back("lamp " + in_quotes(rule.name) + ": " + number_of(turned, "node") +
+                           " with -Z more than 45 degrees from straight down: the distribution of type C shines down "
+                           "there (\"aim\" states another direction)");
+}
+
 }  // namespace
 
 void apply_lamps(Application& application) {
@@ -224,6 +241,7 @@ void apply_lamps(Application& application) {
     check_plausibility(application, lamp_nodes);
 
     Profiles profiles;
+    std::set<uint32_t> told;
     for (size_t r = 0; r < matched.size(); ++r) {
         const LampRule& rule = application.photometry.lamps[r];
         if (matched[r].empty()) {
@@ -233,6 +251,7 @@ void apply_lamps(Application& application) {
             continue;
         }
         warn_of_mirrors(application, rule, matched[r], world);
+        warn_of_measurement(application, rule, matched[r], world, told);
         add_lamps(application, rule, matched[r], world, profiles);
         application.report.changes.push_back(describe(application, rule, matched[r].size()) + fixture_text(rule));
     }

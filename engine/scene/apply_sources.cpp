@@ -8,6 +8,7 @@
 #include "base/one_line.h"
 #include "scene/apply_rules.h"
 #include "scene/lamp.h"
+#include "scene/photometry_measured.h"
 
 namespace vesper::scene {
 namespace {
@@ -36,14 +37,13 @@ double axis_intensity(const Application& application, const LampRule& rule) {
 std::vector<Placed> reported_lamps(const Application& application, const std::vector<glm::dmat4>& world,
                                    size_t rule_index) {
     const LampRule& rule = application.photometry.lamps[rule_index];
-    const dvec3 aim = rule.turn ? *rule.turn * dvec3(0, 0, -1) : rule.aim.value_or(dvec3(0, 0, -1));
     std::vector<Placed> lamps;
     for (const uint32_t node : application.lamp_nodes[rule_index]) {
         const glm::dmat4& m = world[node];
         dvec3 position(m[3]);
         for (int axis = 0; axis < 3; ++axis)
             if (glm::length(dvec3(m[axis])) > 0) position += rule.offset[axis] * glm::normalize(dvec3(m[axis]));
-        const dvec3 direction = glm::dmat3(m) * aim;
+        const dvec3 direction = glm::dmat3(m) * (turn_of(rule, m) * dvec3(0, 0, -1));
         if (glm::length(direction) > 0) lamps.push_back({node, position, glm::normalize(direction)});
     }
     return lamps;

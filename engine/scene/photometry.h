@@ -19,6 +19,7 @@ struct LampRule {
     double kelvin = 0;               ///< colour temperature, K; 0 where a colour was given
     std::optional<glm::dvec3> aim;   ///< axis of the lobe in the node's frame, unit length; -Z where missing
     std::optional<glm::dquat> turn;  ///< Measured: from the luminaire's frame to the node's, where they differ
+    bool points_down = false;        ///< Measured, type C, without a stated direction: see turn_of()
     glm::dvec3 offset{0};            ///< m, along the node's axes
     std::string fixture = "own";     ///< or "none", or a pattern for the node whose meshes never hide the lamp
     std::string fixture_place;       ///< file and JSON pointer of the line above, for messages

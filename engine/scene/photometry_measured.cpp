@@ -92,6 +92,21 @@ glm::dquat pose_of(const JsonValue& source, photometry::Goniometry goniometry) {
 
 }  // namespace
 
+bool is_turned_down(const LampRule& rule, const glm::dmat4& world) {
+    const glm::dvec3 axis(-world[2]);
+    constexpr double kMostAway = 0.70710678118654752;  // cosine of 45 degrees
+    return rule.points_down && glm::length(axis) > 0 && -axis.y < kMostAway * glm::length(axis);
+}
+
+glm::dquat turn_of(const LampRule& rule, const glm::dmat4& world) {
+    const glm::dquat stated = rule.turn ? *rule.turn : turn_to(rule.aim.value_or(glm::dvec3(0, 0, -1)));
+    if (!is_turned_down(rule, world)) return stated;
+    const glm::dmat3 axes(world);
+    if (!(std::abs(glm::determinant(axes)) > 0)) return stated;
+    const glm::dvec3 down = glm::inverse(axes) * glm::dvec3(0, -1, 0);
+    return glm::normalize(turn_to(glm::normalize(down)) * stated);
+}
+
 glm::dquat turn_to(glm::dvec3 axis) {
     const glm::dvec3 from(0, 0, -1);
     const double cosine = glm::dot(from, axis);
@@ -129,6 +144,9 @@ void read_measured(const JsonValue& source, const std::filesystem::path& folder,
     if (!std::isfinite(rule.lamp.intensity)) source.fail("the factors multiply to a number that is not finite");
     const glm::dquat pose = pose_of(source, distribution.goniometry);
     if (std::abs(pose.w) < 1 - 1e-12) rule.turn = pose;
+    const auto is_stated = [&](const char* key) { return source.find(key).has_value(); };
+    rule.points_down = distribution.goniometry == photometry::Goniometry::CGamma && !is_stated("aim") &&
+                       !is_stated("c0") && !is_stated("yaw_deg") && !is_stated("pitch_deg");
 }
 
 }  // namespace vesper::scene

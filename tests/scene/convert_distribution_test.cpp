@@ -68,6 +68,41 @@ protected:
 
 const double kDegree = std::acos(-1.0) / 180;
 
+// Type C without a direction: down where -Z is not, with C0 the shortest way; a stated direction, and -Z within 45
+// degrees of down, stay.
+TEST_F(ConvertDistributionTest, LuminairesShineDown) {
+    const auto bright = [](double c, double g) {  // a direction of the luminaire's that points down, C0 along X
+        return glm::dvec3(std::sin(g * kDegree) * std::cos(c * kDegree), -std::cos(g * kDegree),
+                          -std::sin(g * kDegree) * std::sin(c * kDegree));
+    };
+    const scene::PhotometryReport report = convert_with({street_rule()});
+    EXPECT_TRUE(mentions(report.warnings, "lamp 'street': 1 node with -Z more than 45 degrees from straight down"));
+    EXPECT_NEAR(seen({0, -1, 0}), 100, 1e-3);
+    EXPECT_NEAR(seen(bright(30, 60)), 5000, 1);
+    // Turned about the vertical: C0 goes along. Scaled, too.
+    json& node = street_.root["nodes"][1];
+    ASSERT_EQ(node["name"], "street_lamp");
+    node["rotation"] = {0, std::sin(45 * kDegree), 0, std::cos(45 * kDegree)}, node["scale"] = {2, 2, 2};
+    EXPECT_TRUE(mentions(convert_with({street_rule()}).warnings, "straight down"));
+    EXPECT_NEAR(seen(bright(120, 60)), 5000, 1) << "X of the node is -Z of the world";
+    // The node points up.
+    node["rotation"] = {std::sin(45 * kDegree), 0, 0, std::cos(45 * kDegree)};
+    convert_with({street_rule()});
+    EXPECT_NEAR(seen({0, -1, 0}), 100, 1e-3);
+    // 30 degrees from straight down: a tilt that somebody meant.
+    node["rotation"] = {-std::sin(30 * kDegree), 0, 0, std::cos(30 * kDegree)};
+    EXPECT_FALSE(mentions(convert_with({street_rule()}).warnings, "straight down"));
+    EXPECT_NEAR(seen({0, -std::cos(30 * kDegree), -std::sin(30 * kDegree)}), 100, 1e-3);
+    node.erase("rotation");
+    for (const auto& [key, value] :
+         {std::pair<const char*, json>("aim", {0, 0, -1}), {"c0", {0, 1, 0}}, {"pitch_deg", 5}, {"yaw_deg", 5}}) {
+        json stated = street_rule();
+        stated[key] = value;
+        EXPECT_FALSE(mentions(convert_with({stated}).warnings, "straight down")) << key;
+    }
+    EXPECT_FALSE(mentions(convert_with({beam_rule()}).warnings, "straight down")) << "types A and B have a front";
+}
+
 // A measured lamp has no name but its node's, and roles and factors of lamps go by the rule's.
 TEST_F(ConvertDistributionTest, LampsHaveTheNamesOfTheirRules) {
     const auto names = [&](const json& rule) {
@@ -79,7 +114,7 @@ TEST_F(ConvertDistributionTest, LampsHaveTheNamesOfTheirRules) {
         return found;
     };
     json turned = beam_rule(), named = street_rule();
-    turned["pitch_deg"] = -0.5, named["name"] = "street_lamp";
+    turned["pitch_deg"] = -0.5, named["name"] = "street_lamp", named["aim"] = {0, 0, -1};
     EXPECT_EQ(names(beam_rule()), (std::vector<std::string>{"beam", "beam"}));
     EXPECT_EQ(names(turned), (std::vector<std::string>{"beam", "beam"}));
     const size_t nodes = (names(named), converted().nodes.size());

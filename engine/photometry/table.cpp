@@ -20,6 +20,12 @@ bool same(double a, double b) { return std::abs(a - b) < kSame; }
 
 std::string number(double value) { return decimal(value, 6); }
 
+double widest_step(const std::vector<double>& angles) {
+    double widest = 0;
+    for (size_t i = 1; i < angles.size(); ++i) widest = std::max(widest, angles[i] - angles[i - 1]);
+    return widest;
+}
+
 /// All intensities at one horizontal angle, linear between those of the table.
 std::vector<double> plane_at(const Distribution& table, double angle) {
     const auto& list = table.horizontal;
@@ -82,7 +88,9 @@ bool close_planes(Distribution& table, double largest, const TableFault& fault) 
             table.candela[v] = table.candela[end + v] = (table.candela[v] + table.candela[end + v]) / 2;
         }
     } else if (same(first, 0) && last > 180 && go_round(list)) {
-        table.notes.push_back("C planes end at " + number(last) + " deg: C0 closes the circle");
+        if (360 - last > widest_step(list) + kSame)
+            table.notes.push_back("C planes end at " + number(last) +
+                                  " deg, with a gap wider than their steps: C0 closes the circle");
         list.front() = 0;
         list.push_back(360);
         table.candela.reserve(list.size() * table.vertical.size());
@@ -183,11 +191,7 @@ std::string objection_to_size(double horizontal, double vertical) {
     return {};
 }
 
-bool go_round(const std::vector<double>& planes) {
-    double widest = 0;
-    for (size_t i = 1; i < planes.size(); ++i) widest = std::max(widest, planes[i] - planes[i - 1]);
-    return 360 - planes.back() <= 1.5 * widest + kSame;
-}
+bool go_round(const std::vector<double>& planes) { return 360 - planes.back() <= 1.5 * widest_step(planes) + kSame; }
 
 void finish_table(Distribution& table, bool halves, const TableFault& fault) {
     const bool c = table.goniometry == Goniometry::CGamma, b = table.goniometry == Goniometry::TypeB;

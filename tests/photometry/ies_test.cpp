@@ -110,9 +110,10 @@ TEST(Ies, FormsThatReadersDisagreeOnAreNoted) {
     const Distribution nadir = parsed_ies(c_file("0 45 90", "0 90", "100 50 0 80 40 0", "3 2", "-1"));
     EXPECT_TRUE(is_noted(nadir, "planes differ at the nadir, from 80 to 100 cd"));
     EXPECT_TRUE(parsed_ies(c_file("0 45 90", "0 90", "100 50 0 98 40 0", "3 2", "-1")).notes.empty());
-    const Distribution open =
-        parsed_ies(c_file("0 45 90", "0 90 180 270", "100 50 0 100 50 0 100 50 0 100 50 0", "3 4", "-1"));
-    EXPECT_TRUE(is_noted(open, "C planes end at 270 deg"));
+    const std::string four_planes = "100 50 0 100 50 0 100 50 0 100 50 0";
+    EXPECT_TRUE(is_noted(parsed_ies(c_file("0 45 90", "0 100 200 250", four_planes, "3 4", "-1")),
+                         "C planes end at 250 deg, with a gap"));
+    EXPECT_TRUE(parsed_ies(c_file("0 45 90", "0 90 180 270", four_planes, "3 4", "-1")).notes.empty());
     const Distribution more = parsed_ies(c_file("0 45 90", "0", "100 50 25", "3 1", "200"));
     EXPECT_TRUE(is_noted(more, "lm in all; the file states 200 lm of lamps"));
     EXPECT_TRUE(parsed_ies(c_file("0 45 90", "0", "100 50 25", "3 1", "900")).notes.empty());

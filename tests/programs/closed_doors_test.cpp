@@ -342,6 +342,12 @@ TEST_F(ClosedDoors, RefusalsOfMergeNameFiles) {
         expect_refused("merge a.png b.png " + std::string(rest), {"a.png"});
 }
 
+// A file that a world names and that is not there is told with the world.
+TEST_F(ClosedDrive, AMissingFileIsNamedWithTheOneThatNamesIt) {
+    fs::copy_file(kData + "/rivoli/rivoli.world.json", folder / "w.json");
+    expect_refused("w.json --headless --seconds 0.1", {"w.json: ", "rivoli-drive.photometry.json: cannot be opened"});
+}
+
 TEST_F(ClosedDrive, RampsAloneAreDrivenOn) {
     folder.write("ramps.xodr", opendrive(road("1", 200, geometry(0, 0, 0, 0, 200, "<line/>"),
                                               "<laneSection s=\"0\"><center><lane id=\"0\"/></center><right>" +

@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 #include "external/lamp_name.h"
+#include "io/in_file.h"
 #include "print.h"
 #include "roads/convert_roads.h"
 #include "scene/apply_photometry.h"
@@ -126,7 +127,8 @@ Scenery::Scenery(const fs::path& file, const MessageSource& source) : source_(so
         adopt(roads.world);
     } else if (file.extension() == ".json") {
         traffic::WorldFile world = traffic::read_world(file);
-        scene::LoadedScene loaded = scene::read_lit_scene(world.scene, world.photometry);
+        scene::LoadedScene loaded =
+            io::in_file(file.string(), [&] { return scene::read_lit_scene(world.scene, world.photometry); });
         note(apps::notes_of(loaded, world.scene.string())), scene_ = std::move(loaded.scene);
         scene_.name = world.scene.string();
         draw_stationary({});

@@ -54,7 +54,7 @@ class Comparison:
     def display_light(self, source, *options):
         """cd/m^2 on a display of 1 cd/m^2: the operator's values."""
         made = self.folder / "vesper.exr"
-        run([self.vesper, "tonemap", source, "--scale", "1", "-o", made, *LOW_BLACK, *options])
+        run([self.vesper, "tonemap", source, "--unit", "1", "-o", made, *LOW_BLACK, *options])
         return (read_exr(made) - 1e-6) / (1 - 1e-6)
 
     def given(self, *options):
@@ -158,7 +158,7 @@ def compare_ward(comparison, picture, darkest):
     step = (curve[-1, 0] - curve[0, 0]) / 99
     low, high = curve[0, 0] - step / 2, curve[-1, 0] + step / 2
     made = comparison.folder / "vesper.exr"
-    run([comparison.vesper, "tonemap", source, "--scale", "1", "-o", made, "--operator", "ward", "--foveal-level", level, "--bins", "100",
+    run([comparison.vesper, "tonemap", source, "--unit", "1", "-o", made, "--operator", "ward", "--foveal-level", level, "--bins", "100",
          "--histogram-low", 10**low, "--histogram-high", 10**high, "--display-peak", "100", "--display-black", "1", "--display-ambient", "0", *human])
     shown = np.log10(read_exr(made) @ WEIGHTS).ravel()
     order = np.argsort(luminance.ravel())

@@ -77,7 +77,7 @@ class Metrics:
     def of(self, reference, test):
         files = [self.folder / name for name in ("a.exr", "b.exr", "map.exr", "found.json")]
         write_exr(files[0], reference), write_exr(files[1], test)
-        run([self.vesper, "compare", *files[:2], "--scale", "1", "--fov", DEGREES, "-o", files[2], "--json", files[3]])
+        run([self.vesper, "compare", *files[:2], "--unit", "1", "--fov", DEGREES, "-o", files[2], "--json", files[3]])
         found = json.loads(files[3].read_text())
         figures = {name: sign * (found[name] if found[name] is not None else np.inf) for name, sign in FIGURES.items()}
         maps = {"vesper": read_exr(files[2])[..., 0]}
@@ -157,7 +157,7 @@ def print_saliency(vesper, made, folder):
     for name, rgb in made:
         source, target = folder / "picture.exr", folder / "saliency.exr"
         write_exr(source, rgb)
-        run([vesper, "saliency", source, "--scale", "1", "--fov", DEGREES, "-o", target])
+        run([vesper, "saliency", source, "--unit", "1", "--fov", DEGREES, "-o", target])
         log = np.log(luminance(rgb))
         low, high = np.quantile(log, (0.001, 0.999))
         grey = (np.clip((log - low) / (high - low), 0, 1) * 255).round().astype(np.uint8)

@@ -126,7 +126,7 @@ void run(const CompareArguments& a) {
         throw Error("-o " + one_line(a.picture) + ": a .png or .exr file is expected");
     const ComparedPicture first = read_compared(a.source, a.first), second = read_compared(a.source, a.second);
     if (first.codes && second.codes && (a.source.scale.scale != "auto" || a.source.scale.exposure != 0))
-        throw Error("--scale and --exposure: PNG files have the luminance of their display");
+        throw Error("--unit and --exposure: PNG files have the luminance of their display");
     if (first.codes && second.codes && !a.source.layer.empty()) throw Error("--layer: PNG files have no layers");
     if (!first.codes && !second.codes && apps::is_given(a.source.display))
         throw Error("--display: neither picture is a PNG, whose codes it would show");

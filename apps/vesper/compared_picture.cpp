@@ -52,12 +52,12 @@ ComparedPicture luminances(const CompareSource& source, const std::string& file)
     io::HdrImage image = io::read_hdr_image(file, limits(), source.layer);
     apps::ScaleArguments scale = source.scale;
     if (image.white_luminance > 0 && scale.scale != "auto") {
-        apps::print_note(one_line(file) + ": its header names a unit, so --scale does not hold for it");
+        apps::print_note(one_line(file) + ": its header names a unit, so --unit does not hold for it");
         scale.scale = "auto";
     }
     const apps::PictureMeaning meaning = apps::meaning_of(image, {.scale = scale, .fov = source.fov});
     if (meaning.scale_source != "option" && !(image.white_luminance > 0))
-        throw Error(one_line(file) + ": its header names no unit: --scale N says how many cd/m^2 its 1.0 is");
+        throw Error(one_line(file) + ": its header names no unit: --unit N says how many cd/m^2 its 1.0 is");
     for (const std::string& note : meaning.notes) apps::print_note(one_line(file) + ": " + note);
     for (float& value : image.rgb) value *= float(meaning.scale);
     const VkExtent2D extent{image.width, image.height};

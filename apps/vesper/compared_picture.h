@@ -27,7 +27,7 @@ struct ComparedPicture {
     std::string source;                         ///< of its unit, for the report
 };
 
-/// Reads OpenEXR and Radiance files that state their unit, or for which --scale does, and PNG files as codes of the
+/// Reads OpenEXR and Radiance files that state their unit, or for which --unit does, and PNG files as codes of the
 /// display. Prints notes. Throws Error, naming the file, for others.
 ComparedPicture read_compared(const CompareSource&, const std::string& file);
 

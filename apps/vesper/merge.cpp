@@ -191,7 +191,7 @@ void run(const MergeArguments& arguments) {
     if (arguments.images.size() < 2 || arguments.images.size() > photometry::kMaxExposures)
         throw Error(std::to_string(arguments.images.size()) + " picture(s): 2 to " +
                     std::to_string(photometry::kMaxExposures) + " can be merged");
-    if (!arguments.luminance.empty() && arguments.scale > 0) throw Error("--luminance and --scale exclude one another");
+    if (!arguments.luminance.empty() && arguments.scale > 0) throw Error("--luminance and --unit exclude one another");
     if (std::filesystem::path(arguments.output).extension() != ".exr")
         throw Error("-o " + one_line(arguments.output) + ": a .exr file is expected");
     for (const std::string& image : arguments.images) io::announce_read(image);
@@ -249,7 +249,7 @@ void add_merge(apps::Command program) {
     command.add_option("--response", a->response, "Write the response to a CSV file");
     command.add_option("--luminance", a->luminance,
                        "A measured luminance: X,Y,CD_M2 or X,Y,WIDTH,HEIGHT,CD_M2 (px, from the top left)");
-    command.add_option("--scale", a->scale, "cd/m^2 per unit, from an earlier --luminance")
+    command.add_option("--unit", a->scale, "cd/m^2 per unit, from an earlier --luminance")
         .check(apps::range(1e-12, 1e12));
     command.footer(
         "Example:\n  vesper merge street-1.jpg street-2.jpg street-3.jpg --align --luminance 812,440,9,9,3.2 -o "

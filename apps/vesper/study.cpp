@@ -149,7 +149,7 @@ void add_study(Command program) {
     add_headlamps(studies);
     studies.footer(
         "Examples:\n  vesper study bins night.gltf --camera driver -o out/bins\n"
-        "  vesper study bins *.hdr --scale 179 --operator irawan -o out/bins\n"
+        "  vesper study bins *.hdr --unit 179 --operator irawan -o out/bins\n"
         "  vesper study adaptation --outside 5000 --inside 50 -o out/tunnel\n"
         "  vesper study headlamps night.gltf --camera driver --obstacle pedestrian_00 --beam low.csv -o out/beams\n");
 }

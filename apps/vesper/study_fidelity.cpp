@@ -127,7 +127,7 @@ void study_fidelity(Study& study) {
     for (const StudyPicture& picture : study.pictures)
         if (!picture.is_absolute)
             throw Error(one_line(picture.name) +
-                        ": its unit and its angle are needed: --scale N, cd/m^2 of its 1.0, and --fov DEGREES");
+                        ": its unit and its angle are needed: --unit N, cd/m^2 of its 1.0, and --fov DEGREES");
     analysis::SaliencyMapper saliency(study.device);
     const Eye eye(study, saliency);
     const vision::ScatteringEye& scatters = study.settings.scatter.eye;

@@ -82,7 +82,7 @@ double StudyPicture::luminance(size_t i) const {
     return double(scale * (shared::kRed * rgb[0] + shared::kGreen * rgb[1] + shared::kBlue * rgb[2]));
 }
 
-// No frame follows another, luminance is not shown, and --scale is the unit of a picture.
+// No frame follows another, luminance is not shown, and pictures have all their pixels.
 void add_light_options(apps::Command command, apps::SettingArguments& light, std::string& cache) {
     apps::add_quality_option(command, light);
     apps::add_setting_options(command, light, {"display_average", "scale"});

@@ -65,7 +65,7 @@ TEST_F(TonemapProgram, BrightColoursGiveWayAsAsked) {
     for (const float luminance : {0.1f, 0.4f, 1.0f}) image.rgb.insert(image.rgb.end(), {luminance / 0.212639f, 0, 0});
     write_layout(folder / "red.exr", image, {});
     const auto green_of = [&](const std::string& options) {
-        EXPECT_EQ(tonemap("red.exr --scale 1 --operator linear --linear-max 1 " + options + " -o red.png"), 0) << said;
+        EXPECT_EQ(tonemap("red.exr --unit 1 --operator linear --linear-max 1 " + options + " -o red.png"), 0) << said;
         const Image shown = png("red.png");
         EXPECT_TRUE(shown.rgba[0] > 170 && shown.rgba[0] < 190)
             << "below its own luminance red is itself: " << int(shown.rgba[0]);
@@ -87,7 +87,7 @@ TEST_F(TonemapProgram, BrightColoursGiveWayAsAsked) {
 TEST_F(TonemapProgram, OnePictureInEveryLayoutIsOnePicture) {
     const HdrImage image = street(100, 70);
     write_layout(folder / "plain.exr", image, {});
-    ASSERT_EQ(tonemap("plain.exr --scale 1 -o plain.png"), 0) << said;
+    ASSERT_EQ(tonemap("plain.exr --unit 1 -o plain.png"), 0) << said;
     // Lossless ones agree exactly. PXR24 keeps 16 bits of the mantissa; DWA is visually lossless, B44 leaves floats
     // alone; half precision and filtered chroma take up to some codes where luminance changes from pixel to pixel.
     using namespace Imf;
@@ -104,20 +104,20 @@ TEST_F(TonemapProgram, OnePictureInEveryLayoutIsOnePicture) {
                                               {{.multi_part = true}, 0}};
     for (const auto& [layout, codes] : layouts) {
         write_layout(folder / "other.exr", image, layout);
-        ASSERT_EQ(tonemap("other.exr --scale 1 -o other.png"), 0) << said;
+        ASSERT_EQ(tonemap("other.exr --unit 1 -o other.png"), 0) << said;
         EXPECT_LE(difference("plain.png", "other.png"), codes)
             << layout.compression << layout.tiles << layout.mipmap << layout.multi_part;
     }
     write_chroma(folder / "chroma.exr", image);
-    ASSERT_EQ(tonemap("chroma.exr --scale 1 -o chroma.png"), 0) << said;
+    ASSERT_EQ(tonemap("chroma.exr --unit 1 -o chroma.png"), 0) << said;
     EXPECT_LE(difference("plain.png", "chroma.png"), 8);
     write_layout(folder / "grey.exr", image, {.grey = true});
-    ASSERT_EQ(tonemap("grey.exr --scale 1 -o grey.png"), 0) << said;
+    ASSERT_EQ(tonemap("grey.exr --unit 1 -o grey.png"), 0) << said;
     const Image grey = png("grey.png");
     for (size_t i = 0; i < grey.rgba.size(); i += 4)
         ASSERT_TRUE(grey.rgba[i] == grey.rgba[i + 1] && grey.rgba[i] == grey.rgba[i + 2]);
     write_layout(folder / "window.exr", image, {.x0 = 30, .y0 = -20});
-    ASSERT_EQ(tonemap("window.exr --scale 1 -o window.png"), 0) << said;
+    ASSERT_EQ(tonemap("window.exr --unit 1 -o window.png"), 0) << said;
     const Image window = png("window.png");
     EXPECT_EQ(window.width, 100u);
     EXPECT_LE(window.rgba[4 * 10], 1) << "left of the data window";
@@ -130,10 +130,10 @@ TEST_F(TonemapProgram, TheUnitIsTheFilesOrTheOneGiven) {
     write_layout(folder / "absolute.exr", image, {.white_luminance = 250});
     ASSERT_EQ(tonemap("absolute.exr -o absolute.png -o on-display.exr"), 0);
     EXPECT_EQ(said, "");
-    ASSERT_EQ(tonemap("relative.exr --scale 250 -o scaled.png -o scaled.exr"), 0);
+    ASSERT_EQ(tonemap("relative.exr --unit 250 -o scaled.png -o scaled.exr"), 0);
     EXPECT_EQ(said, "");
-    ASSERT_EQ(tonemap("absolute.exr --scale 1 -o unscaled.png"), 0);
-    EXPECT_NE(said.find("says that 1.0 is 250 cd/m^2: --scale 1 is taken"), std::string::npos) << said;
+    ASSERT_EQ(tonemap("absolute.exr --unit 1 -o unscaled.png"), 0);
+    EXPECT_NE(said.find("says that 1.0 is 250 cd/m^2: --unit 1 is taken"), std::string::npos) << said;
     EXPECT_EQ(difference("absolute.png", "scaled.png"), 0);
     EXPECT_GT(difference("absolute.png", "unscaled.png"), 0);
     EXPECT_EQ(header("on-display.exr", "vesper:sourceScale"), "250");
@@ -158,9 +158,9 @@ TEST_F(TonemapProgram, PicturesWithoutAUnitAreScaled) {
     EXPECT_EQ(header("on-display.exr", "vesper:sourceScaleFrom"), "auto");
     EXPECT_NE(read_text(folder / "a.png").find("tEXtvesper:sourceScale" + std::string(1, 0) + number),
               std::string::npos);
-    ASSERT_EQ(tonemap("a.exr --scale " + number + " -o same.png"), 0);
+    ASSERT_EQ(tonemap("a.exr --unit " + number + " -o same.png"), 0);
     EXPECT_EQ(difference("a.png", "same.png"), 0);
-    ASSERT_EQ(tonemap("a.exr --scale auto -o same.png"), 0);
+    ASSERT_EQ(tonemap("a.exr --unit auto -o same.png"), 0);
     EXPECT_EQ(difference("a.png", "same.png"), 0);
     // Any multiple of it is the same picture, but for the seventh digit.
     HdrImage times = image;
@@ -171,7 +171,7 @@ TEST_F(TonemapProgram, PicturesWithoutAUnitAreScaled) {
     // The ldr operator takes values relative to white: they stay.
     ASSERT_EQ(tonemap("a.exr --operator ldr -o ldr.png"), 0);
     EXPECT_EQ(said, "");
-    ASSERT_EQ(tonemap("a.exr --operator ldr --scale 1 -o one.png"), 0);
+    ASSERT_EQ(tonemap("a.exr --operator ldr --unit 1 -o one.png"), 0);
     EXPECT_EQ(difference("ldr.png", "one.png"), 0);
     write_layout(folder / "black.exr", uniform(20, 20, 0), {});
     ASSERT_EQ(tonemap("black.exr -o black.png"), 0);
@@ -183,13 +183,13 @@ TEST_F(TonemapProgram, ExposureMultipliesEveryScale) {
     write_layout(folder / "b.exr", street(60, 40), {.white_luminance = 40});
     const double scale = analysis::plausible_scale(analysis::relative_luminance(street(60, 40).rgb));
     const std::pair<std::string, double> all[]{{"a.exr --exposure -1.5", scale * std::exp2(-1.5)},
-                                               {"a.exr --scale 100 --exposure 2", 400},
+                                               {"a.exr --unit 100 --exposure 2", 400},
                                                {"b.exr --exposure 1", 80},
-                                               {"b.exr --scale auto --exposure -3", 5}};
+                                               {"b.exr --unit auto --exposure -3", 5}};
     for (const auto& [arguments, wanted] : all) {
         ASSERT_EQ(tonemap(arguments + " -o out.exr -o out.png"), 0) << said;
         EXPECT_NEAR(std::stod(header("out.exr", "vesper:sourceScale")) / wanted, 1, 1e-8) << arguments;
-        ASSERT_EQ(tonemap(arguments.substr(0, 5) + format(" --scale %.9g -o given.png", wanted)), 0) << said;
+        ASSERT_EQ(tonemap(arguments.substr(0, 5) + format(" --unit %.9g -o given.png", wanted)), 0) << said;
         EXPECT_EQ(difference("out.png", "given.png"), 0) << arguments;
     }
     EXPECT_EQ(header("out.exr", "vesper:exposure"), "-3");
@@ -206,7 +206,7 @@ TEST_F(TonemapProgram, RadiancePicturesWithExposureAndInXyzStayAbsolute) {
     const std::string rgbe = "FORMAT=32-bit_rle_rgbe\n";
     EXPECT_EQ(scale_of(rgbe + "EXPOSURE=0.5\n"), "1 header");
     EXPECT_EQ(said,
-              "note: r.hdr: its header has an EXPOSURE, but no unit: taken as cd/m^2 (--scale 179 if these are "
+              "note: r.hdr: its header has an EXPOSURE, but no unit: taken as cd/m^2 (--unit 179 if these are "
               "Radiance's watts)\n");
     EXPECT_EQ(scale_of("FORMAT=32-bit_rle_xyze\n"), "1 header");
     EXPECT_EQ(said, "");
@@ -274,7 +274,7 @@ TEST_F(TonemapProgram, ViewsOfRadianceTellTheAngle) {
     const auto angle = [&](const std::string& header) {
         folder.write("v.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n" + header + "\n-Y 1 +X 2\n" +
                                   std::string(4, char(128)) + std::string(4, char(129)));
-        EXPECT_EQ(tonemap("v.hdr --scale 179 --glare cie --stats -o v.png"), 0) << said;
+        EXPECT_EQ(tonemap("v.hdr --unit 179 --glare cie --stats -o v.png"), 0) << said;
         const size_t at = printed.find("degrees)");
         return at == std::string::npos ? 0.0 : std::stod(printed.substr(printed.rfind('(', at) + 1));
     };
@@ -442,10 +442,10 @@ TEST_F(TonemapProgram, RefusesInOneLine) {
                                   "a.exr -o x.png -o x.png",
                                   "a.exr -o a.exr",
                                   "a.exr b.exr -o ./%d.exr -o a.exr",
-                                  "a.exr -o x.png --scale 0",
-                                  "a.exr -o x.png --scale nan",
-                                  "a.exr -o x.png --scale automatic",
-                                  "a.exr -o x.png --scale -3",
+                                  "a.exr -o x.png --unit 0",
+                                  "a.exr -o x.png --unit nan",
+                                  "a.exr -o x.png --unit automatic",
+                                  "a.exr -o x.png --unit -3",
                                   "a.exr -o x.png --exposure 41",
                                   "a.exr -o x.png --exposure nan",
                                   "a.exr -o x.png --fov 180",

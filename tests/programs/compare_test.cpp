@@ -104,23 +104,23 @@ TEST_F(CompareTest, RefusesPicturesWithoutAMeaning) {
                   {.width = 8193, .height = 2048, .rgb = std::vector<float>(8193 * 2048 * 3), .white_luminance = 1});
     io::write_png(folder / "small.png", 2, 2, std::vector<uint8_t>(16, 9));
     expect_refused("compare blind.exr blind.exr", {"--fov"});
-    expect_refused("compare a.exr relative.exr", {"relative.exr", "--scale"});
+    expect_refused("compare a.exr relative.exr", {"relative.exr", "--unit"});
     expect_refused("compare a.exr small.png", {"2 x 2"});
     expect_refused("compare a.exr missing.exr", {"missing.exr"});
     expect_refused("compare large.exr large.exr", {"large.exr", "pixels"});
     expect_refused("compare a.exr a.exr -o map.jpg", {"map.jpg"});
     EXPECT_EQ(run("compare blind.exr a.exr"), 0) << "one of them says it: " << said;
-    EXPECT_EQ(run("compare a.exr relative.exr --scale 2"), 0) << said;
+    EXPECT_EQ(run("compare a.exr relative.exr --unit 2"), 0) << said;
 }
 
-// --scale is for pictures whose header names no unit.
+// --unit is for pictures whose header names no unit.
 TEST_F(CompareTest, ScalesOnlyWhatHasNoUnit) {
     write("a.exr", 0), write("relative.exr", 0, true, false);
     io::HdrImage half = io::read_exr(folder / "relative.exr");
     half.header = {};
     for (float& value : half.rgb) value /= 2;
     io::write_exr(folder / "half.exr", half);
-    ASSERT_EQ(run("compare a.exr half.exr --scale 2 --json c.json"), 0) << said;
+    ASSERT_EQ(run("compare a.exr half.exr --unit 2 --json c.json"), 0) << said;
     EXPECT_EQ(figures()["largest_probability"], 0);
     EXPECT_NE(said.find("a.exr: its header names a unit"), std::string::npos) << said;
 }
@@ -198,7 +198,7 @@ TEST_F(CompareTest, SaysWhatOfAPngDoesNotCount) {
     EXPECT_NE(said.find("pq.png: its header says"), std::string::npos) << said;
     EXPECT_EQ(said.find("grey.png"), std::string::npos) << said;
     write("a.exr", 0);
-    expect_refused("compare grey.png grey.png --fov 1 --scale 2", {"--scale"});
+    expect_refused("compare grey.png grey.png --fov 1 --unit 2", {"--unit"});
     expect_refused("compare grey.png grey.png --fov 1 --layer x", {"--layer"});
     expect_refused("compare a.exr a.exr --display-peak 100", {"--display"});
 }

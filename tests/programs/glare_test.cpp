@@ -86,7 +86,7 @@ TEST_F(GlareProgram, HeadingsOfLampListsAreRead) {
     write_layout(folder / "black.exr", {16, 10, std::vector<float>(size_t{3} * 16 * 10, 0), 0, {}}, {});
     const auto veil = [&](const std::string& text) {
         write("lamps.csv", text);
-        return run("tonemap black.exr --scale 1 --fov 8 --glare cie --lamps lamps.csv -o out.exr") == 0
+        return run("tonemap black.exr --unit 1 --fov 8 --glare cie --lamps lamps.csv -o out.exr") == 0
                    ? header("out.exr", "vesper:glare:veil")
                    : said;
     };

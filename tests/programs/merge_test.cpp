@@ -59,7 +59,7 @@ TEST_F(MergeProgram, MergesJpegsByTheirExif) {
     EXPECT_EQ(merged.white_luminance, 0.0);
     EXPECT_LT(compare(merged).second, 0.05);
     EXPECT_LT(response_error(photometry::read_response(folder / "r.csv"), srgb_camera(), 1, 24, 231), 0.05);
-    ASSERT_EQ(merge("p0.jpg p1.jpg p2.jpg p3.jpg p4.jpg p5.jpg p6.jpg p7.jpg --curve r.csv --scale 2 -o b.exr"), 0)
+    ASSERT_EQ(merge("p0.jpg p1.jpg p2.jpg p3.jpg p4.jpg p5.jpg p6.jpg p7.jpg --curve r.csv --unit 2 -o b.exr"), 0)
         << said;
     const io::HdrImage again = io::read_hdr_image(folder / "b.exr");
     EXPECT_EQ(again.white_luminance, 1.0);
@@ -103,7 +103,7 @@ TEST_F(MergeProgram, RefusesInOneLine) {
                                   "q5.png q6.png -e 1,4 -o a.exr --luminance 5,5",
                                   "q5.png q6.png -e 1,4 -o a.exr --luminance 5000,5,1",
                                   "q5.png q6.png -e 1,4 -o a.exr --luminance 5.5,5,1",
-                                  "q5.png q6.png -e 1,4 -o a.exr --luminance 5,5,1 --scale 2",
+                                  "q5.png q6.png -e 1,4 -o a.exr --luminance 5,5,1 --unit 2",
                                   "p0.jpg q1.png -o a.exr"}) {
         EXPECT_EQ(merge(arguments), 2) << arguments;
         std::string lines = said;

@@ -204,7 +204,7 @@ TEST_F(StudyProgram, FidelityTellsWhatDisplaysLose) {
     expect_refused("study fidelity street.exr --fov 3 -o out --glare cie", {"--glare"});
     write_layout(folder / "relative.exr", street(), {});
     EXPECT_EQ(run("study fidelity relative.exr --fov 3 -o out"), 2) << "no unit";
-    EXPECT_NE(said.find("--scale"), std::string::npos) << said;
+    EXPECT_NE(said.find("--unit"), std::string::npos) << said;
 }
 
 TEST_F(StudyProgram, RefusesInOneLine) {
@@ -226,8 +226,8 @@ TEST_F(StudyProgram, RefusesInOneLine) {
                                   "bins a.exr -o none/x",
                                   "bins a.exr -o a.exr",
                                   "bins a.exr -o x --operator reinhard",
-                                  "bins a.exr -o x --scale 0",
-                                  "bins a.exr -o x --scale fog",
+                                  "bins a.exr -o x --unit 0",
+                                  "bins a.exr -o x --unit fog",
                                   "bins a.exr -o x --size 5",
                                   "bins a.exr -o x --device nowhere",
                                   "adaptation",

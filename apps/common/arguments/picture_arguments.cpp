@@ -86,7 +86,7 @@ void find_unit(PictureMeaning& meaning, const io::HdrImage& image, const Picture
     } else if (image.exposure != 1) {
         meaning.scale_source = "header";
         meaning.notes.emplace_back(
-            "its header has an EXPOSURE, but no unit: taken as cd/m^2 (--scale 179 if these are Radiance's watts)");
+            "its header has an EXPOSURE, but no unit: taken as cd/m^2 (--unit 179 if these are Radiance's watts)");
     } else if (request.held > 0) {
         meaning.unit = request.held, meaning.scale_source = "sequence";
     } else if (const analysis::RelativeLuminance found = analysis::relative_luminance(image.rgb);
@@ -94,7 +94,7 @@ void find_unit(PictureMeaning& meaning, const io::HdrImage& image, const Picture
         meaning.unit = analysis::plausible_scale(found), meaning.scale_source = "auto";
         meaning.scale_note = format(
             "its header names no unit: 1.0 is taken as %.6g cd/m^2, so that its log average is %.3g cd/m^2 "
-            "(--scale tells another)",
+            "(--unit tells another)",
             meaning.unit, meaning.unit * found.log_average);
     } else {
         meaning.unit = 0, meaning.scale_source = "none";
@@ -114,10 +114,10 @@ void add_scale_options(Command command, ScaleArguments& a, const char* help) {
             return sound ? std::string() : given + format(" is neither auto nor a number from %g to %g", kLeast, kMost);
         },
         "auto|N");
-    command.add_option("--scale", a.scale, help).check(scale).shows_default();
+    command.add_option("--unit", a.scale, help).check(scale).shows_default();
     command
         .add_option("--exposure", a.exposure,
-                    "Stops by which pictures are brighter than by --scale: luminance times 2^EV")
+                    "Stops by which pictures are brighter than by --unit: luminance times 2^EV")
         .check(between(-kStops, kStops))
         .shows_default();
 }
@@ -142,7 +142,7 @@ PictureMeaning meaning_of(const io::HdrImage& image, const PictureRequest& reque
         meaning.unit = std::strtod(scale.c_str(), nullptr), meaning.scale_source = "option";
         if (told > 0 && std::abs(meaning.unit - told) > 1e-6 * told)
             meaning.notes.push_back(
-                format("its header says that 1.0 is %.6g cd/m^2: --scale %.6g is taken", told, meaning.unit));
+                format("its header says that 1.0 is %.6g cd/m^2: --unit %.6g is taken", told, meaning.unit));
     }
     meaning.scale = (meaning.unit > 0 ? meaning.unit : 1) * std::exp2(request.scale.exposure);
     if (request.fov == 0) meaning.angles = edges_of(image);

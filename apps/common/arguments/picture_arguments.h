@@ -20,7 +20,7 @@ VkExtent2D parse_size(const std::string& text, unsigned least = 1, unsigned most
 constexpr const char* kLayerHelp =
     "OpenEXR: name of the layer or part to take (default: the one without a name, or the only one)";
 
-/// --scale and --exposure: the luminance that pictures are shown with.
+/// --unit and --exposure: the luminance that pictures are shown with.
 struct ScaleArguments {
     std::string scale = "auto";  ///< or cd/m^2 of a picture's 1.0
     double exposure = 0;         ///< stops that luminance is raised by

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "arguments/arguments.h"
+#include "base/one_line.h"
 #include "inspect.h"
 #include "photometry/reflection_table.h"
 #include "plot.h"

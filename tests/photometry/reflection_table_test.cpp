@@ -217,9 +217,9 @@ TEST(ReflectionTable, RefusesDamagedTablesForDialux) {
         {"RTable.v1\nmine\n2\n0\n1\n2\n0\n90\n0.07\n3\n2\n3\n1\n", "beta must ascend from 0 to 180"},
         {"RTable.v1\nmine\n2\n0\n1\n2\n0\n180\n0.07\n0.03\n0.02\n0.03\n0.01\n", "no value reaches 1"},
         {"RTable.v1", "is missing"}};
-    for (const auto& [text, reason] : cases) {
-        const std::string said = complaint_of([&] { parse(text); });
-        EXPECT_TRUE(contains(said, reason)) << text;
+    for (const auto& each : cases) {
+        const std::string said = complaint_of([&] { parse(each.first); });
+        EXPECT_TRUE(contains(said, each.second)) << each.first;
     }
 }
 

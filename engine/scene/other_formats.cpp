@@ -6,7 +6,7 @@
 namespace vesper::scene {
 namespace {
 
-using std::string_view_literals::operator""sv;
+using namespace std::string_view_literals;
 
 /// The start of a file, and what is known beside it.
 struct Start {

@@ -21,6 +21,12 @@ TEST(Pace, OffersTheNextFasterSetWherePicturesAreSlow) {
     EXPECT_EQ(pace.offer(Quality::Standard), Quality::Interactive);
     EXPECT_EQ(pace.offer(Quality::Interactive), Quality::Fast);
     EXPECT_FALSE(pace.offer(Quality::Fast)) << "nothing is faster";
+    EXPECT_FALSE(pace.crawls());
+    show(pace, 3.5, 4);
+    EXPECT_TRUE(pace.crawls());
+    show(pace, 4.5, 5);
+    EXPECT_FALSE(pace.crawls());
+    EXPECT_TRUE(pace.is_slow());
 }
 
 TEST(Pace, IsTheMeanOfAStretch) {

@@ -9,7 +9,7 @@ void Pace::add(double seconds) {
     }
     seconds_ += seconds, ++pictures_;
     if (seconds_ < kStretch) return;
-    slow_ = double(pictures_) < kSlow * seconds_;
+    slow_ = double(pictures_) < kSlow * seconds_, crawls_ = double(pictures_) < kCrawl * seconds_;
     seconds_ = 0, pictures_ = 0;
 }
 

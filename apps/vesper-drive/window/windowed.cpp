@@ -351,7 +351,10 @@ std::string WindowedDrive::standing_message() const {
 std::string WindowedDrive::offer() const {
     const bool limited = arguments_.limit > 0 && arguments_.limit < Pace::kSlow, gathers = light_ && !light_->done();
     const auto faster = pace_.offer(render::quality_named(session_->settings().quality()));
-    if (limited || gathers || !faster) return {};
+    if (limited || gathers) return {};
+    if (!faster && pace_.crawls())
+        return format("fewer than %.0f pictures/s: a smaller --size or --scale, or --shadows off", Pace::kCrawl);
+    if (!faster) return {};
     return format("fewer than %.0f pictures/s: T takes quality %s", Pace::kSlow,
                   std::string(render::kQualityNames[size_t(*faster)]).c_str());
 }

@@ -164,6 +164,10 @@ void read_emission(GltfReader& reader, Properties& p) {
         p.made.emission_texture = read_place(reader, *texture, p.emission_uv);
     else
         p.made.emission_texture = read_texture(reader, *texture, p.emission_uv);
+    if (p.made.emission == glm::vec3(0) || p.made.emission_texture.image != kNone) return;
+    // Its whole surface would shine where the picture may light a window.
+    p.made.emission = glm::vec3(0);
+    reader.notes.add("a material whose picture of emission cannot be read emits nothing");
 }
 
 bool transmits(const JsonValue& material) {

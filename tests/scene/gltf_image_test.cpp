@@ -53,6 +53,18 @@ TEST(GltfImage, AMissingRoughnessMakesNoMetal) {
     }
 }
 
+// A lit window must not become a wall of light.
+TEST(GltfImage, AMissingPictureOfEmissionEmitsNothing) {
+    GltfFile file = with_picture("gone.png", {1, 1, 1, 1});
+    json& material = file.root["materials"][0];
+    material["emissiveFactor"] = {1, 0.5, 0}, material["emissiveTexture"] = {{"index", 0}};
+    const scene::LoadedScene loaded = file.read();
+    EXPECT_EQ(loaded.scene.materials.at(0).emission, glm::vec3(0));
+    EXPECT_TRUE(mentions(loaded.notes, "emits nothing"));
+    material.erase("emissiveTexture");
+    EXPECT_EQ(file.read().scene.materials.at(0).emission, glm::vec3(1, 0.5f, 0));
+}
+
 TEST(GltfImage, RequiredFormatsOfPicturesRefuseNoScene) {
     for (const char* extension : {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds"}) {
         GltfFile file = with_picture("gone.ktx2", {0.3, 0.3, 0.3, 1});

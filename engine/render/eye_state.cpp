@@ -27,18 +27,18 @@ struct Range {
     double low, high;
     const char* unit;
 };
-constexpr Range kOfEye[]{{offsetof(shared::EyeState, adaptation), kDarkest, kBrightest, " cd/m^2"},
-                         {offsetof(shared::EyeState, seconds), 0, shared::kLongestLife, " s"},
-                         {offsetof(shared::EyeState, pupil), 1.9, 7.9, " mm"},
-                         {offsetof(shared::EyeState, cones.pigment), kLeastPigment, 1, ""},
-                         {offsetof(shared::EyeState, cones.fast), -kFactor, kFactor, ""},
-                         {offsetof(shared::EyeState, cones.slow), -kFactor, kFactor, ""},
-                         {offsetof(shared::EyeState, rods.pigment), kLeastPigment, 1, ""},
-                         {offsetof(shared::EyeState, rods.fast), -kFactor, kFactor, ""},
-                         {offsetof(shared::EyeState, rods.slow), -kFactor, kFactor, ""},
-                         {offsetof(shared::EyeState, chroma.x), -kChroma, kChroma, ""},
-                         {offsetof(shared::EyeState, chroma.y), -kChroma, kChroma, ""},
-                         {offsetof(shared::EyeState, chroma.z), -kChroma, kChroma, ""}};
+const Range kOfEye[]{{offsetof(shared::EyeState, adaptation), kDarkest, kBrightest, " cd/m^2"},
+                     {offsetof(shared::EyeState, seconds), 0, shared::kLongestLife, " s"},
+                     {offsetof(shared::EyeState, pupil), 1.9, 7.9, " mm"},
+                     {offsetof(shared::EyeState, cones.pigment), kLeastPigment, 1, ""},
+                     {offsetof(shared::EyeState, cones.fast), -kFactor, kFactor, ""},
+                     {offsetof(shared::EyeState, cones.slow), -kFactor, kFactor, ""},
+                     {offsetof(shared::EyeState, rods.pigment), kLeastPigment, 1, ""},
+                     {offsetof(shared::EyeState, rods.fast), -kFactor, kFactor, ""},
+                     {offsetof(shared::EyeState, rods.slow), -kFactor, kFactor, ""},
+                     {offsetof(shared::EyeState, chroma.x), -kChroma, kChroma, ""},
+                     {offsetof(shared::EyeState, chroma.y), -kChroma, kChroma, ""},
+                     {offsetof(shared::EyeState, chroma.z), -kChroma, kChroma, ""}};
 constexpr Range kOfLag[]{
     {offsetof(shared::EyeState, pattanaik.cones), kDarkest, kBrightest, " cd/m^2"},
     {offsetof(shared::EyeState, pattanaik.rods), kDarkest / kScotopic, kScotopic* kBrightest, " scotopic cd/m^2"},

@@ -150,7 +150,7 @@ VisibleDifferences visible_differences(const PicturePair& pair, const ContrastEy
     found.probability.resize(summed.size());
     in_parallel(summed.size(), kSamplesAtATime, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
-            // What is summed there from afar does not count.
+            // Energy that is summed from afar does not count.
             const double contrast = std::min(std::sqrt(summed[i]), kMostGain * double(around[i]));
             found.probability[i] = contrast < kLeast ? 0 : float(detection_probability(power_of_contrast(contrast)));
         }

@@ -42,7 +42,7 @@ struct Channel {
 };
 
 /// The most pixels of pictures that are compared, times VESPER_LIMITS. With their margins, which are 2 degrees and at
-/// most half the picture on each side, they have at most twice as many, of 128 bytes each.
+/// most half the picture on each side, they have at most twice as many, of 160 bytes each.
 constexpr uint64_t kMostChannelPixels = uint64_t{1} << 24;
 
 /// Calls `visit` with each channel, from coarse to fine: the frequencies below all octaves, each octave in four

@@ -32,7 +32,7 @@ TEST(EdgeLines, WideTexelsHaveTheLinesOfTheReference) {
             },
             {.zoom = zoom, .flat = flat});
         const std::vector<glm::vec4> whole = wall.render(rig, false), got = wall.render(rig, true);
-        const auto [width, height] = wall.view.extent;
+        const uint32_t width = wall.view.extent.width, height = wall.view.extent.height;
         size_t compared = 0, between = 0, agreed = 0, wrong = 0;
         for (uint32_t block = 0; block < (width / 8) * (height / 8); ++block) {
             const glm::uvec2 corner(block % (width / 8) * 8, block / (width / 8) * 8);

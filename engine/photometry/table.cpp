@@ -217,6 +217,8 @@ void finish_table(Distribution& table, bool halves, const TableFault& fault) {
     const double range = table.horizontal.back() - table.horizontal.front();
     const bool below = halves && is_bright_from_zero(table, largest);
     const size_t copies = !c || table.horizontal.size() == 1 || range > 181 ? 1 : range > 91 ? 2 : 4;
+    if (below && 2 * table.vertical.size() > kMaxAngles)
+        fault(TablePart::Vertical, "more than " + std::to_string(kMaxAngles) + " vertical angles on both sides of 0");
     if (copies * (below ? 2 : 1) * table.candela.size() > kMaxCells)
         fault(TablePart::Horizontal, "more than " + std::to_string(kMaxCells) + " intensities, symmetry expanded");
     if (c && !close_planes(table, largest, fault))

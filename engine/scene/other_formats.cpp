@@ -6,7 +6,11 @@
 namespace vesper::scene {
 namespace {
 
-using namespace std::string_view_literals;
+/// A text with the zeros in it.
+template <size_t N>
+constexpr std::string_view raw(const char (&text)[N]) {
+    return {text, N - 1};
+}
 
 /// The start of a file, and what is known beside it.
 struct Start {
@@ -35,7 +39,7 @@ std::string_view first_statement(std::string_view text, char mark) {
 }
 
 bool is_obj(const Start& s) {
-    if (s.has("\0"sv)) return false;
+    if (s.has(raw("\0"))) return false;
     const std::string_view line = first_statement(s.bytes, '#');
     if (line.empty()) return s.ending == ".obj" && !s.bytes.empty();
     const std::string_view word = line.substr(0, line.find_first_of(" \t"));
@@ -49,10 +53,10 @@ bool is_fbx(const Start& s) {
            first_statement(s.bytes, ';').starts_with("FBXHeaderExtension");
 }
 
-bool is_compressed(const Start& s) { return s.is("\x28\xb5\x2f\xfd"sv) || s.is("\x1f\x8b"sv); }
+bool is_compressed(const Start& s) { return s.is(raw("\x28\xb5\x2f\xfd")) || s.is(raw("\x1f\x8b")); }
 bool is_blend(const Start& s) { return s.is("BLENDER") || (is_compressed(s) && s.ending == ".blend"); }
 
-bool is_zip(const Start& s) { return s.is("PK\x03\x04"sv); }
+bool is_zip(const Start& s) { return s.is(raw("PK\x03\x04")); }
 bool is_usd(const Start& s) {
     if (s.is("#usda") || s.is("PXR-USDC")) return true;
     const size_t name = s.byte(26) | s.byte(27) << 8;  // its length: the first file in it must be the layer
@@ -64,13 +68,13 @@ bool is_flt(const Start& s) {
     constexpr uint32_t kShortest = 128, kLongest = 1024, kOldest = 1100, kNewest = 9999;
     const uint32_t length = s.byte(2) << 8 | s.byte(3);
     const uint32_t revision = s.byte(12) << 24 | s.byte(13) << 16 | s.byte(14) << 8 | s.byte(15);
-    return s.is("\0\1"sv) && length >= kShortest && length <= kLongest && revision <= kNewest &&
+    return s.is(raw("\0\1")) && length >= kShortest && length <= kLongest && revision <= kNewest &&
            (revision >= kOldest || s.ending == ".flt");
 }
 
 bool is_osg(const Start& s) {
-    return s.is("\xa1\x0e\x91\x6c\x45\x45\xfb\x1a"sv) || s.is("\x6c\x91\x0e\xa1\x1a\xfb\x45\x45"sv) ||
-           s.is("#Ascii Scene") || s.is("\x04\x03\x02\x01"sv) || s.is("\x01\x02\x03\x04"sv);
+    return s.is(raw("\xa1\x0e\x91\x6c\x45\x45\xfb\x1a")) || s.is(raw("\x6c\x91\x0e\xa1\x1a\xfb\x45\x45")) ||
+           s.is("#Ascii Scene") || s.is(raw("\x04\x03\x02\x01")) || s.is(raw("\x01\x02\x03\x04"));
 }
 
 bool is_3ds(const Start& s) {

@@ -3,6 +3,7 @@
 #include "photometry/ies.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "photometry/beam.h"
 #include "photometry/distributions.h"
@@ -93,6 +94,12 @@ TEST(Ies, TheSharedQuadrantIsMirrored) {
     if (!is_here(shared)) GTEST_SKIP() << "no shared data";
     const Distribution d = photometry::read_distribution(shared);
     EXPECT_NEAR(photometry::luminous_flux(d), 2 * 1044.6, 0.2);
+    // On a wall at 5 m: lx at (x, y), m.
+    const glm::dvec3 wanted[]{{0, 0, 40.00}, {1, 1, 32.78}, {1, -1, 32.78}, {0, -2, 25.53}, {-2, -1, 26.54}};
+    for (const glm::dvec3& each : wanted) {
+        const glm::dvec3 way(each.x, each.y, -5);
+        EXPECT_NEAR(photometry::intensity(d, way) * 5 / std::pow(glm::length(way), 3), each.z, 0.006) << each.x;
+    }
 }
 
 // What other programs read in another way is noted, with the light that results.

@@ -146,7 +146,7 @@ void read_measured(const JsonValue& source, const std::filesystem::path& folder,
     if (std::abs(pose.w) < 1 - 1e-12) rule.turn = pose;
     const auto is_stated = [&](const char* key) { return source.find(key).has_value(); };
     rule.points_down = distribution.goniometry == photometry::Goniometry::CGamma && !is_stated("aim") &&
-                       !is_stated("c0") && !is_stated("yaw_deg") && !is_stated("pitch_deg");
+                       !is_stated("yaw_deg") && !is_stated("pitch_deg");
 }
 
 }  // namespace vesper::scene

@@ -79,6 +79,10 @@ TEST_F(ConvertDistributionTest, LuminairesShineDown) {
     EXPECT_TRUE(mentions(report.warnings, "lamp 'street': 1 node with -Z more than 45 degrees from straight down"));
     EXPECT_NEAR(seen({0, -1, 0}), 100, 1e-3);
     EXPECT_NEAR(seen(bright(30, 60)), 5000, 1);
+    json along = street_rule();
+    along["c0"] = {1, 0, 0};  // no direction of the light
+    EXPECT_TRUE(mentions(convert_with({along}).warnings, "straight down"));
+    EXPECT_NEAR(seen(bright(30, 60)), 5000, 1);
     // Turned about the vertical: C0 goes along. Scaled, too.
     json& node = street_.root["nodes"][1];
     ASSERT_EQ(node["name"], "street_lamp");
@@ -95,7 +99,7 @@ TEST_F(ConvertDistributionTest, LuminairesShineDown) {
     EXPECT_NEAR(seen({0, -std::cos(30 * kDegree), -std::sin(30 * kDegree)}), 100, 1e-3);
     node.erase("rotation");
     for (const auto& [key, value] :
-         {std::pair<const char*, json>("aim", {0, 0, -1}), {"c0", {0, 1, 0}}, {"pitch_deg", 5}, {"yaw_deg", 5}}) {
+         {std::pair<const char*, json>("aim", {0, 0, -1}), {"pitch_deg", 5}, {"yaw_deg", 5}}) {
         json stated = street_rule();
         stated[key] = value;
         EXPECT_FALSE(mentions(convert_with({stated}).warnings, "straight down")) << key;

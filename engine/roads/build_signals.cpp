@@ -19,8 +19,9 @@ constexpr float kLensCandela = 200;  // cd
 /// Lower edges where the file states none. Traffic lights: RiLSA 2015; signs: VwV-StVO to §§ 39 to 43, III 13.
 constexpr double kLightBeside = 2.1, kSignBeside = 2.0, kOverLanes = 4.5;  // m
 constexpr double kNoOffset = 0.05;                                         // m
-constexpr double kWithPole = 1.8;   // m; the stated height of higher ones is that of their pole
-constexpr double kSmallLens = 0.1;  // m, where the housing is small
+/// The stated height of slender signals that are higher is that of their pole.
+constexpr double kWithPole = 1.8, kPoleSlender = 2;  // m; of the width
+constexpr double kSmallLens = 0.1;                   // m, where the housing is small
 
 uint32_t lens_light(RoadBuild& build, const char* name, glm::vec3 colour, double diameter) {
     for (uint32_t i = 0; i < build.scene.lamps.size(); ++i)
@@ -43,6 +44,12 @@ struct SignalBuilder {
 
     bool is_over_lane(const RoadSignal& s) const { return is_lane_below(build, road, s.s, s.t); }
 
+    /// Lights whose id another one has are numbered: "signal_7", "signal_7#2".
+    std::string own_name(const std::string& name) {
+        size_t& count = build.lights_named[name];
+        return ++count == 1 ? name : name + "#" + std::to_string(count);
+    }
+
     /// +x is where the signal looks.
     BodyFrame frame_of(const RoadSignal& s) const {
         const BodyFrame frame = frame_at(road, s.s, s.t, s.z_offset);
@@ -54,7 +61,7 @@ struct SignalBuilder {
     RoadSignal mounted(RoadSignal s, double height, double beside, bool over_lane) {
         if (std::abs(s.z_offset) > kNoOffset || stands_on_ground(s)) return s;
         ++raised;
-        if (s.height > kWithPole)
+        if (s.height > kWithPole && s.height > kPoleSlender * s.width)
             s.z_offset += s.height - height, s.height = height;
         else
             s.z_offset = over_lane ? kOverLanes : beside;
@@ -94,7 +101,7 @@ struct SignalBuilder {
         mesh.quad(RoadMaterial::Housing, frame.at(0, -width / 2, 0), frame.at(-depth, -width / 2, 0),
                   frame.at(-depth, width / 2, 0), frame.at(0, width / 2, 0));
         carry(s, frame.moved(-depth, 0, 0), width, height, over_lane);
-        const std::string name = "signal_" + s.id;
+        const std::string name = own_name("signal_" + s.id);
         build.phases[name] = phase;
         const SignalAspect aspect = aspect_of(build.options.signals, phase, build.options.signal_time, on_foot);
         const auto lamp = [&](const char* colour, SignalAspect shown, glm::vec3 rgb, int place) {
@@ -162,6 +169,11 @@ void build_signals(RoadBuild& build) {
     if (raised > 0)
         build.notes.push_back("signals at zOffset 0: " + std::to_string(raised) +
                               ", mounted as usual: lights 2.1 m, signs 2 m, over lanes 4.5 m above the road");
+    size_t twice = 0;
+    for (const auto& [name, count] : build.lights_named) twice += count - 1;
+    if (twice > 0)
+        build.notes.push_back("traffic lights with the id of another: " + std::to_string(twice) +
+                              ", their lenses are numbered");
     supports.add_arms(mesh);
     mesh.place(build.scene, build.materials, "arms of signals");
     if (signs + lamps > 0)

@@ -20,8 +20,9 @@ struct RoadBuild {
     Ground ground{};
     std::vector<std::string> notes{};
     std::map<std::string, SignalPhase> phases{};
-    std::map<std::string, size_t> dark_poles{};  ///< poles that are no lamps, by name
-    std::map<std::string, size_t> shapeless{};   ///< stencils whose paint is not known, by name
+    std::map<std::string, size_t> lights_named{};  ///< traffic lights of that id: 1 where the file is well-formed
+    std::map<std::string, size_t> dark_poles{};    ///< poles that are no lamps, by name
+    std::map<std::string, size_t> shapeless{};     ///< stencils whose paint is not known, by name
 };
 
 /// One lane at one station.

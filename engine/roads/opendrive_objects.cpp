@@ -201,8 +201,13 @@ void read_signals(OpenDriveReader& reader, const XmlElement& element, Road& road
         signal.roll = each.number_or("roll", 0);
         signal.orientation = orientation_of(each);
         signal.width = size_of(each, "width"), signal.height = size_of(each, "height");
+        const double counts_at = signal.s;
         const auto [stands_on, where] = place_of(reader, each, road, signal);
         check_on_road(reader, where, *stands_on);
+        if (stands_on != &road) {
+            signal.counts_on = static_cast<uint32_t>(&road - reader.network.roads.data());
+            signal.counts_at = counts_at;
+        }
         stands_on->signals.push_back(std::move(signal));
     }
 }

@@ -184,6 +184,8 @@ struct RoadSignal {
     double heading = 0, pitch = 0, roll = 0;
     char orientation = '0';  ///< '+': for traffic in direction +s, which it faces; '-': against it
     double width = 0, height = 0;
+    uint32_t counts_on = kNoRoad;  ///< the road whose traffic it is for, if it stands beside another
+    double counts_at = 0;          ///< m along that road
 };
 
 struct Road {

@@ -21,9 +21,10 @@ struct SignalPhase {
 SignalAspect aspect_at(const SignalPhase&, double time);
 
 /// A plan for all traffic lights of a network. Lights of one controller, and lights of one road that face the same way,
-/// are alike. In a junction two of them are green together only if no way of one comes within 2.5 m of a way of the
-/// other. People on foot have green alone. A light without another one to yield to waits for a stage of the same
-/// length.
+/// are alike; heads behind a junction, whose ways the file does not say, go with the road that faces nearest to theirs.
+/// In a junction two of them are green together only if no way of one comes within 2.5 m of a way of the other, or both
+/// begin on one road. People on foot have green alone. A light without another one to yield to waits for a stage of the
+/// same length.
 class SignalPlan {
 public:
     SignalPlan(const RoadNetwork&, const LaneGraph&);

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "places.h"
+#include "roads/crossing_text.h"
 #include "roads/opendrive.h"
 #include "session/road_world.h"
 #include "session/scenery.h"
@@ -212,6 +213,29 @@ TEST(RoadDrive, TrafficLightsChangeByThemselves) {
     EXPECT_EQ(lit(46), (std::vector<int>{2, 1, 0}));
     EXPECT_EQ(lit(49), (std::vector<int>{3, 0, 0}));
     EXPECT_EQ(lit(51), (std::vector<int>{1, 0, 2}));
+}
+
+// A record that does not speak of lights: one lens a head, as the plan has it at the beginning.
+TEST(RoadDrive, TrafficLightsOfARecordWithoutThemStay) {
+    const TempFolder folder;
+    std::string rows = "time, id, name, x, y, z, h, p, r, speed, wheel_angle, wheel_rot\n";
+    for (int i = 0; i < 20; ++i)
+        rows += std::to_string(i * 2) + ", 0, Car, " + std::to_string(-60 + i) + ", -1.75, 0, 0, 0, 0, 1, 0, 0\n";
+    const drive::Scenery scenery(folder.write("roads.xodr", opendrive(crossing_text(false))),
+                                 run_of(folder.write("run.csv", rows)));
+    const traffic::World world(scenery.world(), 1);
+    for (const double seconds : {0.0, 30.0}) {
+        std::map<std::string, int> count;
+        drive::ExternalState nobody;
+        nobody.seconds = seconds;
+        const gpu_scene::SceneFrame frame = scenery.frame(world.actors(), drive::DriveSettings(), nobody);
+        for (size_t i = 0; i < scenery.scene().nodes.size(); ++i) {
+            const scene::Node& node = scenery.scene().nodes[i];
+            if (node.lamp != scene::kNone && frame.dimming[i] > 0) ++count[scenery.scene().lamps[node.lamp].name];
+        }
+        EXPECT_EQ(count["red signal"], 4) << seconds;
+        EXPECT_EQ(count["green signal"], 4) << seconds;
+    }
 }
 
 class RoadDriveProgram : public ProgramTest {

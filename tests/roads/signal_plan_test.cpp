@@ -1,4 +1,5 @@
 // Plans of traffic lights: one lens each, and no two crossing ways green together. SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -78,6 +79,103 @@ TEST(SignalPlans, SeparateOppositeWaysThatCross) {
         EXPECT_EQ(lit.at("signal_W1"), lit.at("signal_E2")) << time;
         EXPECT_EQ(lit.at("signal_W2"), lit.at("signal_E1")) << time;
     }
+}
+
+size_t index_of(const roads::RoadNetwork& network, const std::string& id) {
+    const auto found = std::ranges::find(network.roads, id, &roads::Road::id);
+    EXPECT_NE(found, network.roads.end()) << id;
+    return static_cast<size_t>(found - network.roads.begin());
+}
+
+/// Seconds of 100 in which the first is green, and in which all of them are.
+std::pair<int, int> greens(const roads::RoadNetwork& network, const std::vector<std::string>& signals) {
+    const std::map<std::string, roads::SignalPhase> phases = roads::lit_roads(network, {.every_lens = true}).phases;
+    int first = 0, all = 0;
+    for (double time = 0.5; time < 100; time += 1) {
+        const auto is_green = [&](const std::string& name) {
+            return roads::aspect_at(phases.at(name), time) == SignalAspect::Green;
+        };
+        first += is_green(signals[0]), all += std::ranges::all_of(signals, is_green);
+    }
+    return {first, all};
+}
+
+// Heads on the far side, turned step by step from the way of W to that of S, join neither to the other.
+TEST(SignalPlans, HeadsBehindAJunctionJoinNoWaysThatCross) {
+    roads::RoadNetwork network = network_of(crossing_text(false));
+    for (const char* road : {"E", "N"})
+        for (int k = 0; k < 4; ++k) {
+            std::vector<roads::RoadSignal>& signals = network.roads[index_of(network, road)].signals;
+            roads::RoadSignal far = signals[0];
+            far.id = "far " + std::string(road) + std::to_string(k), far.t = -5, far.orientation = '+';
+            far.heading = (road[0] == 'E' ? 0.5 : -0.5) * k;
+            signals.push_back(far);
+        }
+    EXPECT_EQ(greens(network, {"signal_W1", "signal_S1"}), (std::pair{40, 0}));
+    EXPECT_EQ(greens(network, {"signal_W1", "signal_far E0"}), (std::pair{40, 40}));
+    EXPECT_EQ(greens(network, {"signal_S1", "signal_far N0"}), (std::pair{40, 40}));
+}
+
+// Each way has a light of its own: those from one road go together, though they begin at one point.
+TEST(SignalPlans, WaysFromOneRoadDoNotConflict) {
+    roads::RoadNetwork network = network_of(crossing_text(true));
+    const roads::RoadSignal head = network.roads[index_of(network, "W")].signals[0];
+    for (roads::Road& road : network.roads) {
+        road.signals.clear();
+        if (road.junction == roads::kNoRoad) continue;
+        roads::RoadSignal own = head;
+        own.id = road.id, own.s = 0.5, own.t = -1.75, own.orientation = '+';
+        road.signals.push_back(own);
+    }
+    // Ways c0, c2, c4, c6 from E, N, W, S lead straight on; the next of each to the left.
+    for (const auto& [straight, left] : {std::pair{"c0", "c1"}, {"c2", "c3"}, {"c4", "c5"}, {"c6", "c7"}}) {
+        const auto [first, both] = greens(network, {"signal_" + std::string(straight), "signal_" + std::string(left)});
+        EXPECT_GT(first, 0) << straight;
+        EXPECT_EQ(both, first) << straight;
+    }
+    EXPECT_EQ(greens(network, {"signal_c0", "signal_c2"}).second, 0);
+    EXPECT_EQ(greens(network, {"signal_c0", "signal_c5"}).second, 0) << "to the left across oncoming cars";
+}
+
+// A light that stands beside another road is for the one that states it.
+TEST(SignalPlans, CountWhereTheyAreStated) {
+    std::string text = crossing_text(false);
+    const size_t at = text.find("<signal id=\"W1\""), end = text.find("/>", at);
+    text.replace(end, 2, "><positionRoad roadId=\"S\" s=\"2.2\" t=\"3\" zOffset=\"5.3\"/></signal>");
+    const roads::RoadNetwork network = network_of(text);
+    EXPECT_TRUE(network.notes.empty()) << network.notes[0];
+    EXPECT_EQ(network.roads[index_of(network, "S")].signals.size(), 3u);
+    EXPECT_EQ(greens(network, {"signal_W1", "signal_W2"}), (std::pair{40, 40}));
+    EXPECT_EQ(greens(network, {"signal_W1", "signal_S1"}), (std::pair{40, 0}));
+}
+
+TEST(SignalPlans, LightsOfOneIdAreNumbered) {
+    roads::RoadNetwork network = network_of(crossing_text(false));
+    for (const char* road : {"W", "S"}) network.roads[index_of(network, road)].signals[0].id = "7";
+    // Roads come in the order E, N, W, S.
+    EXPECT_EQ(greens(network, {"signal_7", "signal_7#2"}), (std::pair{40, 0}));
+    EXPECT_EQ(greens(network, {"signal_7", "signal_W2"}), (std::pair{40, 40}));
+    EXPECT_EQ(greens(network, {"signal_7#2", "signal_S2"}), (std::pair{40, 40}));
+    const roads::LitRoads lit = roads::lit_roads(network, {.every_lens = true});
+    EXPECT_EQ(lit.phases.size(), 8u);
+    EXPECT_TRUE(std::ranges::any_of(lit.notes, [](const std::string& note) {
+        return note.starts_with("traffic lights with the id of another: 1,");
+    }));
+}
+
+// A million controls of one signal are one.
+TEST(SignalPlans, RepeatsOfAControllerAreOne) {
+    roads::RoadNetwork network = network_of(crossing_text(false));
+    network.controllers.resize(40'000);
+    for (size_t i = 0; i < network.controllers.size(); ++i) {
+        network.controllers[i].id = i % 2 == 0 ? "a" : "b";
+        network.controllers[i].signals.assign(25, i % 2 == 0 ? "W1" : "S1");
+    }
+    for (const char* road : {"W", "S"}) {
+        std::vector<roads::RoadSignal>& signals = network.roads[index_of(network, road)].signals;
+        signals.resize(100, signals[0]);
+    }
+    EXPECT_EQ(greens(network, {"signal_W1", "signal_S1"}), (std::pair{40, 0}));
 }
 
 TEST(SignalPlans, AreReplacedByAChosenState) {

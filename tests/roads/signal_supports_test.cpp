@@ -127,20 +127,26 @@ TEST(SignalSupports, WithoutAnOffsetAreMountedAsUsual) {
     EXPECT_NEAR(red(head("10", -11.5, 0, "height=\"0.9\" width=\"0.3\"")), 2.1 + 0.75, 1e-3);
     EXPECT_NEAR(red(head("10", -5, 0, "height=\"0.9\" width=\"0.3\"")), 4.5 + 0.75, 1e-3);
     EXPECT_NEAR(red(head("10", -11.5, 0, "height=\"5\" width=\"0.3\"")), 5 - 0.15, 1e-3) << "with its pole";
-    const auto lower_edge = [](const std::string& type) {
-        double low = 1e9;
+    const auto edges = [](const std::string& type, const std::string& size) {
+        double low = 1e9, high = 0;
         for (const Triangle& triangle :
              triangles_of(lit_of(three_lanes("",
-                                             "<signal id=\"1\" s=\"50\" t=\"-12\" zOffset=\"0\" dynamic=\"no\" "
-                                             "orientation=\"+\" country=\"DE\" width=\"0.6\" height=\"0.6\" type=\"" +
-                                                 type + "\"/>"))
+                                             "<signal id=\"1\" s=\"50\" t=\"-14\" zOffset=\"0\" dynamic=\"no\" "
+                                             "orientation=\"+\" country=\"DE\" type=\"" +
+                                                 type + "\" " + size + "/>"))
                               .scene,
                           "sign white"))
-            for (const glm::dvec3& c : triangle.corners) low = std::min(low, c.y);
-        return low;
+            for (const glm::dvec3& c : triangle.corners) low = std::min(low, c.y), high = std::max(high, c.y);
+        return std::pair(low, high);
     };
-    EXPECT_GT(lower_edge("209"), 1.99);
-    EXPECT_LT(lower_edge("605"), 0.1) << "beacons stand on the ground";
+    const std::string small = "width=\"0.6\" height=\"0.6\"";
+    EXPECT_GT(edges("209", small).first, 1.99);
+    EXPECT_LT(edges("605", small).first, 0.1) << "beacons stand on the ground";
+    // A board of 4 m by 3 is that high; 3 m of a narrow sign are those of its pole.
+    const auto [low, high] = edges("332", "width=\"4\" height=\"3\"");
+    EXPECT_NEAR(high - low, 3, 0.2);
+    EXPECT_NEAR(low, 2, 0.1);
+    EXPECT_NEAR(edges("209", "width=\"0.6\" height=\"3\"").second, 3, 0.1);
 }
 
 }  // namespace

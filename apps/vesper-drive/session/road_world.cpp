@@ -190,6 +190,8 @@ RoadWorld road_world(const std::filesystem::path& roads, const MessageSource& so
     made.things = things_of(network);
     check_place(made, source, messages, graph);
     made.lenses = lenses_of(made.scene, lit.phases);
+    if (!every_lens)
+        for (SignalLens& lens : made.lenses) lens.otherwise = true;  // one lens a head was built, by the plan
     for (scene::Node& node : made.scene.nodes) {
         // Lamps go by what they are; by day those of the road are off, and signals are not.
         if (node.lamp != scene::kNone) {

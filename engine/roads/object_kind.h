@@ -23,9 +23,8 @@ enum class ObjectKind : uint8_t {
     Island
 };
 
-/// The kind by whole words of the type, else the subtype, else the name; words end at capitals and at other characters
-/// than letters. A pole may become a street lamp, a guide post
-/// or a gantry, vegetation a bush.
+/// The kind by words (base/words.h) of the type, else the subtype, else the name. A pole may become a street lamp, a
+/// guide post or a gantry, vegetation a bush. Lights of signals and warning lamps are no street lamps.
 ObjectKind kind_of(const RoadObject& object);
 
 /// True if objects of the kind lie flat on the road, independent of the stated height.

@@ -60,6 +60,13 @@ TEST(RoadObjects, AreKnownByWholeWords) {
     for (const char* name :
          {"Main Street kiosk", "Bushaltestelle", "Dispatch", "Polestar", "trailer", "landmark", "concrete stopper"})
         EXPECT_EQ(kind("obstacle", "-1", name), ObjectKind::Other) << name;
+    for (const char* name : {"TrafficLightPost", "TrafficLightPole", "Signal_Light_Pole 2", "traffic lamp post"})
+        EXPECT_EQ(kind("none", "", name), ObjectKind::Pole) << name;
+    for (const char* name : {"Signal_Lamp", "warning lamp", "brake lamps", "Tunnel_Portal", "stop lantern"})
+        EXPECT_EQ(kind("none", "", name), ObjectKind::Other) << name;
+    EXPECT_EQ(kind("none", "", "bus stop lamp"), ObjectKind::StreetLamp);
+    EXPECT_EQ(kind("none", "", "Post Office Building"), ObjectKind::Building);
+    EXPECT_EQ(kind("none", "", "SignPortal"), ObjectKind::Gantry);
     EXPECT_EQ(kind("vegetation", "bush", "VegBush06"), ObjectKind::Bush);
     EXPECT_EQ(kind("none", "", "oak tree"), ObjectKind::Tree);
     EXPECT_EQ(kind("none", "", "VegBush06"), ObjectKind::Bush);

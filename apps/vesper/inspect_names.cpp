@@ -29,7 +29,9 @@ std::string text_of(const char* kind, const Names& names, size_t number) {
         text += (printed++ ? ", " : ": ") + one_line(name, 60);
         if (times > 1) text += apps::format(" (%zu)", times);
     }
-    if (names.size() > printed) text += apps::format(", ... and %zu more (--json has them)", names.size() - printed);
+    if (names.size() > printed)
+        text += apps::format(", ... and %zu more (--json has the first %zu)", names.size() - printed,
+                             std::min(names.size(), kMostWritten));
     return text + "\n";
 }
 
@@ -46,10 +48,16 @@ nlohmann::ordered_json json_of(const Names& names) {
 
 Inspection inspect_names(const scene::Scene& scene) {
     const Names nodes = names_of(scene.nodes), materials = names_of(scene.materials), pictures = names_of(scene.images);
+    size_t left_out = 0;
+    for (const Names* each : {&nodes, &materials, &pictures})
+        left_out += each->size() - std::min(each->size(), kMostWritten);
     return {"\n" + text_of("nodes", nodes, scene.nodes.size()) +
                 text_of("materials", materials, scene.materials.size()) +
                 text_of("pictures", pictures, scene.images.size()),
-            {{"nodes", json_of(nodes)}, {"materials", json_of(materials)}, {"pictures", json_of(pictures)}}};
+            {{"nodes", json_of(nodes)},
+             {"materials", json_of(materials)},
+             {"pictures", json_of(pictures)},
+             {"left_out", left_out}}};
 }
 
 }  // namespace vesper::commands

@@ -22,6 +22,7 @@ Distribution parse_ies(std::span<const uint8_t> text, const std::string& name,
                        const std::optional<std::filesystem::path>& folder = std::nullopt);
 
 /// A distribution as LM-63-2019; parse_ies() gives angles back as they were and candela as floats.
+/// Throws Error where parse_ies() would refuse it for the number of its angles.
 std::string write_ies(const Distribution& distribution);
 
 }  // namespace vesper::photometry

@@ -3,7 +3,10 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/error.h"
+#include "base/one_line.h"
 #include "photometry/ies.h"
+#include "photometry/table.h"
 
 namespace vesper::photometry {
 namespace {
@@ -85,6 +88,10 @@ std::string write_ies(const Distribution& d) {
         vertical.insert(vertical.begin(), -1e-3);
         candela = std::move(with_row);
     }
+    if (std::max(horizontal.size(), vertical.size()) > kMaxAngles)
+        throw Error(one_line(d.name) + ": its light has " +
+                    std::to_string(std::max(horizontal.size(), vertical.size())) +
+                    " angles in a list, and an IES file is read with " + std::to_string(kMaxAngles) + " at most");
     const int type = d.goniometry == Goniometry::CGamma ? 1 : d.goniometry == Goniometry::TypeB ? 2 : 3;
     const double sign = d.opening.round ? -1 : 1;
     append<double>(file, {1, d.lamp_flux > 0 ? d.lamp_flux : -1, 1, static_cast<double>(vertical.size()),

@@ -15,6 +15,26 @@ namespace {
 
 constexpr double kFlatObject = 0.02;  // m; what is lower lies on the road
 
+/// A body by its kind, where the file states no size; 0: none.
+struct UsualBody {
+    RoadMaterial stuff = RoadMaterial::Concrete;
+    double height = 0, width = 0;  ///< m
+};
+
+UsualBody usual_body(ObjectKind kind) {
+    switch (kind) {
+        case ObjectKind::Pole:
+            return {RoadMaterial::PoleSteel, 3, 0.1};
+        case ObjectKind::Gantry:
+        case ObjectKind::Railing:
+            return {.stuff = RoadMaterial::PoleSteel};
+        case ObjectKind::Building:
+            return {RoadMaterial::Wall, 8, 0};
+        default:
+            return {};
+    }
+}
+
 struct ObjectBuilder : ObjectPaint {
     size_t copies = 0;  ///< objects that were placed
 
@@ -52,12 +72,9 @@ struct ObjectBuilder : ObjectPaint {
         if (kind == ObjectKind::Tree || kind == ObjectKind::Bush) return tree(frame, at, kind == ObjectKind::Bush);
         if (const std::optional<Portal> portal = portal_of(road, object, at, kind)) return gantry(*portal);
         if (kind == ObjectKind::Pole) ++build.dark_poles[object.name.empty() ? object.type : object.name];
-        const bool pole = kind == ObjectKind::Pole, building = kind == ObjectKind::Building;
-        const RoadMaterial stuff = pole || kind == ObjectKind::Gantry || kind == ObjectKind::Railing
-                                       ? RoadMaterial::PoleSteel
-                                   : building ? RoadMaterial::Wall
-                                              : RoadMaterial::Concrete;
-        const double height = at.height > 0 ? at.height : pole ? 3 : building ? 8 : 0;
+        const UsualBody usual = usual_body(kind);
+        const RoadMaterial stuff = usual.stuff;
+        const double height = at.height > 0 ? at.height : usual.height;
         if (at.radius > 0) return height > kFlatObject ? add_cylinder(mesh, stuff, frame, at.radius, height) : void();
         if (const std::optional<ArrowShape> arrow = arrow_of(object); kind == ObjectKind::RoadMark && arrow) {
             Placed sized = at;
@@ -65,12 +82,7 @@ struct ObjectBuilder : ObjectPaint {
             if (sized.width <= 0) sized.width = usual_width(*arrow);
             return flat_rectangle(object, sized);
         }
-        const double width = at.width > 0 ? at.width
-                             : pole       ? 0.1
-                                          : 0,
-                     length = at.length > 0 ? at.length
-                              : pole        ? 0.1
-                                            : 0;
+        const double width = at.width > 0 ? at.width : usual.width, length = at.length > 0 ? at.length : usual.width;
         if (width <= 0 || length <= 0) return;
         if (height > kFlatObject && !is_flat(kind)) return add_box(mesh, stuff, frame, length, width, height);
         flat_rectangle(object, at);

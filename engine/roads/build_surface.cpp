@@ -19,6 +19,7 @@ constexpr double kGrassDrop = 0.03;     // m
 constexpr double kInsideSurface = 0.1;  // m
 constexpr double kBridge = 2.5;         // m over the ground from which a road is a bridge
 constexpr double kDeck = 1;             // m
+constexpr double kBeyondLane = 0.2;     // m beyond the end of a lane, and of a chord from its arc
 
 /// Borders are hard, but the outermost one, where it is wide, is what files have for the verge.
 RoadMaterial stuff_of(LaneType type, bool verge) {
@@ -224,8 +225,12 @@ bool is_driven_over(const RoadBuild& build, uint32_t road, glm::dvec3 point, dou
 bool is_on_road(const RoadBuild& build, glm::dvec3 point, double margin) {
     const glm::dvec3 at = build.network.to_world(point);
     const auto place = build.lanes.nearest(at, 12);
-    return place && std::abs(place->offset) < build.lanes.pose(place->lane, place->along).width / 2 + margin &&
-           std::abs(at.y - build.lanes.pose(place->lane, place->along).position.y) < 3 && place->distance < 12;
+    if (!place) return false;
+    const LanePose pose = build.lanes.pose(place->lane, place->along);
+    const double half = pose.width / 2 + margin;
+    // Beyond the end of a lane the centre is farther away than the offset says.
+    return std::abs(place->offset) < half && std::abs(at.y - pose.position.y) < 3 &&
+           std::hypot(at.x - pose.position.x, at.z - pose.position.z) < half + kBeyondLane;
 }
 
 BodyFrame frame_at(const Road& road, double s, double t, double z_offset) {

@@ -18,8 +18,8 @@ struct RoadLimits {
     double total_length = static_cast<double>(scaled_limit(5'000'000));  ///< m, of all
     double lane_width = 1000;                                            ///< m, of one lane, and of all of one side
     double height = 1e5;                                                 ///< m, above or below 0
-    double spiral_turns = 100;  ///< rad, the same of a spiral, of which every point takes work for each rad
-    double turns = 1e4;         ///< rad, that one geometry may turn
+    double turns = 1e4;                                                  ///< rad, that one geometry may turn
+    double spiral_turns = 100;  ///< rad, that a spiral may turn: each of its points takes work for each rad
 };
 
 /// Reads a road network. Throws Error naming file, line and reason if there is no usable geometry. A violated rule

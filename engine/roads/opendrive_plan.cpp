@@ -50,7 +50,7 @@ PlanGeometry geometry_of(OpenDriveReader& reader, const XmlElement& element) {
         element.fail("has no line, arc, spiral, poly3 or paramPoly3");
     }
     const bool is_spiral = g.kind == PlanGeometry::Kind::Spiral;
-    const double most = is_spiral ? std::min(reader.limits.spiral_turns, reader.limits.turns) : reader.limits.turns;
+    const double most = is_spiral ? reader.limits.spiral_turns : reader.limits.turns;
     if (std::max(std::abs(g.curvature), std::abs(g.curvature_end)) * g.length > most)
         element.fail("turns round more often than roads do");
     return g;

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kSamePlace = 0.6;                         // m; a post within this of a signal is the signal's
 constexpr double kArmReach = 20;                           // m; the longest usual mast arms
+constexpr double kBelowSign = 0.3;                         // m from a signal down to the top of its post
 constexpr double kShortestMast = 2.5;                      // m; lower posts are bollards and railings
 constexpr double kBesideBeam = 1.5;                        // m in plan between a signal and the axis of its beam
 constexpr double kBelowBeam = 3;                           // m between a signal and a beam or a wire over it
@@ -62,6 +63,7 @@ SignalSupports::SignalSupports(RoadBuild& build) : build_(build) {
         for (const RoadObject& object : road.objects) {
             const ObjectKind kind = kind_of(object);
             if (kind != ObjectKind::Pole && kind != ObjectKind::Gantry && kind != ObjectKind::StreetLamp) continue;
+            if (!object.outlines.empty()) continue;  // built as a wall
             if (object.repeats.empty()) find(road, object, whole_object(object), kind);
             for (const ObjectRepeat& repeat : object.repeats)
                 if (repeat.distance > 0)
@@ -120,7 +122,8 @@ bool SignalSupports::has_post(const Hanging& body) const {
     const glm::dvec3 place = body.frame.origin;
     for (size_t i = first_within(place.x - kSamePlace); i < posts_.size() && posts_[i].foot.x < place.x + kSamePlace;
          ++i)
-        if (distance_in_plan(posts_[i].foot, place) < kSamePlace && posts_[i].foot.z < place.z + body.height)
+        if (distance_in_plan(posts_[i].foot, place) < kSamePlace && posts_[i].top >= place.z - kBelowSign &&
+            std::abs(posts_[i].foot.z - body.ground) < kBelowBeam)
             return true;
     return false;
 }

@@ -22,35 +22,42 @@ std::string without_copy(std::string text) {
     return text;
 }
 
-std::optional<ArrowShape> arrow_in(const std::string& stated) {
-    const std::string text = lower(stated);
+/// None of the directions where the text does not say it.
+std::optional<ArrowShape> arrow_in(const std::string& text) {
     const size_t at = text.find("arrow");
     if (at == text.npos) return std::nullopt;
     ArrowShape shape{has(text, "straight") || has(text, "ahead") || has(text, "through") || has(text, "forward"),
                      has(text, "left"), has(text, "right")};
     if (shape.straight || shape.left || shape.right) return shape;
-    // The kind after "ArrowType" is a number and L, R, S or both of them.
+    // The kind after "ArrowType" is a number and L, R, S or both of them; "Long" and "Short" are lengths.
     const std::string rest = without_copy(text.substr(at + 5));
-    if (rest.starts_with("type"))
-        for (const char c : rest.substr(4)) {
-            if (c != 'l' && c != 'r' && c != 's' && (c < '0' || c > '9')) break;
-            shape.straight |= c == 's', shape.left |= c == 'l', shape.right |= c == 'r';
-        }
-    if (has(rest, "long") || has(rest, "short") || (!shape.left && !shape.right))
-        shape = {.straight = true};  // lengths, not letters of a direction
+    if (!rest.starts_with("type") || has(rest, "long") || has(rest, "short")) return shape;
+    for (const char c : rest.substr(4)) {
+        if (c != 'l' && c != 'r' && c != 's' && (c < '0' || c > '9')) break;
+        shape.straight |= c == 's', shape.left |= c == 'l', shape.right |= c == 'r';
+    }
     return shape;
 }
 
 }  // namespace
 
 std::optional<ArrowShape> arrow_of(const RoadObject& object) {
-    for (const std::string* text : {&object.subtype, &object.name, &object.type})
-        if (const auto shape = arrow_in(*text)) return shape;
-    return std::nullopt;
+    bool is_arrow = false, turns = false;
+    for (const std::string* stated : {&object.subtype, &object.name, &object.type}) {
+        const std::string text = lower(*stated);
+        for (const char* back : {"uturn", "u-turn", "u_turn", "u turn"})
+            if (has(text, back)) return std::nullopt;
+        turns |= has(text, "turn");
+        const std::optional<ArrowShape> shape = arrow_in(text);
+        if (shape && (shape->straight || shape->left || shape->right)) return shape;
+        is_arrow |= shape.has_value();
+    }
+    return is_arrow && !turns ? std::optional(ArrowShape{.straight = true}) : std::nullopt;
 }
 
 bool is_shapeless(const RoadObject& object) {
     const std::string text = lower(object.subtype + " " + object.name);
+    if (has(text, "arrow") && !arrow_of(object)) return true;
     if (has(text, "line") || has(text, "crosswalk")) return false;
     return has(text, "stencil") || has(text, "lettering") || has(text, "symbol");
 }

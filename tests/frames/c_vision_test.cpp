@@ -88,6 +88,7 @@ VesperObserver old_eye() {
 
 // Pictures on the retina differ as those before the eye do.
 TEST_F(CVision, ScatteredPicturesAreThoseOnTheRetina) {
+    // 2 % were seen while the eye summed over a field of 10 degrees; Barten's sums over its own area.
     const std::vector<float> a = square(1), b = square(1.05f);
     ASSERT_EQ(compare(described(a), described(b)), VESPER_OK) << error.message;
     const std::vector<float> before = map;

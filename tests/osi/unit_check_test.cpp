@@ -70,7 +70,7 @@ TEST(OsiUnits, CentimetresAreToldByCars) {
     ASSERT_EQ(doubts.size(), 2u);
     EXPECT_TRUE(contains(doubts[0], "100 % of the cars are longer than 30 m"));
     EXPECT_TRUE(contains(doubts[1], "faster than 150 m/s"));
-    // Millimetres, of which no size is read: by the speeds alone.
+    // Millimetres without sizes: told by the speeds alone.
     std::vector<osi::Message> sizeless = circling([](double d) { return d; }, 1000);
     for (osi::Message& message : sizeless)
         for (osi::MovingObject& object : message.objects) object.size = {};

@@ -102,7 +102,7 @@ TEST(Ies, TheSharedQuadrantIsMirrored) {
     }
 }
 
-// What other programs read in another way is noted, with the light that results.
+// Forms that other programs read in another way are noted, with the light that results.
 TEST(Ies, FormsThatReadersDisagreeOnAreNoted) {
     EXPECT_TRUE(parsed_ies(kPlainIes).notes.empty());
     const auto c_file = [](const std::string& gammas, const std::string& planes, const std::string& candela,

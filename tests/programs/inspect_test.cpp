@@ -62,13 +62,14 @@ TEST_F(Inspect, NamesOfAScene) {
     ASSERT_EQ(inspect("s.gltf --json a.json"), 0) << said;
     EXPECT_TRUE(prints("nodes: 42, of 40 names: pole 00, pole 01, ")) << printed;
     EXPECT_TRUE(prints("pole 07 (2), ")) << printed;
-    EXPECT_TRUE(prints("pole 29, ... and 10 more (--json has them)")) << printed;
+    EXPECT_TRUE(prints("pole 29, ... and 10 more (--json has the first 40)")) << printed;
     EXPECT_TRUE(prints("materials: 2, of 2 names: asphalt, wall\n")) << printed;
     EXPECT_TRUE(prints("pictures: 0, of 0 names\n")) << printed;
     const auto names = json("a.json")["names"];
     EXPECT_EQ(names["nodes"].size(), 40u);
     EXPECT_EQ(names["nodes"][7], (nlohmann::json{{"name", "pole 07"}, {"number", 2}}));
     EXPECT_EQ(names["materials"][0]["name"], "asphalt");
+    EXPECT_EQ(names["left_out"], 0);
 }
 
 TEST_F(Inspect, AScene) {

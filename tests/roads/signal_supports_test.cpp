@@ -101,13 +101,19 @@ TEST(SignalSupports, OverLanesHangOnGantriesWhoseBoxIsStated) {
 }
 
 TEST(SignalSupports, OverLanesWithoutAPostHaveNone) {
-    // Too far, too low, in a lane itself.
+    // Too far, too low.
     for (const std::string& post : {std::string(), thing("post", -40, "height=\"7\" radius=\"0.1\""),
                                     thing("bollard post", -11.5, "height=\"1\" radius=\"0.1\"")}) {
         const roads::LitRoads lit = lit_of(three_lanes(post, head("10", -5.25, 5.3)));
         EXPECT_EQ(in_carriageway(lit.scene), 0u) << post;
         EXPECT_TRUE(says(lit.notes, "signals over lanes: 1 without a support")) << post;
     }
+    // Posts of the file that stand in a lane: too low, and not at the head.
+    for (const std::string& post :
+         {thing("post", -5.25, "height=\"3\" radius=\"0.1\""), thing("post", -8.75, "height=\"7\" radius=\"0.1\"")})
+        EXPECT_TRUE(
+            says(lit_of(three_lanes(post, head("10", -5.25, 5.3))).notes, "signals over lanes: 1 without a support"))
+            << post;
 }
 
 TEST(SignalSupports, BesideLanesStandOnAPole) {
@@ -115,6 +121,24 @@ TEST(SignalSupports, BesideLanesStandOnAPole) {
     EXPECT_FALSE(says(lit.notes, "signals over lanes"));
     const auto [near, far] = steel_between(lit.scene, 0, 3);
     EXPECT_TRUE(near > 10.5 && far < 12) << near << " to " << far;
+    // A low post, one of another level, and an outline called post carry none.
+    const size_t alone = triangles_of(lit.scene, "pole").size();
+    for (const std::string& post :
+         {thing("post", -11.5, "height=\"1\" length=\"0.1\" width=\"0.1\""),
+          thing("post", -11.5, "zOffset=\"-9\" height=\"12\" length=\"0.1\" width=\"0.1\"")}) {
+        const roads::LitRoads both = lit_of(three_lanes(post, head("10", -11.5, 3)));
+        EXPECT_GT(triangles_of(both.scene, "pole").size(), alone) << post;
+    }
+}
+
+// Its own lane ends at 100 m.
+TEST(SignalSupports, BeyondADeadEndNoLaneIsBelow) {
+    const std::string beyond =
+        "<signal id=\"10\" s=\"104\" t=\"-5.25\" zOffset=\"3\" orientation=\"+\" dynamic=\"yes\" "
+        "country=\"OpenDRIVE\" type=\"1000001\" height=\"1\" width=\"0.4\"/>";
+    const roads::LitRoads lit = lit_of(three_lanes("", beyond));
+    EXPECT_FALSE(says(lit.notes, "signals over lanes"));
+    EXPECT_FALSE(triangles_of(lit.scene, "pole").empty());
 }
 
 TEST(SignalSupports, WithoutAnOffsetAreMountedAsUsual) {

@@ -54,7 +54,14 @@ TEST(Stencils, AreKnownByTheirNames) {
     EXPECT_EQ(shape_of("", "arrowStraightLeftRight"), "SLR");
     EXPECT_EQ(shape_of("", "arrowLeftRight"), "LR");
     EXPECT_EQ(shape_of("Arrow"), "S");
+    EXPECT_EQ(shape_of("arrowLeft", "arrow"), "L") << "the name says";
     EXPECT_EQ(shape_of("Stencil_STOP"), "none");
+    for (const char* name : {"UTurnArrow", "Arrow_U-Turn_Left", "turn arrow"}) {
+        EXPECT_EQ(shape_of(name), "none") << name;
+        roads::RoadObject object;
+        object.name = name;
+        EXPECT_TRUE(roads::is_shapeless(object)) << name;
+    }
 }
 
 // Closed form: stem, bar and head of a turn in 4 m x 1.9 m.

@@ -22,12 +22,13 @@
 #include "photometry/grid.h"
 #include "photometry/reflection_table.h"
 #include "print.h"
+#include "roads/convert_roads.h"
 #include "scene/read_scene.h"
 
 namespace vesper::commands {
 namespace {
 
-enum class Kind : uint8_t { Scene, Distribution, Table, Picture };
+enum class Kind : uint8_t { Scene, Roads, Distribution, Table, Picture };
 
 /// A grid may be damaged: its reader will say.
 bool is_grid(const std::string& file) {
@@ -38,6 +39,7 @@ bool is_grid(const std::string& file) {
 Kind kind_of(const std::string& file) {
     const std::string extension = lower(std::filesystem::path(file).extension().string());
     if (scene::is_scene_name(file)) return Kind::Scene;
+    if (roads::is_opendrive_name(file)) return Kind::Roads;
     if (extension == ".ies" || extension == ".ldt") return Kind::Distribution;
     if (extension == ".rtb") return Kind::Table;
     if (extension == ".csv")
@@ -45,7 +47,7 @@ Kind kind_of(const std::string& file) {
     if (extension == ".hdr" || extension == ".pic" || extension == ".rgbe") return Kind::Picture;
     if (extension == ".exr") return is_grid(file) ? Kind::Distribution : Kind::Picture;
     throw Error(file + ": expected a scene (" + scene::scene_endings(", ") +
-                "), a lamp (.ies, .ldt, .csv, .exr), an r-table (.csv, .rtb) or a picture "
+                "), roads (.xodr), a lamp (.ies, .ldt, .csv, .exr), an r-table (.csv, .rtb) or a picture "
                 "(.exr, .hdr)");
 }
 
@@ -80,7 +82,7 @@ void run(const InspectArguments& a) {
     if (a.lamp.empty() && a.lamp_number > 1) throw Error("--lamp-number has a meaning only beside --lamp");
     if (a.lamp.empty() && a.light.empty() && !a.device.empty())
         throw Error("--device has a meaning only beside --lamp and --light");
-    if (!a.picture.empty() && ((kind == Kind::Scene && a.lamp.empty()) || kind == Kind::Table))
+    if (!a.picture.empty() && ((kind == Kind::Scene && a.lamp.empty()) || kind == Kind::Roads || kind == Kind::Table))
         throw Error("-o " + a.picture + ": there is a picture of lamps and of pictures only (of a scene: with --lamp)");
     Inspection found;
     switch (kind) {
@@ -90,6 +92,9 @@ void run(const InspectArguments& a) {
                     : !a.light.empty()  ? inspect_light_picture(a)
                     : a.lamp.empty()    ? inspect_scene(a)
                                         : inspect_shadow_map(a);
+            break;
+        case Kind::Roads:
+            found = inspect_roads(a);
             break;
         case Kind::Distribution:
             found = inspect_distribution(a);
@@ -117,12 +122,12 @@ std::string notes_text(const std::vector<std::string>& notes) {
 
 void add_inspect(apps::Command program) {
     apps::Command command =
-        program.add_command("inspect", "Say what a scene, a lamp or a picture holds (docs/inspect.md)");
+        program.add_command("inspect", "Say what a scene, roads, a lamp or a picture hold (docs/inspect.md)");
     const auto a = std::make_shared<InspectArguments>();
     command
-        .add_option(
-            "file", a->file,
-            "A scene (.gltf, .glb), lamp (.ies, .ldt, .csv, .exr), r-table (.csv, .rtb) or picture (.exr, .hdr)")
+        .add_option("file", a->file,
+                    "A scene (.gltf, .glb), roads (.xodr), lamp (.ies, .ldt, .csv, .exr), r-table (.csv, .rtb) or "
+                    "picture (.exr, .hdr)")
         .required();
     command.add_option("--json", a->json, "Write the report to a JSON file");
     command.add_option("--output,-o", a->picture,

@@ -36,6 +36,7 @@ struct Inspection {
 std::string notes_text(const std::vector<std::string>&);
 
 Inspection inspect_scene(const InspectArguments&);
+Inspection inspect_roads(const InspectArguments&);          ///< OpenDRIVE as the scene of vesper convert
 Inspection inspect_names(const scene::Scene&);              ///< of nodes, materials and pictures, sorted, some of many
 Inspection inspect_light(const InspectArguments&);          ///< at points of a scene
 void announce_light_picture(const InspectArguments&);       ///< of the files that the next one writes (FileGate)

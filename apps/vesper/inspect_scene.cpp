@@ -3,7 +3,10 @@
 #include "arguments/arguments.h"
 #include "base/one_line.h"
 #include "inspect.h"
+#include "io/in_file.h"
 #include "print.h"
+#include "roads/lit_roads.h"
+#include "roads/opendrive.h"
 #include "scene/colour.h"
 #include "scene/read_scene.h"
 #include "scene/scene_report.h"
@@ -121,13 +124,12 @@ nlohmann::ordered_json json_of(const scene::SceneReport& report) {
     return json;
 }
 
-}  // namespace
-
-Inspection inspect_scene(const InspectArguments& arguments) {
-    const scene::LoadedScene loaded = scene::read_scene(arguments.file);
-    const scene::Scene& scene = loaded.scene;
+/// `parts`: what the scene was built of, a line each.
+Inspection inspection_of(const std::string& file, const scene::Scene& scene, const std::vector<std::string>& parts,
+                         const std::vector<std::string>& notes) {
     const scene::SceneReport report = scene::report_scene(scene);
-    std::string text = one_line(arguments.file) + "\n";
+    std::string text = one_line(file) + "\n";
+    for (const std::string& part : parts) text += "  " + part + "\n";
     text += format("%.4g x %.4g x %.4g m (x, up, z), %llu triangles, %zu materials\n", report.extent.x, report.extent.y,
                    report.extent.z, static_cast<unsigned long long>(report.triangles), report.materials.size());
     text += format("ambient %.4g lx, sky %.4g cd/m2, textures by ", static_cast<double>(scene.ambient_illuminance),
@@ -140,15 +142,29 @@ Inspection inspect_scene(const InspectArguments& arguments) {
     text += report.cameras.empty() ? "none\n" : "\n";
     const Inspection names = inspect_names(scene);
     text += lamps_text(report) + materials_text(report) + names.text;
-    text += notes_text(loaded.notes);
+    text += notes_text(notes);
     text += report.warnings.empty() ? "\nnothing implausible\n" : "\nimplausible:\n";
     for (const std::string& warning : report.warnings) text += "  " + warning + "\n";
     nlohmann::ordered_json json = json_of(report);
     json["ambient_illuminance_lx"] = scene.ambient_illuminance;
     json["sky_luminance_cd_m2"] = scene.sky_luminance;
-    json["notes"] = loaded.notes;
+    json["notes"] = notes;
+    if (!parts.empty()) json["parts"] = parts;
     json["names"] = names.json;
     return {text, json};
+}
+
+}  // namespace
+
+Inspection inspect_scene(const InspectArguments& arguments) {
+    const scene::LoadedScene loaded = scene::read_scene(arguments.file);
+    return inspection_of(arguments.file, loaded.scene, {}, loaded.notes);
+}
+
+Inspection inspect_roads(const InspectArguments& arguments) {
+    const roads::RoadNetwork network = roads::read_opendrive(arguments.file);
+    const roads::LitRoads lit = io::in_file(arguments.file, [&] { return roads::lit_roads(network); });
+    return inspection_of(arguments.file, lit.scene, lit.notes, network.notes);
 }
 
 }  // namespace vesper::commands

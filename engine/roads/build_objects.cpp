@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/budget.h"
 #include "base/one_line.h"
 #include "roads/lit_road_parts.h"
 #include "roads/object_kind.h"
@@ -13,7 +14,9 @@
 namespace vesper::roads {
 namespace {
 
-constexpr double kFlatObject = 0.02;  // m; what is lower lies on the road
+constexpr double kFlatObject = 0.02;                  // m; what is lower lies on the road
+constexpr double kLowestLamp = 5, kHighestLamp = 15;  // m, of street lamps
+constexpr double kAtSignal = 1;                       // m from a pole to a signal that hangs on it
 
 /// A body by its kind, where the file states no size; 0: none.
 struct UsualBody {
@@ -36,7 +39,18 @@ UsualBody usual_body(ObjectKind kind) {
 }
 
 struct ObjectBuilder : ObjectPaint {
-    size_t copies = 0;  ///< objects that were placed
+    size_t copies = 0;             ///< objects that were placed
+    bool poles_are_lamps = false;  ///< those without a name, of the height of lamps
+
+    /// Whether a pole has the height of a street lamp, no name that says something else, and no signal.
+    bool is_lamp_by_height(const RoadObject& object, const Placed& at) const {
+        if (!poles_are_lamps || kind != ObjectKind::Pole || !is_unnamed(object)) return false;
+        if (at.height < kLowestLamp || at.height > kHighestLamp) return false;
+        return std::ranges::none_of(road.signals, [&](const RoadSignal& signal) {
+            check_time();
+            return std::hypot(signal.s - at.s, signal.t - at.t) < kAtSignal;
+        });
+    }
 
     BodyFrame frame_of(const RoadObject& object, const Placed& at) const { return object_frame(road, object, at); }
 
@@ -66,8 +80,10 @@ struct ObjectBuilder : ObjectPaint {
 
     void body(const RoadObject& object, const Placed& at) {
         const BodyFrame frame = frame_of(object, at);
-        if (kind == ObjectKind::StreetLamp)
-            return add_street_lamp(build, frame, at.height > 0 ? at.height : 8, object.t > 0 ? -1 : 1);
+        const bool by_height = is_lamp_by_height(object, at);
+        build.lamps_by_height += by_height;
+        if (kind == ObjectKind::StreetLamp || by_height)
+            return add_street_lamp(build, frame, at.height > 0 ? at.height : 8, at.t > 0 ? -1 : 1);
         if (kind == ObjectKind::GuidePost) return guide_post(frame, at);
         if (kind == ObjectKind::Tree || kind == ObjectKind::Bush) return tree(frame, at, kind == ObjectKind::Bush);
         if (const std::optional<Portal> portal = portal_of(road, object, at, kind)) return gantry(*portal);
@@ -209,15 +225,23 @@ std::string listed(const std::map<std::string, size_t>& names) {
 void build_objects(RoadBuild& build) {
     RoadMesh mesh(build.network);
     size_t copies = 0, pieces = 0;
+    const bool names_lamps = std::ranges::any_of(build.network.roads, [](const Road& road) {
+        return std::ranges::any_of(road.objects,
+                                   [](const RoadObject& o) { return kind_of(o) == ObjectKind::StreetLamp; });
+    });
+    const bool wants_lamps = build.options.lamps.spacing.value_or(1) > 0;
     for (const Road& road : build.network.roads) {
         if (road.sections.empty()) continue;
-        ObjectBuilder builder{{build, road, mesh, pieces}, copies};
+        ObjectBuilder builder{{build, road, mesh, pieces}, copies, wants_lamps && !names_lamps};
         for (const RoadObject& object : road.objects) {
             builder.object(object);
             mesh.place(build.scene, build.materials, "object " + object.name);
         }
         copies = builder.copies, pieces = builder.pieces;
     }
+    if (build.lamps_by_height > 0)
+        build.notes.push_back("the file names no street lamp: " + std::to_string(build.lamps_by_height) +
+                              " poles of 5 to 15 m without a name are taken for them (--lamp-spacing 0: none is)");
     if (!build.dark_poles.empty()) build.notes.push_back("poles without light: " + listed(build.dark_poles));
     if (!build.shapeless.empty())
         build.notes.push_back("stencils left out, whose shape is not known: " + listed(build.shapeless));

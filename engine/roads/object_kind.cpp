@@ -125,6 +125,13 @@ ObjectKind kind_of(const RoadObject& object) {
     return found;
 }
 
+bool is_unnamed(const RoadObject& pole) {
+    const std::vector<std::string> words = words_of(std::string_view(pole.name).substr(0, kLongestName));
+    return std::ranges::all_of(words, [](const std::string& word) {
+        return word == "pole" || word == "mast" || word == "post" || word == "object";
+    });
+}
+
 bool is_flat(ObjectKind kind) {
     return kind == ObjectKind::Crosswalk || kind == ObjectKind::ParkingSpace || kind == ObjectKind::RoadMark ||
            kind == ObjectKind::Patch;

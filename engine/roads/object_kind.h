@@ -27,6 +27,9 @@ enum class ObjectKind : uint8_t {
 /// guide post or a gantry, vegetation a bush. Lights of signals and warning lamps are no street lamps.
 ObjectKind kind_of(const RoadObject& object);
 
+/// True if a pole has no name but its kind or a number.
+bool is_unnamed(const RoadObject& pole);
+
 /// True if objects of the kind lie flat on the road, independent of the stated height.
 bool is_flat(ObjectKind kind);
 

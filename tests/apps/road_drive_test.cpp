@@ -120,11 +120,11 @@ TEST(RoadDrive, TheDriversCarHasAllItsLamps) {
 // A run on other roads is refused, one that leaves them at times is noted.
 TEST(RoadDrive, ARunOfOtherRoadsIsRefused) {
     const TempFolder folder;
-    const auto straight = [](double off, double until) {  // 20 places, those before `until` beside the road
+    const auto straight = [](double off, double until, double side = 1) {  // 20 places, those before `until` beside it
         std::string rows = "time, id, name, x, y, z, h, p, r, speed, wheel_angle, wheel_rot\n";
         for (int i = 0; i < 20; ++i)
             rows += std::to_string(i * 0.1) + ", 0, Car, " + std::to_string(i < until ? off : 1.5) + ", " +
-                    std::to_string(10.0 * i) + ", 0, 1.5708, 0, 0, 10, 0, 0\n";
+                    std::to_string(side > 0 ? 10.0 * i : -100.0 - 10 * i) + ", 0, 1.5708, 0, 0, 10, 0, 0\n";
         return rows;
     };
     const auto notes = [&](double off, double until) {
@@ -140,6 +140,10 @@ TEST(RoadDrive, ARunOfOtherRoadsIsRefused) {
     EXPECT_TRUE(contains(complaint, "run.csv: 60 % of the places of its vehicles lie more than 3 m off the roads of "))
         << complaint;
     EXPECT_TRUE(contains(complaint, "rivoli.xodr")) << complaint;
+    EXPECT_FALSE(contains(complaint, "the sign of y")) << complaint;
+    const std::string mirrored =
+        complaint_of([&] { drive::Scenery(kRoads, run_of(folder.write("run.csv", straight(1.5, 20, -1)))); });
+    EXPECT_TRUE(contains(mirrored, "with the sign of y turned round they lie on them")) << mirrored;
 }
 
 // Lenses are found by signal and colour, or by their places; they shine as messages say, and otherwise as cars wait.

@@ -72,6 +72,16 @@ TEST_F(Inspect, NamesOfAScene) {
     EXPECT_EQ(names["left_out"], 0);
 }
 
+TEST_F(Inspect, Roads) {
+    ASSERT_EQ(inspect(kOwnData + "rivoli/rivoli.xodr --json a.json"), 0) << said;
+    EXPECT_TRUE(prints("rivoli.xodr\n  roads: 1, 440 m, ")) << printed;
+    EXPECT_TRUE(prints("\nstreet lamp  ")) << printed;
+    EXPECT_EQ(json("a.json")["lamps"][0]["number"], 30);
+    EXPECT_EQ(json("a.json")["parts"][1], "street lamps: 30, every 30 m");
+    EXPECT_EQ(inspect(kOwnData + "rivoli/rivoli.xodr -o a.png"), 2);
+    EXPECT_EQ(inspect(kOwnData + "rivoli/rivoli.xodr --balance"), 2);
+}
+
 TEST_F(Inspect, AScene) {
     ASSERT_EQ(inspect(kOwnData + "rivoli/rivoli.gltf --json a.json"), 0) << said;
     EXPECT_TRUE(prints("lx from the sky are no night")) << printed;

@@ -106,6 +106,36 @@ TEST(RoadObjects, PolesWithoutLightAreCountedByName) {
     EXPECT_EQ(std::count(notes.begin(), notes.end(), "poles without light: mystery (3)"), 1);
 }
 
+// Poles of the height of lamps, where the file names no lamp; none with a signal, of another height, or with a name.
+TEST(RoadObjects, PolesWithoutANameAreLampsByTheirHeight) {
+    const auto lamps = [](const std::string& name, double height, const std::string& more = "",
+                          std::optional<double> spacing = {}) {
+        char number[32];
+        std::snprintf(number, sizeof number, "%g", height);
+        roads::LitRoadOptions options;
+        options.lamps.spacing = spacing;
+        const roads::LitRoads lit = roads::lit_roads(
+            with("<objects><object id=\"1\" name=\"" + name + "\" type=\"pole\" s=\"20\" t=\"6\" height=\"" + number +
+                 "\"><repeat s=\"20\" length=\"50\" distance=\"25\" tStart=\"6\" tEnd=\"6\"/></object>" +
+                 (more.starts_with("<object ") ? more + "</objects>" : "</objects>" + more)),
+            options);
+        for (const std::string& note : lit.notes)
+            if (note.starts_with("the file names no street lamp: ")) return note[31] - '0';
+        return 0;
+    };
+    EXPECT_EQ(lamps("", 8), 3);
+    EXPECT_EQ(lamps("Pole_03", 8), 3);
+    EXPECT_EQ(lamps("mystery", 8), 0);
+    EXPECT_EQ(lamps("", 3), 0);
+    EXPECT_EQ(lamps("", 25), 0);
+    EXPECT_EQ(lamps("", 8, "", 0), 0) << "none are wanted";
+    EXPECT_EQ(lamps("", 8, "<object id=\"2\" name=\"lamp\" type=\"pole\" s=\"5\" t=\"6\" height=\"8\"/>"), 0);
+    EXPECT_EQ(lamps("", 8,
+                    "<signals><signal id=\"3\" s=\"45.2\" t=\"6\" zOffset=\"2\" orientation=\"+\" type=\"209\" "
+                    "country=\"DE\"/></signals>"),
+              2);
+}
+
 constexpr const char* kCorners =
     "<cornerLocal u=\"0\" v=\"0\" z=\"0\" height=\"1\"/><cornerLocal u=\"4\" v=\"0\" z=\"0\" height=\"1\"/>"
     "<cornerLocal u=\"4\" v=\"2\" z=\"0\" height=\"1\"/></outline></object></objects>";

@@ -114,8 +114,10 @@ void add_drivers_car(RoadWorld& made, const traffic::VehicleParameters& vehicle)
     }
 }
 
-// Whether messages are of these roads: part of the places of their vehicles that lie off all lanes.
-double share_off(std::span<const osi::Message> messages, const MessageFrame& frame, const roads::LaneGraph& graph) {
+// Whether messages are of these roads: part of the places of their vehicles that lie off all lanes. `side`: -1 turns y
+// round.
+double share_off(std::span<const osi::Message> messages, const MessageFrame& frame, const roads::LaneGraph& graph,
+                 double side) {
     constexpr size_t kLooks = 5000;
     size_t objects = 0;
     for (const osi::Message& message : messages) objects += message.objects.size();
@@ -123,7 +125,8 @@ double share_off(std::span<const osi::Message> messages, const MessageFrame& fra
     for (const osi::Message& message : messages)
         for (const osi::MovingObject& object : message.objects) {
             if (number++ % (1 + objects / kLooks) > 0 || object.kind >= osi::MovingObject::Kind::Pedestrian) continue;
-            const auto lane = graph.nearest(frame.point(object.centre), 20, [](const roads::Lane&) { return true; });
+            const auto lane = graph.nearest(frame.point(object.centre * glm::dvec3(1, side, 1)), 20,
+                                            [](const roads::Lane&) { return true; });
             ++all;
             off += !lane || lane->distance - graph.pose(*lane).width / 2 > kOffRoad;
         }
@@ -132,13 +135,16 @@ double share_off(std::span<const osi::Message> messages, const MessageFrame& fra
 
 void check_place(RoadWorld& made, const MessageSource& source, std::span<const osi::Message> messages,
                  const roads::LaneGraph& graph) {
-    const double share = share_off(messages, frame_of(source, made.origin), graph);
+    const MessageFrame frame = frame_of(source, made.origin);
+    const double share = share_off(messages, frame, graph, 1);
     if (share <= kMostOffNoted) return;
-    const std::string complaint =
+    std::string complaint =
         one_line(source.file.string()) +
         apps::format(": %.0f %% of the places of its vehicles lie more than %.0f m off the roads of ", 100 * share,
                      kOffRoad) +
         one_line(made.world.scene.string());
+    if (share_off(messages, frame, graph, -1) <= kMostOffNoted)
+        complaint += "; with the sign of y turned round they lie on them: y of OSI is to the left of x";
     if (share > kMostOff && !source.live) throw Error(complaint);  // what was driven can be driven again
     made.notes.push_back(complaint);
 }

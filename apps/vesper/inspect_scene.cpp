@@ -164,7 +164,9 @@ Inspection inspect_scene(const InspectArguments& arguments) {
 Inspection inspect_roads(const InspectArguments& arguments) {
     const roads::RoadNetwork network = roads::read_opendrive(arguments.file);
     const roads::LitRoads lit = io::in_file(arguments.file, [&] { return roads::lit_roads(network); });
-    return inspection_of(arguments.file, lit.scene, lit.notes, network.notes);
+    Inspection made = inspection_of(arguments.file, lit.scene, lit.notes, network.notes);
+    made.json["unread"] = network.unread;
+    return made;
 }
 
 }  // namespace vesper::commands

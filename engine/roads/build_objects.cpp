@@ -208,18 +208,6 @@ struct ObjectBuilder : ObjectPaint {
     }
 };
 
-/// "name (3), other (1)", the first eight.
-std::string listed(const std::map<std::string, size_t>& names) {
-    constexpr size_t kMost = 8;
-    std::string text;
-    size_t number = 0;
-    for (const auto& [name, count] : names) {
-        if (number++ == kMost) return text + " and more";
-        text += (text.empty() ? "" : ", ") + one_line(name, 80) + " (" + std::to_string(count) + ")";
-    }
-    return text;
-}
-
 }  // namespace
 
 void build_objects(RoadBuild& build) {

@@ -48,6 +48,9 @@ bool is_driven_over(const RoadBuild& build, uint32_t road, glm::dvec3 point, dou
 /// True if a point lies on a driven lane, or within `margin` m of one.
 bool is_on_road(const RoadBuild& build, glm::dvec3 point, double margin);
 
+/// "name (3), other (1)", the first `most`.
+std::string listed(const std::map<std::string, size_t>& names, size_t most = 8);
+
 /// A frame at (s, t), z_offset m above the surface, x along the road.
 BodyFrame frame_at(const Road& road, double s, double t, double z_offset);
 

@@ -5,6 +5,7 @@
 
 #include "base/budget.h"
 #include "base/error.h"
+#include "base/one_line.h"
 #include "roads/lit_road_parts.h"
 
 namespace vesper::roads {
@@ -31,6 +32,16 @@ void count_triangles(RoadBuild& build) {
 }
 
 }  // namespace
+
+std::string listed(const std::map<std::string, size_t>& names, size_t most) {
+    std::string text;
+    size_t number = 0;
+    for (const auto& [name, count] : names) {
+        if (number++ == most) return text + " and " + std::to_string(names.size() - most) + " more";
+        text += (text.empty() ? "" : ", ") + one_line(name, 80) + " (" + std::to_string(count) + ")";
+    }
+    return text;
+}
 
 LitRoads lit_roads(const RoadNetwork& network, const LitRoadOptions& options) {
     const Budget budget("building roads");
@@ -61,6 +72,7 @@ LitRoads lit_roads(const RoadNetwork& network, const LitRoadOptions& options) {
     build_street_lamps(build);
     build_cameras(build);
     count_triangles(build);
+    if (!network.unread.empty()) build.notes.push_back("not shown, as nothing reads it: " + listed(network.unread, 16));
     return {std::move(build.scene), std::move(build.notes), std::move(build.phases)};
 }
 

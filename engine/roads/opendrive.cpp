@@ -122,6 +122,7 @@ RoadNetwork read_checked(const XmlFile& file, const RoadLimits& limits) {
                      [](const Road& road) { return road.length > 0 && !road.sections.empty(); }))
         root.fail("none of its roads has lanes");
     network.origin = origin_of(network);
+    network.unread = file.unread();
     return network;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -236,6 +237,7 @@ struct RoadNetwork {
     glm::dvec3 origin{0};      ///< of the world, in the file's frame: near the roads, for the precision of floats
     std::vector<Road> roads;
     std::vector<Junction> junctions;
+    std::map<std::string, size_t> unread;  ///< elements ("lane/access") and attributes ("lane@level") that are not read
     std::vector<SignalController> controllers;
     std::vector<std::string> notes;  ///< corrections and omissions, one line each
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
+#include "base/budget.h"
 #include "base/error.h"
 #include "base/lower.h"
 #include "base/one_line.h"
@@ -46,11 +48,16 @@ std::vector<uint32_t> line_starts_of(std::string_view text) {
     return starts;
 }
 
-/// The node after this one in the order of the file, below a root.
-pugi::xml_node next_in(pugi::xml_node root, pugi::xml_node node) {
-    if (const pugi::xml_node child = node.first_child()) return child;
+/// The node after this one in the order of the file, below a root; not one inside of it, if so wished.
+pugi::xml_node next_in(pugi::xml_node root, pugi::xml_node node, bool inside = true) {
+    if (const pugi::xml_node child = node.first_child(); child && inside) return child;
     while (node != root && !node.next_sibling()) node = node.parent();
     return node == root ? pugi::xml_node() : node.next_sibling();
+}
+
+size_t question(std::string_view element, char sign, std::string_view name) {
+    const std::hash<std::string_view> hash;
+    return hash(element) * 31 + hash(name) * 7 + static_cast<size_t>(sign);
 }
 
 }  // namespace
@@ -95,11 +102,40 @@ size_t XmlFile::line_of(ptrdiff_t offset) const {
     return static_cast<size_t>(after - line_starts_.begin());
 }
 
+std::map<std::string, size_t> XmlFile::unread() const {
+    constexpr size_t kMost = 1000;
+    std::map<std::string, size_t> found;
+    const auto is_read = [&](std::string_view element, char sign, std::string_view name) {
+        if (asked_.contains(question(element, sign, name)) || asked_.contains(question(element, sign, {}))) return true;
+        const std::string text = std::string(element) + sign + std::string(name);
+        if (found.size() < kMost || found.contains(text)) ++found[text];
+        return false;
+    };
+    const pugi::xml_node root = document_.document_element();
+    bool inside = true;
+    for (pugi::xml_node node = root; node; node = next_in(root, node, inside)) {
+        check_time();
+        const std::string_view name = local_part(node.name());
+        inside =
+            node.type() == pugi::node_element && (node == root || is_read(local_part(node.parent().name()), '/', name));
+        if (!inside) continue;
+        for (const pugi::xml_attribute attribute : node.attributes())
+            if (!std::string_view(attribute.name()).starts_with("xmlns"))
+                is_read(name, '@', local_part(attribute.name()));
+    }
+    return found;
+}
+
 std::string_view XmlElement::name() const { return local_part(node_.name()); }
 
 size_t XmlElement::line() const { return file_->line_of(node_.offset_debug()); }
 
+void XmlElement::ask(char sign, std::string_view name) const {
+    file_->asked_.insert(question(this->name(), sign, name));
+}
+
 std::vector<XmlElement> XmlElement::children(std::string_view name) const {
+    ask('/', name);
     std::vector<XmlElement> found;
     for (const pugi::xml_node child : node_.children())
         if (child.type() == pugi::node_element && (name.empty() || local_part(child.name()) == name))
@@ -108,6 +144,7 @@ std::vector<XmlElement> XmlElement::children(std::string_view name) const {
 }
 
 std::optional<XmlElement> XmlElement::child(std::string_view name) const {
+    ask('/', name);
     for (const pugi::xml_node child : node_.children())
         if (child.type() == pugi::node_element && local_part(child.name()) == name) return XmlElement(*file_, child);
     return std::nullopt;
@@ -126,6 +163,7 @@ std::optional<std::string_view> XmlElement::attribute(std::string_view name) con
 }
 
 std::optional<std::string_view> XmlElement::given(std::string_view name) const {
+    ask('@', name);
     for (const pugi::xml_attribute attribute : node_.attributes())
         if (local_part(attribute.name()) == name) return photometry::trimmed(attribute.value());
     return std::nullopt;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include <pugixml.hpp>
@@ -47,6 +49,8 @@ public:
 private:
     /// As attribute, but empty where it is.
     std::optional<std::string_view> given(std::string_view name) const;
+    /// Remembers that elements of this name are read for a child ('/') or an attribute ('@') of a name.
+    void ask(char sign, std::string_view name) const;
 
     const XmlFile* file_;
     pugi::xml_node node_;
@@ -64,10 +68,16 @@ public:
     /// The line of an offset into the file, from 1.
     size_t line_of(ptrdiff_t offset) const;
 
+    /// What no reader has asked for, and how often it is there: "lane/access" and "lane@level", without what lies in
+    /// elements that were not asked for; the first 1,000.
+    std::map<std::string, size_t> unread() const;
+
 private:
+    friend class XmlElement;
     std::string name_;
     pugi::xml_document document_;
     std::vector<uint32_t> line_starts_;
+    mutable std::unordered_set<size_t> asked_;  ///< hashes of names of elements and of what they were asked for
 };
 
 }  // namespace vesper::roads

@@ -1,10 +1,12 @@
 // OpenDRIVE as other programs write it, where the standard has another way. SPDX-License-Identifier: MIT
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "roads/crossing_text.h"
 #include "roads/lanes.h"
 #include "roads/lit_roads.h"
 #include "roads/road_surface.h"
@@ -276,6 +278,35 @@ TEST(OthersOpenDrive, ValuesThatNobodyKnowsAreSaid) {
          geometry(0, 0, 0, 0, 25, "<line/>") + geometry(25, 25, 0, 0.1, 25, "<line/>"));
     said("", "", two_way_section(), "",
          geometry(0, 0, 0, 0, 25, "<line/>") + geometry(25, 25, 0, 0.01 + 2 * M_PI, 25, "<line/>"));
+}
+
+// What no reader asks for is counted, wherever it is: a child and an attribute more in each element.
+TEST(OpenDriveOthers, NothingIsSkippedInSilence) {
+    const std::string text = opendrive(crossing_text(true));
+    std::string more;
+    std::map<std::string, size_t> wanted;
+    std::vector<std::string> open;
+    for (size_t at = 0; at < text.size();) {
+        const size_t begin = std::min(text.find('<', at), text.size()), end = text.find('>', begin);
+        more += text.substr(at, begin - at);
+        if (begin == text.size()) break;
+        std::string tag = text.substr(begin, end - begin);
+        const bool closed = tag.back() == '/';
+        if (tag[1] == '?' || tag[1] == '/') {
+            more += tag + ">";
+        } else {
+            const std::string name = tag.substr(1, tag.find_first_of(" /", 1) - 1);
+            if (closed) tag.pop_back();
+            more += tag + " strange=\"1\"><odd><even strange=\"2\"/></odd>" + (closed ? "</" + name + ">" : "");
+            ++wanted[name + "/odd"], ++wanted[name + "@strange"];
+        }
+        at = end + 1;
+    }
+    const std::map<std::string, size_t> before = roads::parse_opendrive(text, "a.xodr").unread,
+                                        unread = roads::parse_opendrive(more, "b.xodr").unread;
+    for (const auto& [name, count] : before) wanted.emplace(name, count);
+    EXPECT_GT(wanted.size(), 40u);
+    EXPECT_EQ(unread, wanted);
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ std::optional<JsonValue> JsonValue::find(const char* key) const {
     return JsonValue(*file_, *member);
 }
 
-void JsonValue::allow_only(std::initializer_list<const char*> keys) const {
+void JsonValue::allow_only(std::span<const char* const> keys) const {
     if (!value_->is_object()) fail("must be an object");
     for (const auto& item : value_->items())
         if (std::none_of(keys.begin(), keys.end(), [&](const char* allowed) { return item.key() == allowed; }))

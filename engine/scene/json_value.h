@@ -44,7 +44,8 @@ public:
     JsonValue at(const char* key) const;
     std::optional<JsonValue> find(const char* key) const;
     /// Refuses members other than these.
-    void allow_only(std::initializer_list<const char*> keys) const;
+    void allow_only(std::initializer_list<const char*> keys) const { allow_only(std::span(keys.begin(), keys.size())); }
+    void allow_only(std::span<const char* const> keys) const;
 
     /// Values of all members of this object.
     std::vector<JsonValue> members() const;

@@ -41,6 +41,12 @@ glm::dvec3 read_colour(const JsonValue& holder, double* kelvin) {
     return colour / luminance(colour);
 }
 
+void allow_in_rule(const JsonValue& rule, std::vector<const char*> keys) {
+    keys.push_back("comment");
+    rule.allow_only(keys);
+    if (const auto comment = rule.find("comment")) comment->text();
+}
+
 std::vector<std::string> read_patterns(const JsonValue& rule, const char* key) {
     const JsonValue value = rule.at(key);
     std::vector<std::string> patterns;
@@ -59,12 +65,12 @@ namespace {
 void read_lobe(Lamp& lamp, const JsonValue& rule) {
     const JsonValue type = rule.at("type");
     if (type.text() == "point") {
-        rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
-                         "opening", "fixture"});
+        allow_in_rule(rule, {"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
+                             "opening", "fixture"});
         lamp.kind = Lamp::Kind::Point;
     } else if (type.text() == "spot") {
-        rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
-                         "opening", "fixture", "aim", "inner_cone_deg", "outer_cone_deg"});
+        allow_in_rule(rule, {"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
+                             "opening", "fixture", "aim", "inner_cone_deg", "outer_cone_deg"});
         lamp.kind = Lamp::Kind::Spot;
         const double outer = rule.at("outer_cone_deg").number(0.5, 90);
         const double inner = rule.number_or("inner_cone_deg", 0, 0, 90);
@@ -73,8 +79,8 @@ void read_lobe(Lamp& lamp, const JsonValue& rule) {
         // KHR_lights_punctual wants the inner angle to be less.
         lamp.inner_cone = static_cast<float>(std::min(inner, outer * 0.9999) * kRadiansPerDegree);
     } else if (type.text() == "cosine_power") {
-        rule.allow_only({"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
-                         "opening", "fixture", "aim", "exponent"});
+        allow_in_rule(rule, {"name", "nodes", "type", "intensity_cd", "colour_temperature_K", "colour_rgb", "offset_m",
+                             "opening", "fixture", "aim", "exponent"});
         lamp.kind = Lamp::Kind::CosinePower;
         lamp.exponent = static_cast<float>(rule.at("exponent").number(0, 1e5));
         // For viewers that know only spots: the cone ends where the lobe has fallen to a thousandth.
@@ -139,8 +145,8 @@ LampRule read_lamp(const JsonValue& source, const std::filesystem::path& folder,
 }
 
 SurfaceRule read_surface(const JsonValue& source, const std::filesystem::path& folder) {
-    source.allow_only({"name", "materials", "reflectance_scale", "roughness", "metallic", "reflection_table", "q0",
-                       "retroreflection"});
+    allow_in_rule(source, {"name", "materials", "reflectance_scale", "roughness", "metallic", "reflection_table", "q0",
+                           "retroreflection"});
     SurfaceRule rule;
     rule.materials = read_patterns(source, "materials");
     rule.name = source.text_or("name", rule.materials.front());
@@ -212,8 +218,8 @@ bool matches(const char* pattern, const char* text, char barrier) {
 Photometry read_photometry(const std::filesystem::path& file) {
     const JsonFile json = parse_json(io::read_file(file, kMaxPhotometryBytes), file.string());
     const JsonValue root(json);
-    root.allow_only(
-        {"$schema", "version", "textures", "ambient", "sky", "directional", "lights", "lamps", "emitters", "surfaces"});
+    allow_in_rule(root, {"$schema", "version", "textures", "ambient", "sky", "directional", "lights", "lamps",
+                         "emitters", "surfaces"});
     const JsonValue version = root.at("version");
     if (version.integer() != 1) version.fail("must be 1: this program knows no other");
     Photometry made{.file = file};

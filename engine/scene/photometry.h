@@ -27,7 +27,8 @@ struct LampRule {
 
 /// A distribution used by rules.
 struct MeasuredLamp {
-    std::string file;  ///< as in the rule
+    std::string file;       ///< as in the rule
+    bool standard = false;  ///< `file` names a lamp that is built in (photometry/standard_lamps.h)
     bool mirror = false;
     size_t lamp_set = 0;
     photometry::Distribution distribution{};

@@ -81,8 +81,8 @@ std::vector<std::string> read_lamp_names(const JsonValue& source, const Photomet
 }  // namespace
 
 EmitterRule read_emitter(const JsonValue& source, const std::filesystem::path& folder, Photometry& made) {
-    source.allow_only({"name", "materials", "luminance_cd_m2", "colour_temperature_K", "colour_rgb", "modulate", "lamp",
-                       "image", "scale"});
+    allow_in_rule(source, {"name", "materials", "luminance_cd_m2", "colour_temperature_K", "colour_rgb", "modulate",
+                           "lamp", "image", "scale"});
     EmitterRule rule;
     rule.materials = read_patterns(source, "materials");
     rule.name = source.text_or("name", rule.materials.front());

@@ -9,27 +9,36 @@
 #include "base/lower.h"
 #include "io/named_file.h"
 #include "photometry/eulumdat.h"
+#include "photometry/standard_lamps.h"
+#include "scene/photometry_parts.h"
 
 namespace vesper::scene {
 namespace {
 
 /// The index of the distribution a rule wants, read when it is the first to want it.
 uint32_t measured_lamp(const JsonValue& source, const std::filesystem::path& folder, Photometry& made) {
-    const JsonValue file = source.at("file");
+    const auto standard = source.find("standard");
+    if (standard && source.find("file")) standard->fail("is given beside file: one of them is wanted");
+    const JsonValue file = standard ? *standard : source.at("file");
     MeasuredLamp wanted{.file = file.text(),
+                        .standard = standard.has_value(),
                         .mirror = source.boolean_or("mirror", false),
                         .lamp_set = source.integer_or("lamp_set", 0, 1000)};
     for (size_t i = 0; i < made.measured.size(); ++i) {
         const MeasuredLamp& known = made.measured[i];
-        if (known.file == wanted.file && known.mirror == wanted.mirror && known.lamp_set == wanted.lamp_set)
+        if (known.file == wanted.file && known.standard == wanted.standard && known.mirror == wanted.mirror &&
+            known.lamp_set == wanted.lamp_set)
             return static_cast<uint32_t>(i);
     }
     try {
-        const std::filesystem::path path = io::named_file(folder, wanted.file);
+        const std::filesystem::path path = standard ? std::filesystem::path() : io::named_file(folder, wanted.file);
         if (wanted.lamp_set > 0 && lower(path.extension().string()) != ".ldt")
             throw Error("lamp_set is for EULUMDAT (.ldt)");
-        wanted.distribution = wanted.lamp_set > 0 ? photometry::read_eulumdat(path, wanted.lamp_set)
-                                                  : photometry::read_distribution(path);
+        if (standard)
+            wanted.distribution = photometry::standard_lamp(wanted.file);
+        else
+            wanted.distribution = wanted.lamp_set > 0 ? photometry::read_eulumdat(path, wanted.lamp_set)
+                                                      : photometry::read_distribution(path);
     } catch (const Error& error) {
         file.fail(error.what());
     }
@@ -116,27 +125,17 @@ glm::dquat turn_to(glm::dvec3 axis) {
 }
 
 void read_measured(const JsonValue& source, const std::filesystem::path& folder, Photometry& made, LampRule& rule) {
-    source.allow_only({"name",
-                       "nodes",
-                       "type",
-                       "file",
-                       "lamp_set",
-                       "mirror",
-                       "flux_lm",
-                       "flux_scale",
-                       "maintenance_factor",
-                       "dimming",
-                       "colour_temperature_K",
-                       "colour_rgb",
-                       "offset_m",
-                       "aim",
-                       "up",
-                       "c0",
-                       "rotation_deg",
-                       "pitch_deg",
-                       "yaw_deg",
-                       "opening",
-                       "fixture"});
+    allow_in_rule(source, {"name",       "nodes",
+                           "type",       "file",
+                           "standard",   "lamp_set",
+                           "mirror",     "flux_lm",
+                           "flux_scale", "maintenance_factor",
+                           "dimming",    "colour_temperature_K",
+                           "colour_rgb", "offset_m",
+                           "aim",        "up",
+                           "c0",         "rotation_deg",
+                           "pitch_deg",  "yaw_deg",
+                           "opening",    "fixture"});
     rule.lamp.kind = Lamp::Kind::Measured;
     rule.lamp.distribution = measured_lamp(source, folder, made);
     const photometry::Distribution& distribution = made.measured[rule.lamp.distribution].distribution;

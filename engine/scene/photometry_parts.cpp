@@ -74,8 +74,8 @@ SkyPicture read_sky_picture(const JsonValue& source, const std::filesystem::path
 }
 
 DirectionalRule read_directional(const JsonValue& source) {
-    source.allow_only({"name", "illuminance_lx", "angular_diameter_deg", "direction", "azimuth_deg", "elevation_deg",
-                       "colour_temperature_K", "colour_rgb"});
+    allow_in_rule(source, {"name", "illuminance_lx", "angular_diameter_deg", "direction", "azimuth_deg",
+                           "elevation_deg", "colour_temperature_K", "colour_rgb"});
     DirectionalRule rule;
     rule.name = source.text_or("name", "directional light");
     rule.illuminance = source.at("illuminance_lx").number(0, 2e5);

@@ -9,6 +9,9 @@ namespace vesper::scene {
 /// colour_temperature_K or colour_rgb, brought to luminance 1; white where neither is given.
 glm::dvec3 read_colour(const JsonValue& holder, double* kelvin = nullptr);
 
+/// Refuses members of a rule, or of the file, other than these and "comment", a text that nothing reads.
+void allow_in_rule(const JsonValue& rule, std::vector<const char*> keys);
+
 /// One pattern or several, none empty.
 std::vector<std::string> read_patterns(const JsonValue& rule, const char* key);
 

@@ -61,6 +61,55 @@ TEST(Photometry, StartsFromEquationOne) {
     EXPECT_FALSE(p.ambient);
 }
 
+// A comment is for people: in the file and in each rule, and nothing changes by it.
+TEST(Photometry, ReadsComments) {
+    json lamp = street_lamp();
+    const json point = {{"nodes", "p"}, {"type", "point"}, {"intensity_cd", 5}};
+    const json lobe = {{"nodes", "c"}, {"type", "cosine_power"}, {"intensity_cd", 5}, {"exponent", 2}};
+    const json measured = {{"nodes", "m"}, {"type", "distribution"}, {"standard", "low-beam"}};
+    json file = {{"version", 1},
+                 {"lamps", {lamp, point, lobe, measured}},
+                 {"emitters", {{{"materials", "glass"}, {"luminance_cd_m2", 7000}}}},
+                 {"surfaces", {{{"materials", "wall"}}}},
+                 {"directional", {{{"illuminance_lx", 1}, {"direction", {0, -1, 0}}}}}};
+    EXPECT_EQ(complaint_of([&] { read(file); }), "");
+    for (const char* rules : {"lamps", "emitters", "surfaces", "directional"})
+        for (json& rule : file[rules]) rule["comment"] = "why";
+    file["comment"] = "of the file";
+    EXPECT_EQ(complaint_of([&] { read(file); }), "");
+    EXPECT_EQ(read(file).lamps[0].lamp.intensity, 1800.0f);
+    file["lamps"][3]["comment"] = 5;
+    EXPECT_TRUE(contains(complaint_of([&] { read(file); }), "/lamps/3/comment"));
+    file["lamps"][3].erase("comment");
+    file["sky"] = {{"luminance_cd_m2", 1}, {"comment", "no rule"}};
+    EXPECT_TRUE(contains(complaint_of([&] { read(file); }), "/sky/comment: unknown key"));
+}
+
+// The lamps of data/photometry need no file: 8000 lm of the street lamp, 28,150 cd of the low beam (its README).
+TEST(Photometry, KnowsStandardLamps) {
+    const auto rule = [](const char* key, const char* lamp) {
+        return json{{"nodes", "a"}, {"type", "distribution"}, {key, lamp}};
+    };
+    json file = {{"version", 1}, {"lamps", {rule("standard", "street-lamp"), rule("standard", "low-beam")}}};
+    file["lamps"].push_back(file["lamps"][0]);
+    file["lamps"][2]["flux_lm"] = 4000;
+    const scene::Photometry p = read(file);
+    ASSERT_EQ(p.measured.size(), 2u) << "each once";
+    EXPECT_NEAR(photometry::luminous_flux(p.measured[0].distribution), 8000, 10);
+    EXPECT_NEAR(photometry::largest_intensity(p.measured[1].distribution), 28150, 10);
+    EXPECT_NEAR(static_cast<double>(p.lamps[2].lamp.intensity), 0.5, 1e-3);
+    EXPECT_TRUE(p.lamps[0].points_down);
+    file["lamps"][0]["file"] = "street-lamp.ies";
+    EXPECT_TRUE(contains(complaint_of([&] { read(file); }), "/lamps/0/standard: is given beside file"));
+    file["lamps"][0] = rule("standard", "sun");
+    EXPECT_TRUE(contains(complaint_of([&] { read(file); }), "/lamps/0/standard: there is no lamp 'sun'"));
+    file["lamps"][0] = rule("standard", "street-lamp");
+    file["lamps"][0]["lamp_set"] = 1;
+    EXPECT_TRUE(contains(complaint_of([&] { read(file); }), "/lamps/0/standard: lamp_set is for EULUMDAT"));
+    file["lamps"][0] = rule("file", "street-lamp");
+    EXPECT_FALSE(complaint_of([&] { read(file); }).empty()) << "a file of that name is a file";
+}
+
 TEST(Photometry, NamesThePlaceOfWhatIsWrong) {
     const std::vector<Fault> faults{
         {"/version", 2, "/version"},

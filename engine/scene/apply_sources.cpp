@@ -8,6 +8,7 @@
 #include "base/one_line.h"
 #include "scene/apply_rules.h"
 #include "scene/lamp.h"
+#include "scene/lamp_glass.h"
 #include "scene/photometry_measured.h"
 
 namespace vesper::scene {
@@ -15,16 +16,6 @@ namespace {
 
 using glm::dvec3;
 constexpr double kAgreement = 1.1;  // ratio of the two luminances from which they disagree
-constexpr double kReach = 1;        // m: a surface farther from a lamp than this is not its glass
-
-/// A lamp of a rule at a node of the scene.
-struct Placed {
-    uint32_t node;
-    dvec3 position, axis;  // world; m, unit length
-    struct Side {
-        double area = 0, lamp = 0;  // emitting area, m^2, and its integral of luminance, cd
-    } front, back;                  // towards the axis and away from it
-};
 
 double axis_intensity(const Application& application, const LampRule& rule) {
     Lamp lamp = rule.lamp;
@@ -34,10 +25,10 @@ double axis_intensity(const Application& application, const LampRule& rule) {
     return luminous_intensity(lamp, {&distribution, 1}, {0, 0, -1});
 }
 
-std::vector<Placed> reported_lamps(const Application& application, const std::vector<glm::dmat4>& world,
-                                   size_t rule_index) {
+std::vector<GlassLamp> reported_lamps(const Application& application, const std::vector<glm::dmat4>& world,
+                                      size_t rule_index) {
     const LampRule& rule = application.photometry.lamps[rule_index];
-    std::vector<Placed> lamps;
+    std::vector<GlassLamp> lamps;
     for (const uint32_t node : application.lamp_nodes[rule_index]) {
         const glm::dmat4& m = world[node];
         dvec3 position(m[3]);
@@ -47,56 +38,6 @@ std::vector<Placed> reported_lamps(const Application& application, const std::ve
         if (glm::length(direction) > 0) lamps.push_back({node, position, glm::normalize(direction)});
     }
     return lamps;
-}
-
-/// Lamps at a node's own place in the tree: on it, on its parent, on its children, on its siblings.
-class Neighbours {
-public:
-    Neighbours(const Scene& scene, std::vector<Placed>& lamps) : scene_(scene) {
-        for (Placed& lamp : lamps) {
-            at_[lamp.node].push_back(&lamp);
-            if (scene.nodes[lamp.node].parent != kNone) below_[scene.nodes[lamp.node].parent].push_back(&lamp);
-        }
-    }
-    std::vector<Placed*> of(uint32_t node) const {
-        const uint32_t parent = scene_.nodes[node].parent;
-        std::vector<Placed*> found;
-        const auto take = [&](const auto& map, uint32_t key) {
-            if (const auto lamps = map.find(key); lamps != map.end())
-                found.insert(found.end(), lamps->second.begin(), lamps->second.end());
-        };
-        take(at_, node), take(below_, node);
-        if (parent != kNone) take(at_, parent), take(below_, parent);
-        return found;
-    }
-
-private:
-    const Scene& scene_;
-    std::map<uint32_t, std::vector<Placed*>> at_, below_;
-};
-
-/// Adds the triangles of a primitive to the lamps they are nearest to. `picture` null: they emit evenly.
-void add_area(const Primitive& primitive, const glm::dmat4& world, bool double_sided, const EmitterRule& emitter,
-              const photometry::PictureMeans* picture, const std::vector<Placed*>& lamps) {
-    const double side = glm::determinant(glm::dmat3(world)) < 0 ? -1 : 1;
-    for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-        dvec3 p[3];
-        std::array<glm::dvec2, 3> uv;
-        for (size_t c = 0; c < 3; ++c) {
-            const Vertex& vertex = primitive.vertices[primitive.indices[i + c]];
-            p[c] = dvec3(world * glm::dvec4(vertex.position, 1));
-            uv[c] = glm::dvec2(vertex.emission_uv());
-        }
-        const dvec3 centre = (p[0] + p[1] + p[2]) / 3.0, area = 0.5 * side * glm::cross(p[1] - p[0], p[2] - p[0]);
-        Placed* const nearest = *std::min_element(lamps.begin(), lamps.end(), [&](const Placed* a, const Placed* b) {
-            return glm::distance(a->position, centre) < glm::distance(b->position, centre);
-        });
-        if (glm::distance(nearest->position, centre) > kReach) continue;
-        const double facing = glm::dot(area, nearest->axis), seen = facing > 0 || double_sided ? std::abs(facing) : 0;
-        Placed::Side& lit = facing > 0 ? nearest->front : nearest->back;
-        lit.area += seen;
-        lit.lamp += seen * (picture ? emitter.scale * picture->over(uv) : emitter.luminance);
-    }
 }
 
 std::string disagreement(const EmitterRule& emitter, const LampRule& lamp, double luminance, double intensity,
@@ -149,7 +90,7 @@ void check_lit(Application& application, const EmitterRule& emitter, const std::
     for (size_t r = 0; r < application.photometry.lamps.size(); ++r)
         if (std::find(emitter.lamps.begin(), emitter.lamps.end(), application.photometry.lamps[r].name) !=
             emitter.lamps.end())
-            for (const Placed& lamp : reported_lamps(application, world, r)) lamps.push_back(lamp.position);
+            for (const GlassLamp& lamp : reported_lamps(application, world, r)) lamps.push_back(lamp.position);
     size_t surfaces = 0, dark = 0;
     std::string first;
     for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
@@ -159,8 +100,9 @@ void check_lit(Application& application, const EmitterRule& emitter, const std::
             for (const Bounds& box : pieces_of(p, world[node])) {
                 const dvec3 low(box.low), high(box.high);
                 ++surfaces;
-                if (std::any_of(lamps.begin(), lamps.end(),
-                                [&](dvec3 lamp) { return glm::distance(lamp, glm::clamp(lamp, low, high)) <= kReach; }))
+                if (std::any_of(lamps.begin(), lamps.end(), [&](dvec3 lamp) {
+                        return glm::distance(lamp, glm::clamp(lamp, low, high)) <= kGlassReach;
+                    }))
                     continue;
                 if (dark++ == 0) first = scene.nodes[node].name;
             }
@@ -170,8 +112,8 @@ void check_lit(Application& application, const EmitterRule& emitter, const std::
         application.report.warnings.push_back(
             "emitter " + in_quotes(emitter.name) + ": " + std::to_string(dark) + " of " + std::to_string(surfaces) +
             (dark == 1 ? " surfaces has" : " surfaces have") + " no lamp " + in_quotes(emitter.lamps.front()) +
-            " within " + decimal(kReach) + " m and " + (dark == 1 ? "is" : "are") + " dark (node " + in_quotes(first) +
-            ")");
+            " within " + decimal(kGlassReach) + " m and " + (dark == 1 ? "is" : "are") + " dark (node " +
+            in_quotes(first) + ")");
 }
 
 /// One emitter against one lamp rule, by the meshes beside its lamps; one line for all nodes.
@@ -179,29 +121,15 @@ void check_pair(Application& application, const EmitterRule& emitter, const std:
                 size_t rule_index, const std::vector<glm::dmat4>& world) {
     const Scene& scene = application.scene;
     const LampRule& rule = application.photometry.lamps[rule_index];
-    const auto shines = [&](const Primitive& p) {
-        return std::find(shining.begin(), shining.end(), p.material) != shining.end();
-    };
-    std::vector<Placed> lamps = reported_lamps(application, world, rule_index);
-    const Neighbours neighbours(scene, lamps);
+    std::vector<GlassLamp> lamps = reported_lamps(application, world, rule_index);
     std::optional<photometry::PictureMeans> means;
     if (emitter.picture != kNone) means.emplace(application.photometry.pictures[emitter.picture].picture);
-    for (uint32_t node = 0; node < scene.nodes.size(); ++node) {
-        if (scene.nodes[node].mesh == kNone) continue;
-        const std::vector<Primitive>& primitives = scene.meshes[scene.nodes[node].mesh].primitives;
-        if (std::none_of(primitives.begin(), primitives.end(), shines)) continue;
-        const std::vector<Placed*> beside = neighbours.of(node);
-        if (beside.empty()) continue;
-        for (const Primitive& p : primitives)
-            if (shines(p))
-                add_area(p, world[node], scene.materials[p.material].double_sided, emitter, means ? &*means : nullptr,
-                         beside);
-    }
+    add_glass(scene, world, shining, emitter, means ? &*means : nullptr, lamps);
     const double intensity = axis_intensity(application, rule);
     size_t glazed = 0, wrong = 0;
     double worst = 0, its_area = 0, its_luminance = 0;
-    for (const Placed& lamp : lamps) {
-        const auto [area, candela] = lamp.front.area > 0 ? lamp.front : lamp.back;
+    for (const GlassLamp& lamp : lamps) {
+        const auto [area, candela] = lamp.seen();
         if (!(area > 0) || !(candela > 0) || !(intensity > 0)) continue;
         ++glazed;
         const double off = std::abs(std::log(intensity / candela));

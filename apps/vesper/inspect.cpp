@@ -51,6 +51,15 @@ Kind kind_of(const std::string& file) {
                 "(.exr, .hdr)");
 }
 
+/// The report of a scene that is asked for.
+Inspection inspect_scene_by(const InspectArguments& a) {
+    if (a.balance) return inspect_balance(a);
+    if (!a.points.empty()) return inspect_light(a);
+    if (!a.light.empty()) return inspect_light_picture(a);
+    if (!a.photometry_template.empty()) return inspect_template(a);
+    return a.lamp.empty() ? inspect_scene(a) : inspect_shadow_map(a);
+}
+
 void run(const InspectArguments& a) {
     std::optional<Budget> budget;
     if (!a.balance && a.light.empty()) budget.emplace("inspecting " + one_line(a.file));  // these take their time
@@ -60,6 +69,7 @@ void run(const InspectArguments& a) {
         throw Error("-o " + a.picture + ": a .png file is expected");
     io::announce_write("-o", a.picture);
     if (!a.light.empty()) announce_light_picture(a);
+    announce_template(a);
     const Kind kind = kind_of(a.file);
     const auto only = [&](bool given, Kind wanted, const char* what) {
         if (given && kind != wanted) throw Error(what);
@@ -72,8 +82,12 @@ void run(const InspectArguments& a) {
     only(!a.points.empty(), Kind::Scene, "--at is for scenes (.gltf, .glb)");
     only(!a.light.empty(), Kind::Scene, "--light is for scenes (.gltf, .glb)");
     only(a.balance, Kind::Scene, "--balance is for scenes (.gltf, .glb)");
-    if (int(!a.lamp.empty()) + int(!a.points.empty()) + int(!a.light.empty()) + int(a.balance) > 1)
-        throw Error("--at, --light, --lamp and --balance are reports of their own: ask for one of them");
+    only(!a.photometry_template.empty(), Kind::Scene, "--photometry-template is for scenes (.gltf, .glb)");
+    if (int(!a.lamp.empty()) + int(!a.points.empty()) + int(!a.light.empty()) + int(a.balance) +
+            int(!a.photometry_template.empty()) >
+        1)
+        throw Error(
+            "--at, --light, --lamp, --balance and --photometry-template are reports of their own: ask for one of them");
     if (a.points.empty() && !a.normal.empty()) throw Error("--normal has a meaning only beside --at");
     if (a.points.empty() && a.light.empty() && a.paths > 0)
         throw Error("--paths has a meaning only beside --at and --light");
@@ -87,11 +101,7 @@ void run(const InspectArguments& a) {
     Inspection found;
     switch (kind) {
         case Kind::Scene:
-            found = a.balance           ? inspect_balance(a)
-                    : !a.points.empty() ? inspect_light(a)
-                    : !a.light.empty()  ? inspect_light_picture(a)
-                    : a.lamp.empty()    ? inspect_scene(a)
-                                        : inspect_shadow_map(a);
+            found = inspect_scene_by(a);
             break;
         case Kind::Roads:
             found = inspect_roads(a);
@@ -150,6 +160,9 @@ void add_inspect(apps::Command program) {
         .check(apps::between(16, 1e8));
     command.add_flag("--balance", a->balance,
                      "Scenes: luminous flux that lamps and surfaces emit, and where it goes; takes a minute or so");
+    command.add_option("--photometry-template", a->photometry_template,
+                       "Scenes: OUT.json, a new photometry file with a rule for all that looks like a source of light "
+                       "(docs/photometry-template.md)");
     command.add_option("--device", a->device,
                        "With --lamp and --light: part of a name, cpu, or an index of vesper devices");
     apps::add_thread_option(command, a->threads);
@@ -168,6 +181,7 @@ void add_inspect(apps::Command program) {
         "  vesper inspect night.gltf --at 8.5,0.15,-60 --at 10,3,-60 --normal -1,0,0\n"
         "  vesper inspect night.gltf --light light --camera driver --paths 256\n"
         "  vesper inspect night.gltf --balance\n"
+        "  vesper inspect street.gltf --photometry-template street.photometry.json\n"
         "  vesper inspect night.exr --probe 840,700 -o luminance.png\n");
     command.callback([a] {
         apps::use_threads(a->threads);

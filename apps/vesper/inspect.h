@@ -23,7 +23,8 @@ struct InspectArguments {
     std::string camera, size;  ///< of that picture; empty: the first, the standard size
     double low = 0, high = 0;  ///< ends of the colour scale; 0: found
     bool contours = false;
-    bool balance = false;  ///< of luminous flux
+    bool balance = false;             ///< of luminous flux
+    std::string photometry_template;  ///< photometry file to make
 };
 
 /// A report to print, and the same for programs.
@@ -42,6 +43,8 @@ Inspection inspect_light(const InspectArguments&);          ///< at points of a 
 void announce_light_picture(const InspectArguments&);       ///< of the files that the next one writes (FileGate)
 Inspection inspect_light_picture(const InspectArguments&);  ///< of what a camera sees; writes the pictures
 Inspection inspect_balance(const InspectArguments&);        ///< of a scene's luminous flux
+void announce_template(const InspectArguments&);            ///< of the file that the next one writes (FileGate)
+Inspection inspect_template(const InspectArguments&);       ///< writes a photometry file for a scene, to be filled in
 Inspection inspect_shadow_map(const InspectArguments&);     ///< of a scene; writes the picture if one is wanted
 Inspection inspect_distribution(const InspectArguments&);   ///< writes the picture if one is wanted
 Inspection inspect_table(const InspectArguments&);          ///< an r-table

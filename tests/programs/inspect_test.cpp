@@ -130,6 +130,92 @@ TEST_F(Inspect, NamesAreShownAsText) {
     EXPECT_EQ(json("a.json")["cameras"][0], name);
 }
 
+/// A scene of three kinds of names, a light of the file, and what no rule is for.
+std::string scene_of_names() {
+    GltfFile file;
+    for (int i = 1; i <= 40; ++i)
+        file.root["nodes"].push_back({{"name", "street_lamp_" + std::to_string(i)}, {"translation", {i, 6, 0}}});
+    file.root["nodes"].push_back({{"name", "Scheinwerfer.L"}});
+    file.root["nodes"].push_back({{"name", "signal_1/green"}});
+    file.root["nodes"].push_back({{"name", "wall"}});
+    const nlohmann::json light = {{"KHR_lights_punctual", {{"light", 0}}}};
+    file.root["nodes"].push_back({{"name", "Empty"}, {"extensions", light}});
+    file.root["extensionsUsed"] = {"KHR_lights_punctual"};
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}, {"intensity", 70}}};
+    file.root["materials"] = {{{"name", "panel"}, {"emissiveFactor", {1, 1, 1}}}};
+    file.show({{"attributes", {{"POSITION", file.vec3(kTriangle)}}}, {"material", 0}}, {{"name", "board"}});
+    return file.text();
+}
+
+TEST_F(Inspect, APhotometryTemplate) {
+    folder.write("a.gltf", scene_of_names());
+    ASSERT_EQ(inspect("a.gltf --photometry-template p.json --json a.json"), 0) << said;
+    EXPECT_TRUE(prints("a.gltf: rules for lamps: 4, for emitters: 1\n")) << printed;
+    EXPECT_TRUE(prints("by light of the file  rules: 1, nodes or materials: 1\n")) << printed;
+    EXPECT_TRUE(prints("by name               rules: 3, nodes or materials: 42\n")) << printed;
+    EXPECT_TRUE(prints("wrote p.json\n")) << printed;
+    const auto report = json("a.json"), rules = json("p.json");
+    EXPECT_EQ(report["kind"], "photometry template");
+    EXPECT_EQ(report["lamp_rules"], 4);
+    EXPECT_EQ(report["reasons"][1], (nlohmann::json{{"reason", "emission"}, {"rules", 1}, {"sources", 1}}));
+    EXPECT_EQ(report["left_out"], (nlohmann::json{{"rules", 0}, {"sources", 0}}));
+    EXPECT_EQ(rules["lamps"][0]["nodes"], "street_lamp_*");
+    std::set<std::string> names;
+    for (const auto& rule : rules["lamps"]) names.insert(rule["name"]);
+    EXPECT_EQ(names, (std::set<std::string>{"street lamp", "headlamp", "green signal", "lamp"}));
+
+    const std::string convert = std::string(VESPER_PROGRAM) + " convert a.gltf -p p.json -o n.gltf >convert.txt 2>&1";
+    ASSERT_EQ(std::system(("cd " + folder.path().string() + " && " + convert).c_str()), 0);
+    const std::string applied = read_text(folder / "convert.txt");
+    EXPECT_TRUE(contains(applied, "lamp 'street lamp': 40 nodes, 'street-lamp', 5168 cd at most")) << applied;
+    EXPECT_FALSE(contains(applied, "matches")) << applied;
+    EXPECT_FALSE(contains(applied, "warning")) << applied;
+}
+
+TEST_F(Inspect, ATemplateReplacesNothing) {
+    folder.write("a.gltf", scene_of_names());
+    folder.write("p.json", "mine");
+    const auto refuses = [&](const std::string& arguments, const std::string& reason) {
+        EXPECT_EQ(inspect(arguments), 2) << arguments;
+        EXPECT_TRUE(contains(said, reason)) << said;
+        EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+    };
+    refuses("a.gltf --photometry-template p.json", "--photometry-template p.json: is there already");
+    EXPECT_EQ(read_text(folder / "p.json"), "mine");
+    refuses("a.gltf --photometry-template a.gltf", "would replace what is read");
+    refuses("a.gltf --photometry-template b.json --json b.json", "would be written twice");
+    refuses("a.gltf --photometry-template none/b.json", "there is no folder none");
+    refuses("a.gltf --photometry-template b.json --balance", "ask for one of them");
+    refuses(kOwnData + "rivoli/rivoli.xodr --photometry-template b.json", "--photometry-template is for scenes");
+    folder.write("bad.gltf", "{");
+    refuses("bad.gltf --photometry-template b.json", "bad.gltf");
+    folder.write("q.json", R"({"version": 1})");
+    ASSERT_EQ(std::system(("cd " + folder.path().string() +
+                           " && " VESPER_PROGRAM " convert a.gltf -p q.json -o n.gltf >convert.txt 2>&1")
+                              .c_str()),
+              0);
+    refuses("n.gltf --photometry-template b.json", "n.gltf: has its photometry already");
+    EXPECT_FALSE(std::filesystem::exists(folder / "b.json"));
+}
+
+// The scenes that are here light up with their templates as they are, without a word about their rules.
+TEST_F(Inspect, TemplatesOfOwnScenes) {
+    for (const auto& [scene, lamps, emitters] : {std::tuple{"rivoli/rivoli", 10, 13}, {"photometry/yard", 3, 0}}) {
+        const std::string file = kOwnData + scene + ".gltf";
+        ASSERT_EQ(inspect(file + " --json a.json --photometry-template " + std::to_string(emitters) + ".json"), 0)
+            << said;
+        EXPECT_EQ(json("a.json")["lamp_rules"], lamps);
+        EXPECT_EQ(json("a.json")["emitter_rules"], emitters);
+        const std::string convert =
+            " convert " + file + " -p " + std::to_string(emitters) + ".json -o n.glb >c.txt 2>&1";
+        ASSERT_EQ(std::system(("cd " + folder.path().string() + " && " VESPER_PROGRAM + convert).c_str()), 0);
+        const std::string applied = read_text(folder / "c.txt");
+        EXPECT_FALSE(contains(applied, "warning: lamp")) << applied;
+        EXPECT_FALSE(contains(applied, "warning: emitter")) << applied;
+        EXPECT_FALSE(contains(applied, "sounds like")) << applied;
+    }
+}
+
 /// A lamp 3 m over a plate of 2 m, 1 m above a wide floor; and one that shines to all sides.
 struct LampOverPlate {
     GltfFile file;

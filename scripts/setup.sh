@@ -6,7 +6,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 packages=(
     g++ cmake ninja-build pkg-config
     libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers glslang-tools
-    libglm-dev libopenexr-dev libpng-dev libjpeg-dev libexif-dev libwebp-dev libeigen3-dev libembree-dev libmeshoptimizer-dev libpugixml-dev
+    libglm-dev libopenexr-dev libpng-dev libjpeg-dev libexif-dev libwebp-dev libdraco-dev libeigen3-dev libembree-dev libmeshoptimizer-dev libpugixml-dev
     libtinygltf-dev libprotobuf-dev protobuf-compiler
     nlohmann-json3-dev libcli11-dev libgtest-dev libcairo2-dev fonts-dejavu-core libglfw3-dev libimgui-dev doxygen
     "$@"

@@ -79,7 +79,7 @@ private:
             return accessor && !document_.element("accessors", *accessor).find("bufferView");
         };
         if (compressed && (is_empty(position) || is_empty(indices)))
-            primitive.fail("is compressed with KHR_draco_mesh_compression, which is not supported");
+            primitive.fail("is compressed with KHR_draco_mesh_compression, which Vesper was built without (libdraco)");
         if (is_empty(indices)) indices->fail("names an accessor without a buffer view");
     }
     void attributes(const JsonValue& holder) {

@@ -10,13 +10,14 @@
 #include "base/one_line.h"
 #include "io/file_gate.h"
 #include "io/read_file.h"
+#include "scene/gltf_compressed.h"
 #include "scene/gltf_model.h"
 #include "scene/uri.h"
 
 namespace vesper::scene {
 namespace {
 
-constexpr std::array<std::string_view, 13> kSupported = {
+constexpr std::array<std::string_view, 15> kSupported = {
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_unlit",
@@ -26,6 +27,8 @@ constexpr std::array<std::string_view, 13> kSupported = {
     "EXT_mesh_gpu_instancing",
     "EXT_lights_ies",
     "KHR_node_visibility",
+    "EXT_meshopt_compression",
+    "KHR_meshopt_compression",
     // Pictures: a material whose picture cannot be read shows its factors.
     "EXT_texture_webp",
     "EXT_texture_avif",
@@ -88,6 +91,7 @@ std::optional<std::pair<uint32_t, uint32_t>> parse_version(const std::string& te
 }  // namespace
 
 bool is_supported_extension(std::string_view name) {
+    if (name == "KHR_draco_mesh_compression") return reads_draco();
     return std::find(kSupported.begin(), kSupported.end(), name) != kSupported.end();
 }
 
@@ -106,6 +110,7 @@ GltfDocument::GltfDocument(const std::filesystem::path& file, const SceneLimits&
     }
     check_format();
     buffers_.resize(list("buffers").size());
+    expand_draco(*this);
 }
 
 void GltfDocument::check_format() {
@@ -166,7 +171,16 @@ std::vector<uint8_t> GltfDocument::bytes_of_uri(const JsonValue& uri) {
 }
 
 bool GltfDocument::has_bytes(uint32_t buffer) {
-    return list("buffers")[buffer].find("uri").has_value() || (buffer == 0 && has_binary_chunk_);
+    if (buffer < buffers_.size() && buffers_[buffer]) return true;
+    return list("buffers")[buffer].find("uri").has_value() || (buffer == 0 && has_binary_chunk_) ||
+           is_compressed(buffer);
+}
+
+bool GltfDocument::is_compressed(uint32_t buffer) {
+    const JsonValue holder = list("buffers")[buffer];
+    if (holder.find("uri")) return false;
+    const auto extensions = holder.find("extensions");
+    return extensions && (extensions->find("EXT_meshopt_compression") || extensions->find("KHR_meshopt_compression"));
 }
 
 std::span<const uint8_t> GltfDocument::buffer(uint32_t index) {
@@ -174,20 +188,15 @@ std::span<const uint8_t> GltfDocument::buffer(uint32_t index) {
     const uint64_t length = buffer.at("byteLength").integer();
     const auto uri = buffer.find("uri");
     std::span<const uint8_t> bytes;
-    if (uri) {
-        if (index >= buffers_.size()) buffers_.resize(list("buffers").size());  // the converter adds some
-        if (!buffers_[index]) buffers_[index] = bytes_of_uri(*uri);
+    if (index >= buffers_.size()) buffers_.resize(list("buffers").size());  // the converter adds some
+    if (!buffers_[index] && uri) buffers_[index] = bytes_of_uri(*uri);
+    if (!buffers_[index] && is_compressed(index)) buffers_[index] = decode_meshopt(*this, index);
+    if (buffers_[index])
         bytes = *buffers_[index];
-    } else {
-        if (!has_bytes(index)) {
-            const auto extensions = buffer.find("extensions");
-            for (const char* compression : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
-                if (extensions && extensions->find(compression))
-                    buffer.fail("has no bytes but those of " + std::string(compression) + ", which is not read");
-            buffer.fail("has neither a uri nor a binary chunk to lie in");
-        }
+    else if (has_bytes(index))
         bytes = binary_chunk_;
-    }
+    else
+        buffer.fail("has neither a uri nor a binary chunk to lie in");
     if (length > bytes.size())
         buffer.fail("is cut off: " + std::to_string(length) + " bytes stated, " + std::to_string(bytes.size()) +
                     " there");
@@ -229,6 +238,12 @@ nlohmann::json& GltfDocument::edit() {
     lists_.clear();
     model_.reset();
     return json_.root;
+}
+
+void GltfDocument::add_buffer(std::vector<uint8_t> bytes) {
+    buffers_.resize(list("buffers").size());
+    edit()["buffers"].push_back({{"byteLength", bytes.size()}});
+    buffers_.emplace_back(std::move(bytes));
 }
 
 }  // namespace vesper::scene

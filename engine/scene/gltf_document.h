@@ -59,7 +59,7 @@ public:
     GltfPart<tinygltf::Node> node(size_t i) { return {&model().nodes[i], list("nodes")[i]}; }
     GltfPart<tinygltf::Skin> skin(size_t i) { return {&model().skins[i], list("skins")[i]}; }
 
-    /// Whether a buffer has bytes at all: one without uri is a placeholder that some extension was to fill.
+    /// Whether a buffer has bytes at all: one without uri, of which no view is compressed, is a placeholder.
     bool has_bytes(uint32_t buffer);
     /// Bytes of buffer or buffer view `index`, valid as long as the document.
     std::span<const uint8_t> buffer(uint32_t index);
@@ -72,11 +72,14 @@ public:
     /// Counts elements that an accessor makes of no bytes; throws where all of them are over the limit.
     void take_unwritten(const JsonValue& accessor, uint64_t count);
 
-    /// For the converter. Whatever was obtained above is invalid after a change.
+    /// For changes. Whatever was obtained above is invalid after one.
     nlohmann::json& edit();
+    /// Appends a buffer, as after edit().
+    void add_buffer(std::vector<uint8_t> bytes);
 
 private:
     void check_format();
+    bool is_compressed(uint32_t buffer);
     std::vector<uint8_t> bytes_of_uri(const JsonValue& uri);
 
     std::filesystem::path folder_;

@@ -35,8 +35,8 @@ Parts collect(GltfDocument& document, std::vector<std::string>& warnings) {
     return parts;
 }
 
-/// What views and buffers say of compressed bytes beside them would be wrong where buffers are put together; nobody
-/// needs it, since the document could be read.
+/// Views and buffers that name compressed bytes would be wrong where buffers are put together; the document has them
+/// without compression.
 void drop_compression(json& root) {
     for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
         for (const char* list : {"bufferViews", "buffers"}) {
@@ -47,10 +47,13 @@ void drop_compression(json& root) {
                                                                     extensions->erase(name) > 0 && extensions->empty())
                     one.erase("extensions");
         }
-        if (const auto used = root.find("extensionsUsed"); used != root.end()) {
-            used->erase(std::remove(used->begin(), used->end(), json(name)), used->end());
-            if (used->empty()) root.erase("extensionsUsed");
-        }
+    }
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+        const auto names = root.find(list);
+        if (names == root.end()) continue;
+        for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression"})
+            names->erase(std::remove(names->begin(), names->end(), json(name)), names->end());
+        if (names->empty()) root.erase(list);
     }
 }
 

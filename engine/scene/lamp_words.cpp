@@ -11,9 +11,9 @@ namespace vesper::scene {
 namespace {
 
 /// Words for a lamp or its light, in small letters and singular.
-constexpr std::string_view kWords[]{"lamp",    "light",    "lantern",  "luminaire", "bulb",        "glow",  "neon",
-                                    "led",     "emissive", "emission", "emitter",   "headl",       "taill", "lampe",
-                                    "leuchte", "licht",    "laterne",  "strahler",  "scheinwerfer"};
+constexpr std::string_view kLampWords[]{"lamp",    "light",    "lantern",  "luminaire", "bulb",        "glow",  "neon",
+                                        "led",     "emissive", "emission", "emitter",   "headl",       "taill", "lampe",
+                                        "leuchte", "licht",    "laterne",  "strahler",  "scheinwerfer"};
 
 /// Words that are written together with one of the above: "streetlight", "lamppost".
 constexpr std::string_view kBefore[]{"street",  "road",  "head",    "tail",    "rear",  "front", "flood",    "spot",
@@ -28,7 +28,7 @@ constexpr std::string_view kAfter[]{"post", "pole", "head", "bulb", "bar", "stri
 bool is_word(std::string_view text) {
     for (const std::string_view plural : {"", "s", "n", "er"})
         if (text.ends_with(plural) &&
-            std::ranges::find(kWords, text.substr(0, text.size() - plural.size())) != std::end(kWords))
+            std::ranges::find(kLampWords, text.substr(0, text.size() - plural.size())) != std::end(kLampWords))
             return true;
     return false;
 }

@@ -48,7 +48,7 @@ scene::Material as_road(const scene::Scene& scene, InDiffuse road, const scene::
     m.base_colour = glm::vec4(colour * road.reflectance, m.base_colour.a);
     m.metallic = shared::kRoadKind - float(m.reflection_table);
     m.roughness = -road.plain;
-    m.metallic_roughness_texture = {};
+    m.metallic_roughness_texture = m.normal_texture = {};
     return m;
 }
 
@@ -56,7 +56,7 @@ scene::Material as_road(const scene::Scene& scene, InDiffuse road, const scene::
 scene::Material as_sheet(scene::Material m) {
     m.metallic = shared::kRetroCode + float(m.retroreflector);
     m.roughness = std::min(m.roughness, 0.999f);  // not matt: lamps count by what they give a surface facing them
-    m.metallic_roughness_texture = {};
+    m.metallic_roughness_texture = m.normal_texture = {};
     return m;
 }
 
@@ -200,7 +200,8 @@ void GpuScene::make_surfaces(const gpu::Device& device, const scene::Scene& scen
         m.emission *= unit;
         surfaces_.push_back({m,
                              {textures_.get(scene, m.base_colour_texture, Decode::Colour, cutoff),
-                              textures_.get(scene, m.metallic_roughness_texture, Decode::Data), emission},
+                              textures_.get(scene, m.metallic_roughness_texture, Decode::Data), emission,
+                              textures_.get_relief(scene, m.normal_texture, m.normal_scale)},
                              0});
         if (cutoff > 0 && cutoff <= 1 && m.base_colour_texture.image != scene::kNone)
             surfaces_.back().mask =

@@ -69,7 +69,7 @@ public:
     };
     struct Surface {
         scene::Material material;
-        VkDescriptorImageInfo textures[3];  ///< base colour, metallic-roughness, emission
+        VkDescriptorImageInfo textures[4];  ///< base colour, metallic-roughness, emission, relief
         int32_t mask;                       ///< as shared::Instance::mask
     };
 

@@ -253,6 +253,23 @@ std::vector<Level> masked_levels(Level base, float cutoff) {
     return levels;
 }
 
+std::vector<Level> relief_levels(const Image& image, float scale) {
+    Level base{image.width, image.height, std::vector<float>(size_t(image.width) * image.height * 4)};
+    for (size_t i = 0; i < base.rgba.size(); i += 4) {
+        const glm::vec3 code = glm::vec3(image.rgba[i], image.rgba[i + 1], image.rgba[i + 2]) - 127.5f;
+        glm::vec3 n = glm::sign(code) * (glm::abs(code) - 0.5f) / 127.0f;
+        n = glm::normalize(glm::vec3(scale * n.x, scale * n.y, std::max(n.z, 1e-3f)));
+        for (int c = 0; c < 3; ++c) base.rgba[i + size_t(c)] = n[c];
+    }
+    std::vector<Level> levels = with_smaller(std::move(base));
+    for (Level& level : levels)
+        for (size_t i = 0; i < level.rgba.size(); i += 4) {
+            const float length = glm::length(glm::vec3(level.rgba[i], level.rgba[i + 1], level.rgba[i + 2]));
+            level.rgba[i + 3] = std::sqrt(std::max(1 - length, 0.0f));
+        }
+    return levels;
+}
+
 TextureStore::TextureStore(const gpu::Device& device, gpu::Arena& arena, PictureFormat pictures)
     : device_(&device), arena_(&arena), picture_format_(filters_floats(device) ? pictures : PictureFormat::Half) {}
 
@@ -274,6 +291,21 @@ VkDescriptorImageInfo TextureStore::get(const scene::Scene& scene, const scene::
                     .first;
     }
     return {sampler(use), found->second.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+}
+
+VkDescriptorImageInfo TextureStore::get_relief(const scene::Scene& scene, const scene::TextureUse& use, float scale) {
+    const auto key = std::pair(use.image, use.image == scene::kNone ? 0.0f : scale);
+    auto found = reliefs_.find(key);
+    if (found == reliefs_.end()) {
+        const Image flat{"flat", 1, 1, {128, 128, 255, 255}};
+        const Image& image = use.image == scene::kNone ? flat : scene.images[use.image];
+        const TemporaryMemory of_levels(uint64_t{image.width} * image.height * 4 * sizeof(float) * 4 / 3);
+        const std::vector<Level> levels = relief_levels(image, scale);
+        std::vector<Rows> rows;
+        for (const Level& level : levels) rows.push_back(rows_of(level));
+        found = reliefs_.emplace(key, upload(rows, VK_FORMAT_R16G16B16A16_SFLOAT)).first;
+    }
+    return {sampler(use, true), found->second.view.get(), VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
 }
 
 VkDescriptorImageInfo TextureStore::get_picture(const scene::Scene& scene, const scene::TextureUse& use, float& unit) {
@@ -362,12 +394,11 @@ TextureStore::Texture TextureStore::upload(const std::vector<Rows>& levels, VkFo
     return texture;
 }
 
-VkSampler TextureStore::sampler(const scene::TextureUse& use) {
-    gpu::OwnedSampler& sampler = samplers_[{use.wrap_u, use.wrap_v, use.nearest}];
+VkSampler TextureStore::sampler(const scene::TextureUse& use, bool blended) {
+    gpu::OwnedSampler& sampler = samplers_[{use.wrap_u, use.wrap_v, use.nearest, blended}];
     if (!sampler) {
-        // Between mip levels a CPU device takes the nearer one: blending two costs it as much again.
         const VkSamplerMipmapMode mips =
-            device_->is_cpu() ? VK_SAMPLER_MIPMAP_MODE_NEAREST : VK_SAMPLER_MIPMAP_MODE_LINEAR;
+            device_->is_cpu() && !blended ? VK_SAMPLER_MIPMAP_MODE_NEAREST : VK_SAMPLER_MIPMAP_MODE_LINEAR;
         const VkSamplerCreateInfo info{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
                                        .magFilter = use.nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR,
                                        .minFilter = VK_FILTER_LINEAR,

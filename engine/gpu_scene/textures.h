@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "base/image.h"
 #include "gpu/memory.h"
 #include "gpu_scene/masks.h"
 #include "scene/material.h"
@@ -41,6 +42,12 @@ Level half_size(const Level& level);
 /// or more: where its area would be off by a tenth of the whole, as all of it would be there or nothing.
 std::vector<Level> masked_levels(Level base, float cutoff);
 
+/// Mip levels of a normal texture, whose slopes are times `scale`: red, green and blue are the mean of the normals,
+/// opacity is the square root of how much shorter than 1 it is, which says how they spread: half floats do not hold
+/// that difference of the first three. Codes 127 and 128 are 0, so that what is painted flat is flat; 0 and 255 are -1
+/// and 1.
+std::vector<Level> relief_levels(const Image& image, float scale);
+
 /// How luminance pictures lie on the device. Float: 32 bits, as they are, where the device filters such textures. Half:
 /// brought to at most 60,000; a texel is then off by 2^-11 of itself, one below 1e-9 of the brightest by 5e-13 of that.
 enum class PictureFormat : uint8_t { Float, Half };
@@ -54,6 +61,9 @@ public:
     /// View and sampler for a use of an image. Without an image: a white texel. `cutoff`: of opacity, where that masks;
     /// 0: it does not.
     VkDescriptorImageInfo get(const scene::Scene& scene, const scene::TextureUse& use, Decode decode, float cutoff = 0);
+    /// The same for a normal texture, whose slopes are times `scale`: see relief_levels(). Without an image: a texel
+    /// without relief.
+    VkDescriptorImageInfo get_relief(const scene::Scene& scene, const scene::TextureUse& use, float scale);
     /// The same for a luminance picture. `unit`: the luminance that a value of 1 in the texture is of the picture's.
     VkDescriptorImageInfo get_picture(const scene::Scene& scene, const scene::TextureUse& use, float& unit);
 
@@ -73,15 +83,17 @@ private:
     Texture upload(const Rows& base, VkFormat format);
     Texture upload_masked(const Rows& base, float cutoff, VkFormat format, std::vector<OpacityLevel>& opacities);
     Texture upload(const std::vector<Rows>& levels, VkFormat format);
-    VkSampler sampler(const scene::TextureUse& use);
+    /// `blended`: between mip levels; otherwise a CPU device takes the nearer one, since two cost it as much again.
+    VkSampler sampler(const scene::TextureUse& use, bool blended = false);
 
     const gpu::Device* device_;
     gpu::Arena* arena_;
     PictureFormat picture_format_;
     std::map<uint32_t, std::pair<Texture, float>> pictures_;  // and the unit
     std::map<std::tuple<uint32_t, Decode, float>, Texture> textures_;
+    std::map<std::pair<uint32_t, float>, Texture> reliefs_;                      // by the scale, too
     std::map<std::pair<uint32_t, float>, std::vector<OpacityLevel>> opacities_;  // of masked ones
-    std::map<std::tuple<scene::Wrap, scene::Wrap, bool>, gpu::OwnedSampler> samplers_;
+    std::map<std::tuple<scene::Wrap, scene::Wrap, bool, bool>, gpu::OwnedSampler> samplers_;
 };
 
 }  // namespace vesper::gpu_scene

@@ -68,8 +68,8 @@ public:
     /// The line of an offset into the file, from 1.
     size_t line_of(ptrdiff_t offset) const;
 
-    /// What no reader has asked for, and how often it is there: "lane/access" and "lane@level", without what lies in
-    /// elements that were not asked for; the first 1,000.
+    /// Names that no reader has asked for, and how often they are there: "lane/access" and "lane@level". Elements that
+    /// were not asked for count without their contents. The first 1,000.
     std::map<std::string, size_t> unread() const;
 
 private:

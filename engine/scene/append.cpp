@@ -42,8 +42,7 @@ SceneInsert::SceneInsert(Scene& to, Scene model) {
                    retroreflector = appended(to.retroreflectors, model.retroreflectors),
                    distribution = appended(to.distributions, model.distributions);
     for (Material& m : model.materials) {
-        for (TextureUse* use : {&m.base_colour_texture, &m.metallic_roughness_texture, &m.emission_texture})
-            move_index(use->image, image);
+        for (TextureUse* use : textures_of(m)) move_index(use->image, image);
         move_index(m.emission_picture.image, picture);
         move_index(m.reflection_table, table), move_index(m.retroreflector, retroreflector);
     }

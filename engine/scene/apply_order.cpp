@@ -96,7 +96,7 @@ void drop_images(Application& application) {
         if (shown[i] || !application.images_before[i]) kept.push_back(std::move(scene.images[i]));
     }
     for (Material& m : scene.materials)
-        for (TextureUse* use : {&m.base_colour_texture, &m.metallic_roughness_texture, &m.emission_texture})
+        for (TextureUse* use : textures_of(m))
             if (use->image != kNone) use->image = place[use->image];
     scene.images = std::move(kept);
 }
@@ -106,7 +106,7 @@ void drop_images(Application& application) {
 std::vector<bool> shown_images(const Scene& scene) {
     std::vector<bool> shown(scene.images.size());
     for (const Material& m : scene.materials)
-        for (const TextureUse* use : {&m.base_colour_texture, &m.metallic_roughness_texture, &m.emission_texture})
+        for (const TextureUse* use : textures_of(m))
             if (use->image != kNone) shown[use->image] = true;
     return shown;
 }

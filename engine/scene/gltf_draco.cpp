@@ -125,7 +125,7 @@ std::vector<uint8_t> corners_of(const draco::Mesh& mesh) {
     return bytes;
 }
 
-/// What an accessor gets: its place in the buffer that is added.
+/// The place of an accessor's elements in the buffer that is added.
 struct Filled {
     uint64_t offset = 0, length = 0, count = 0;
     bool indices = false;

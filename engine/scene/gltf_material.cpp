@@ -76,7 +76,7 @@ TextureUse read_texture(GltfReader& reader, const JsonValue& info, UvMapping& ma
 struct Properties {
     GltfPart<tinygltf::Material> material;
     Material& made;
-    UvMapping base_uv, roughness_uv, emission_uv;
+    UvMapping base_uv, roughness_uv, normal_uv, emission_uv;
 };
 
 /// A number in [0, 1]; one outside is moved to the nearest end, with a note.
@@ -170,6 +170,15 @@ void read_emission(GltfReader& reader, Properties& p) {
     reader.notes.add("a material whose picture of emission cannot be read emits nothing");
 }
 
+void read_relief(GltfReader& reader, Properties& p) {
+    const auto texture = p.material.json.find("normalTexture");
+    if (!texture) return;
+    const double scale = texture->number_or("scale", 1);
+    p.made.normal_scale = static_cast<float>(std::abs(scale));
+    if (scale < 0) reader.notes.add("a normal texture of negative scale is read with the positive one");
+    if (scale != 0) p.made.normal_texture = read_texture(reader, *texture, p.normal_uv);
+}
+
 bool transmits(const JsonValue& material) {
     const auto extensions = material.find("extensions");
     const auto transmission = extensions ? extensions->find("KHR_materials_transmission") : std::nullopt;
@@ -197,22 +206,28 @@ void read_alpha(GltfReader& reader, Properties& p) {
             "a material of alpha mode BLEND is drawn as MASK: opaque from half opacity on, invisible below");
 }
 
-/// Vertices have one uv beside that of emission: the base colour's, or the roughness's without a base colour texture.
-/// An emission that is not shown gives one, too: a luminance picture may take its place.
-MaterialUv uv_of(GltfReader& reader, const Properties& p) {
+/// Vertices have one uv beside that of emission: that of the first texture of base colour, roughness and relief. An
+/// emission that is not shown gives one, too: a luminance picture may take its place.
+MaterialUv uv_of(GltfReader& reader, Properties& p) {
     const bool base = p.made.base_colour_texture.image != kNone;
     const bool roughness = p.made.metallic_roughness_texture.image != kNone;
     const bool emission = p.material.json.find("emissiveTexture").has_value();
     if (base && roughness && p.roughness_uv != p.base_uv)
         reader.notes.add("a metallic-roughness texture that lies differently follows its base colour texture");
-    const UvMapping otherwise = roughness ? p.roughness_uv : UvMapping{}, surface = base ? p.base_uv : otherwise;
+    UvMapping surface = p.normal_uv;
+    if (roughness) surface = p.roughness_uv;
+    if (base) surface = p.base_uv;
+    if (p.made.normal_texture.image != kNone && p.normal_uv != surface) {
+        reader.notes.add("a normal texture that lies differently from the colours of its surface is left out");
+        p.made.normal_texture = {};
+    }
     return {surface, emission ? p.emission_uv : surface};
 }
 
 void read_material(GltfReader& reader, const GltfPart<tinygltf::Material>& material) {
     Material made;
     made.name = material->name;
-    Properties p{material, made, {}, {}, {}};
+    Properties p{material, made, {}, {}, {}, {}};
     const auto extensions = material.json.find("extensions");
     const auto model = extensions ? extensions->find("KHR_materials_pbrSpecularGlossiness") : std::nullopt;
     if (model)
@@ -226,8 +241,8 @@ void read_material(GltfReader& reader, const GltfPart<tinygltf::Material>& mater
         reader.notes.add("a material with KHR_materials_unlit is lit as a diffuse one");
     }
     read_emission(reader, p);
+    read_relief(reader, p);
     read_alpha(reader, p);
-    if (material.json.find("normalTexture")) reader.notes.add("a normal texture is not read");
     if (material.json.find("occlusionTexture")) reader.notes.add("an occlusion texture is not read");
     reader.uv_mappings.push_back(uv_of(reader, p));
     reader.scene.materials.push_back(std::move(made));

@@ -1,6 +1,7 @@
 // Surfaces of a scene, and how they use images. SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -36,6 +37,8 @@ struct Material {
     TextureUse base_colour_texture;     ///< codes through Scene::transfer
     float metallic = 0, roughness = 1;  ///< [0, 1]; times blue and green of metallic_roughness_texture
     TextureUse metallic_roughness_texture;
+    TextureUse normal_texture;    ///< relief (glTF 2.0, 3.9.3): codes are directions; roads with a table have none
+    float normal_scale = 1;       ///< of its slopes, 0 or more
     glm::vec3 emission{0};        ///< emitted RGB luminance, cd/m^2; times emission_texture
     TextureUse emission_texture;  ///< codes through sRGB
     TextureUse emission_picture;  ///< instead of emission_texture: image is an index into Scene::luminance_pictures
@@ -47,5 +50,13 @@ struct Material {
     uint32_t reflection_table = kNone;  ///< index into Scene::reflection_tables
     uint32_t retroreflector = kNone;    ///< index into Scene::retroreflectors; such a surface is no metal
 };
+
+/// All images that a material shows by their codes.
+inline std::array<TextureUse*, 4> textures_of(Material& m) {
+    return {&m.base_colour_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emission_texture};
+}
+inline std::array<const TextureUse*, 4> textures_of(const Material& m) {
+    return {&m.base_colour_texture, &m.metallic_roughness_texture, &m.normal_texture, &m.emission_texture};
+}
 
 }  // namespace vesper::scene

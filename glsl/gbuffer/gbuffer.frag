@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
 
 // G-buffer, fragments: the surface seen by each pixel. Variants without some texture never sample it.
 
@@ -12,6 +13,7 @@ layout(constant_id = 2) const uint kEmissionTexture = 1u;
 layout(constant_id = 3) const uint kMask = 0u;
 // Textures that are magnified without interpolation, a bit each in their order.
 layout(constant_id = 4) const uint kNearest = 0u;
+layout(constant_id = 5) const uint kRelief = 0u;  // there is a normal texture
 
 layout(location = 0) in vec3 view_normal;
 layout(location = 1) in vec2 texture_uv;
@@ -21,15 +23,20 @@ layout(location = 4) flat in vec2 metallic_roughness;
 layout(location = 5) flat in uvec2 triangle;
 layout(location = 6) in vec2 emission_uv;
 
+layout(push_constant, scalar) uniform Push { GBufferPush push; };  // a CPU device reads varyings faster: of reliefs only
+
 layout(binding = 0) uniform sampler2D base_texture;                // linear reflectance, opacity
 layout(binding = 1) uniform sampler2D metallic_roughness_texture;  // green roughness, blue metallic
 layout(binding = 2) uniform sampler2D emission_texture;            // linear
+layout(binding = 3) uniform sampler2D relief_texture;              // mean normal; root of what its length lacks to 1
 
 layout(location = 0) out vec4 out_reflectance;
 layout(location = 1) out vec4 out_surface;
 layout(location = 2) out vec4 out_emission;
 layout(location = 3) out uvec2 out_triangle;
 layout(location = 4) out uint out_slope;
+
+const float kLeastFacing = 0.02;  // cosine between a normal of a relief and the way to the eye
 
 // The nearest halves: a device may cut off instead when it writes them, which takes 0.03 % of every reflectance.
 vec3 halves(vec3 v) { return vec3(unpackHalf2x16(packHalf2x16(v.rg)), unpackHalf2x16(packHalf2x16(v.bb)).x); }
@@ -53,8 +60,31 @@ vec4 texture_at(sampler2D image, uint number, vec2 uv) {
     return all(lessThan(width, vec2(1.0))) ? between(above, below, beyond.y) : farther;
 }
 
+// Of the pixel, in the view frame, m.
+vec3 view_position() { return vec3(push.ray_scale * gl_FragCoord.xy + push.ray_offset, -1.0) / gl_FragCoord.w; }
+
+// The normal of the relief on a surface with the normal n, which the texture has along u, against v (glTF 2.0, 3.9.3: green is up in the
+// picture) and along n. How place and coordinates change over the pixel says where u and v lead; the plane of a triangle has one answer.
+vec3 relief_normal(vec3 n, vec3 relief) {
+    const vec3 place = view_position(), right = dFdx(place), down = dFdy(place);
+    const vec2 to_right = dFdx(texture_uv), to_down = dFdy(texture_uv);
+    const float turn = to_right.x * to_down.y - to_down.x * to_right.y < 0.0 ? -1.0 : 1.0;
+    const vec3 along_u = turn * (right * to_down.y - down * to_right.y), along_v = turn * (down * to_right.x - right * to_down.x);
+    const vec3 u = along_u - n * dot(n, along_u), side = cross(n, u);
+    const float size = dot(u, u);
+    if (!(size > 0.0)) return n;
+    return normalize(inversesqrt(size) * (relief.x * u + relief.y * (dot(side, along_v) > 0.0 ? -side : side)) + relief.z * n);
+}
+
 void main() {
     // Before any invocation is discarded.
+    vec3 normal = normalize(view_normal);
+    float mean_length = 1.0, spread = 0.0;  // of the normals that the pixel shows
+    if (kRelief != 0u) {
+        const vec4 relief = texture(relief_texture, texture_uv);
+        normal = relief_normal(normal, relief.rgb);
+        mean_length = clamp(length(relief.rgb), 0.0, 1.0), spread = min(relief.a * relief.a, 0.99);
+    }
     const vec2 change = vec2(dFdx(gl_FragCoord.w), dFdy(gl_FragCoord.w)) / gl_FragCoord.w;
     const uint slope = packHalf2x16(clamp(kSlopeScale * change, -6e4, 6e4));
     vec4 base = base_colour;
@@ -69,7 +99,17 @@ void main() {
     vec3 emission = emission_cutoff.rgb;
     if (kEmissionTexture != 0u) emission *= texture_at(emission_texture, 2u, emission_uv).rgb;
 
-    const vec3 normal = normalize(gl_FrontFacing ? view_normal : -view_normal);
+    normal = gl_FrontFacing ? normal : -normal;
+    if (kRelief != 0u) {
+        // A relief that is seen faces the eye.
+        const vec3 toward_eye = -normalize(view_position());
+        normal = normalize(normal + max(kLeastFacing - dot(normal, toward_eye), 0.0) * toward_eye);
+        // Matt facets that a pixel does not resolve reflect as their mean normal, which is no unit vector (E = I n.l / d^2 is linear in n);
+        // smooth ones spread the lobe by the variance of their slopes (Toksvig 2005: (1 - |n|) / |n|; of GGX alpha^2 is twice that).
+        base.rgb *= mix(mean_length, 1.0, clamp(m.x, 0.0, 1.0));
+        const float alpha2 = m.y * m.y * m.y * m.y + 2.0 * spread / (1.0 - spread);
+        if (m.y < 1.0 && spread > 0.0) m.y = min(sqrt(sqrt(alpha2)), 0.999);
+    }
     out_reflectance = vec4(halves(base.rgb), m.x);
     out_surface = vec4(encode_normal(normal), 1.0 / gl_FragCoord.w, m.y);
     out_emission = vec4(emission, 1.0);

@@ -13,8 +13,10 @@ struct GBufferPush {
     vec2 clip_scale;      // clip.xy = clip_scale * view.xy + clip_offset * view.z
     vec2 clip_offset;
     float near;           // depth buffer = near / depth
+    vec2 ray_scale;       // a pixel at p px sees along (ray_scale * p + ray_offset, -1)
+    vec2 ray_offset;
 };
-SHARED_SIZE(GBufferPush, 60)
+SHARED_SIZE(GBufferPush, 76)
 
 // One instance of a mesh, read at instance rate.
 struct Instance {

@@ -2,14 +2,43 @@
 #include "gpu_scene/textures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "scene/scene.h"
 
 namespace vesper::test {
 namespace {
 
 using gpu_scene::Level;
+
+// Closed forms: what is painted flat, and two slopes whose mean is shorter than they are.
+TEST(ReliefTextures, HoldTheMeanNormalAndHowNormalsSpread) {
+    const auto image = [](std::vector<std::array<uint8_t, 3>> codes) {
+        Image made{"relief", uint32_t(codes.size()), 1, {}};
+        for (const auto& code : codes) made.rgba.insert(made.rgba.end(), {code[0], code[1], code[2], 255});
+        return made;
+    };
+    for (const uint8_t flat : {uint8_t(127), uint8_t(128)})
+        EXPECT_EQ(gpu_scene::relief_levels(image({{flat, flat, 255}}), 1)[0].rgba, (std::vector<float>{0, 0, 1, 0}));
+    const double slope = 100.0 / 110;
+    for (const float scale : {1.0f, 0.5f}) {
+        const std::vector<Level> levels = gpu_scene::relief_levels(image({{228, 128, 238}, {27, 128, 238}}), scale);
+        ASSERT_EQ(levels.size(), 2u);
+        const double length = 1 / std::sqrt(1 + scale * scale * slope * slope);
+        EXPECT_NEAR(levels[0].rgba[0], scale * slope * length, 1e-6);
+        EXPECT_NEAR(levels[0].rgba[2], length, 1e-6);
+        EXPECT_NEAR(levels[0].rgba[3], 0, 1e-3);
+        EXPECT_NEAR(levels[1].rgba[0], 0, 1e-6);
+        EXPECT_NEAR(levels[1].rgba[2], length, 1e-6);
+        EXPECT_NEAR(levels[1].rgba[3], std::sqrt(1 - length), 1e-6);
+    }
+    // Painted holes and opposite directions give numbers.
+    for (const auto& level : gpu_scene::relief_levels(image({{0, 0, 0}, {255, 255, 0}}), 1000))
+        for (const float value : level.rgba) EXPECT_TRUE(std::isfinite(value));
+}
 
 /// Discs of one colour on black that is not there.
 Level leaves(uint32_t side, float radius, uint32_t apart) {

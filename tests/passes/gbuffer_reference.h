@@ -50,6 +50,7 @@ struct Surface {
     double metallic = 0, roughness = 1;
     dvec3 emission{0};  ///< cd/m^2
     std::optional<Texture> base_texture, metallic_roughness_texture, emission_texture;
+    std::optional<Texture> normal_texture;  ///< unit vectors; matt light goes by the length of their mean
     bool double_sided = false;
     double alpha_cutoff = 0;  ///< opacity below this is a hole; 0: none
 };
@@ -171,6 +172,21 @@ inline dvec4 textured(const Geometry& g, const Texture& texture, const Meeting& 
     return sum / double(kPoints * kPoints);
 }
 
+/// The normal of a relief on a triangle: x along u, y against v, z along the surface's own normal n, which the first
+/// two are turned to be across (glTF 2.0, 3.9.3; where the texture is not sheared, MikkTSpace's tangents).
+inline dvec3 relieved(const Triangle& t, dvec3 n, dvec3 relief) {
+    // position = origin + u_way * u + v_way * v over the plane of the triangle.
+    const glm::dmat2 uv(t.uv[1] - t.uv[0], t.uv[2] - t.uv[0]);
+    if (std::abs(glm::determinant(uv)) < 1e-30) return n;
+    const glm::dmat2 inverse = glm::inverse(uv);
+    const dvec3 a = t.position[1] - t.position[0], b = t.position[2] - t.position[0];
+    const dvec3 u_way = a * inverse[0][0] + b * inverse[0][1], v_way = a * inverse[1][0] + b * inverse[1][1];
+    const dvec3 u = glm::normalize(u_way - n * glm::dot(n, u_way));
+    dvec3 up = glm::cross(n, u);
+    if (glm::dot(up, v_way) > 0) up = -up;
+    return glm::normalize(u * relief.x + up * relief.y + n * relief.z);
+}
+
 /// The nearest surface at pixel coordinates (0.5, 0.5 is the middle of the first pixel). Back faces are seen only of
 /// double-sided materials, whose normal then turns to the viewer; what is nearer than `near` is not seen.
 inline Seen cast(const Geometry& g, const Rays& rays, dvec2 pixel, Filter filter = Filter::Bilinear) {
@@ -207,7 +223,15 @@ inline Seen cast(const Geometry& g, const Rays& rays, dvec2 pixel, Filter filter
         seen.base = dvec3(base);
         seen.metallic = s.metallic * rough_metal.z;
         seen.roughness = s.roughness * rough_metal.y;
-        seen.normal = m.front ? m.normal : -m.normal;
+        dvec3 normal = m.normal;
+        if (s.normal_texture && m.which < g.triangles.size())
+            normal = relieved(g.triangles[m.which], normal, dvec3(value(s.normal_texture))),
+            seen.base *= glm::mix(glm::length(dvec3(value(s.normal_texture))), 1.0, seen.metallic);
+        seen.normal = m.front ? normal : -normal;
+        if (s.normal_texture) {  // what is seen of a relief faces the eye, with a cosine of 0.02 at least
+            const dvec3 eye = -glm::normalize(ray);
+            seen.normal = glm::normalize(seen.normal + std::max(0.02 - glm::dot(seen.normal, eye), 0.0) * eye);
+        }
         seen.depth = m.depth;
         seen.emission = s.emission * dvec3(value(s.emission_texture));
         seen.which = m.which;

@@ -325,6 +325,62 @@ TEST(Gbuffer, DistantTexturesAreMeansOfTheAreaTheyCover) {
     EXPECT_EQ(rig.complaints(), "");
 }
 
+/// Directions around +Z, in the codes of a normal texture.
+Image bumps(uint32_t width, uint32_t height, uint32_t seed) {
+    Image image = noise(width, height, seed, 90);
+    for (size_t i = 0; i < image.rgba.size(); i += 4)
+        image.rgba[i] = uint8_t(255 - image.rgba[i]), image.rgba[i + 2] = 220;
+    return image;
+}
+
+// Turned, mirrored, sheared and from behind: x of the texture leads along u, y against v.
+TEST(Gbuffer, ReliefTurnsNormals) {
+    PassRig rig;
+    Material m = plain({0.5f, 0.5f, 0.5f}, true);
+    m.normal_texture.image = 0, m.roughness = 0.5f;
+    for (const float scale : {1.0f, 0.3f}) {
+        m.normal_scale = scale;
+        Scene scene;
+        scene.images = {bumps(8, 4, 5)}, scene.materials = {m};
+        const glm::vec3 turns[]{{0, 0, 0}, {0.5f, 0.3f, 2}, {0.2f, 3, 0.1f}, {-0.6f, 0.4f, -1}};
+        for (int i = 0; i < 4; ++i) {
+            scene::Node node;
+            node.translation = {float(i % 2) * 2 - 1, float(i / 2) * 1.6f - 0.8f, -4};
+            node.rotation = glm::quat(turns[i]);
+            node.scale = {i == 3 ? -1 : 1, 1.3f, 1};
+            std::vector<Vertex> vertices = rectangle({-0.8f, -0.5f, 0}, {1.6f, 0, 0}, {0, 1, 0});
+            for (Vertex& v : vertices) v.uv.x += 0.3f * v.uv.y;
+            add_mesh(scene, vertices, kRectangle, 0, node);
+        }
+        // Devices weigh bilinear taps in steps of 1/256.
+        expect_scene(rig, scene, view_of({160, 120}), {.normal = 0.008});
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
+// A corrugation that no pixel resolves: its mean normal is shorter, and its slopes spread the lobe of smooth ones.
+TEST(Gbuffer, DistantReliefSpreads) {
+    PassRig rig;
+    Image ridges{"ridges", 256, 256, {}};
+    for (uint32_t i = 0; i < 256 * 256; ++i)
+        ridges.rgba.insert(ridges.rgba.end(), {uint8_t(i % 2 ? 64 : 191), 128, 238, 255});
+    const double slope = 63.0 / 110, length = 1 / std::sqrt(1 + slope * slope);
+    for (const float roughness : {1.0f, 0.4f}) {
+        Material m = plain({0.6f, 0.6f, 0.6f});
+        m.normal_texture.image = 0, m.roughness = roughness;
+        const Layers got = draw(rig, wall(m, {ridges}), view_of({64, 64}));
+        const double alpha2 = std::pow(0.4, 4) + 2 * (1 - length) / length;
+        for (size_t i = 0; i < got.surface.size(); ++i) {
+            EXPECT_LT(
+                glm::length(reference::octahedral_decode({got.surface[i].x, got.surface[i].y}) - glm::dvec3(0, 0, 1)),
+                1e-3);
+            EXPECT_NEAR(got.reflectance[i].x, 0.6 * length, 1e-3);
+            EXPECT_NEAR(got.surface[i].w, roughness == 1 ? 1 : std::pow(alpha2, 0.25), 2e-3);
+        }
+    }
+    EXPECT_EQ(rig.complaints(), "");
+}
+
 TEST(Gbuffer, TexturesWrapRepeatAndMirror) {
     PassRig rig;
     for (Wrap wrap : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp}) {

@@ -202,13 +202,37 @@ TEST(GltfMaterial, ReadsAPictureOnceAndOnlyWhenUsed) {
     GltfFile file = with_material({{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
                                    {"emissiveFactor", {1, 1, 1}},
                                    {"emissiveTexture", {{"index", 0}}},
-                                   {"normalTexture", {{"index", 1}}}});
+                                   {"occlusionTexture", {{"index", 1}}}});
     add_texture(file, png_uri({1, 2, 3, 255}));
-    add_texture(file, "missing.png");  // of the normal texture, which is not read
+    add_texture(file, "missing.png");  // of the occlusion texture, which is not read
     const scene::LoadedScene loaded = file.read();
     EXPECT_EQ(loaded.scene.images.size(), 1u);
     EXPECT_EQ(loaded.scene.materials[0].emission_texture.image, 0u);
-    EXPECT_TRUE(mentions(loaded.notes, "normal texture"));
+    EXPECT_TRUE(mentions(loaded.notes, "occlusion texture"));
+}
+
+TEST(GltfMaterial, ReadsReliefThatLiesAsTheColoursDo) {
+    const nlohmann::json base{{"index", 0}, {"texCoord", 1}};
+    const auto relief = [&](const nlohmann::json& normals) {
+        GltfFile file =
+            with_material({{"pbrMetallicRoughness", {{"baseColorTexture", base}}}, {"normalTexture", normals}});
+        add_texture(file, png_uri({1, 2, 3, 255}));
+        add_texture(file, png_uri({128, 128, 255, 255}));
+        return file.read();
+    };
+    const scene::LoadedScene same = relief({{"index", 1}, {"texCoord", 1}, {"scale", 0.5}});
+    EXPECT_EQ(same.scene.materials[0].normal_texture.image, 1u);
+    EXPECT_EQ(same.scene.materials[0].normal_scale, 0.5f);
+    EXPECT_FALSE(mentions(same.notes, "normal texture"));
+    const scene::LoadedScene other = relief({{"index", 1}});
+    EXPECT_EQ(other.scene.materials[0].normal_texture.image, scene::kNone);
+    EXPECT_TRUE(
+        mentions(other.notes, "a normal texture that lies differently from the colours of its surface is left"));
+    EXPECT_EQ(relief({{"index", 1}, {"texCoord", 1}, {"scale", 0}}).scene.materials[0].normal_texture.image,
+              scene::kNone);
+    GltfFile alone = with_material({{"normalTexture", {{"index", 0}, {"texCoord", 1}}}});
+    add_texture(alone, png_uri({128, 128, 255, 255}));
+    EXPECT_EQ(alone.read().scene.materials[0].normal_texture.image, 0u) << "its coordinates are those of the surface";
 }
 
 TEST(GltfMaterial, FallsBackFromFormatsItDoesNotRead) {

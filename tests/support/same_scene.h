@@ -35,6 +35,8 @@ inline void expect_same(const scene::Material& a, const scene::Material& b) {
     EXPECT_EQ(a.metallic, b.metallic);
     EXPECT_EQ(a.roughness, b.roughness);
     EXPECT_EQ(a.metallic_roughness_texture, b.metallic_roughness_texture);
+    EXPECT_EQ(a.normal_texture, b.normal_texture);
+    EXPECT_EQ(a.normal_scale, b.normal_scale);
     EXPECT_EQ(a.emission, b.emission);
     EXPECT_EQ(a.emission_texture.image, b.emission_texture.image);
     if (a.emission_texture.image != scene::kNone) {

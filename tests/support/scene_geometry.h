@@ -48,6 +48,21 @@ inline std::optional<reference::Texture> picture_of(const scene::Scene& scene, s
     return t;
 }
 
+/// A normal texture as unit vectors; codes 127 and 128 are 0.
+inline std::optional<reference::Texture> relief_of(const scene::Scene& scene, const scene::Material& m) {
+    std::optional<reference::Texture> t = texture_of(scene, m.normal_texture, nullptr);
+    for (glm::dvec4& texel : t->texels) {
+        glm::dvec3 n;
+        for (int c = 0; c < 3; ++c) {
+            const double from_middle = texel[c] * 255 - 127.5;
+            n[c] = std::copysign(std::abs(from_middle) - 0.5, from_middle) / 127;
+        }
+        texel =
+            glm::dvec4(glm::normalize(glm::dvec3(m.normal_scale * n.x, m.normal_scale * n.y, std::max(n.z, 1e-3))), 0);
+    }
+    return t;
+}
+
 /// Every triangle of every node, in the order of nodes.
 inline reference::Geometry geometry_of(const scene::Scene& scene, const std::vector<glm::dmat4>& world,
                                        const glm::dmat4& world_to_view) {
@@ -61,6 +76,7 @@ inline reference::Geometry geometry_of(const scene::Scene& scene, const std::vec
         s.metallic_roughness_texture = texture_of(scene, m.metallic_roughness_texture, nullptr);
         s.emission_texture = m.emission_picture.image == scene::kNone ? texture_of(scene, m.emission_texture, &srgb)
                                                                       : picture_of(scene, m.emission_picture);
+        if (m.normal_texture.image != scene::kNone) s.normal_texture = relief_of(scene, m);
         s.double_sided = m.double_sided;
         s.alpha_cutoff = m.alpha == scene::Material::Alpha::Mask ? m.alpha_cutoff : 0;
         g.surfaces.push_back(s);

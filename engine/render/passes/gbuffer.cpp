@@ -20,7 +20,7 @@ namespace {
 using gpu_scene::GpuScene;
 
 constexpr VkDescriptorType kTexture = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-constexpr VkDescriptorType kTextures[]{kTexture, kTexture, kTexture};
+constexpr VkDescriptorType kTextures[]{kTexture, kTexture, kTexture, kTexture};
 constexpr VkVertexInputBindingDescription kBuffers[]{{0, sizeof(scene::Vertex), VK_VERTEX_INPUT_RATE_VERTEX},
                                                      {1, sizeof(shared::Instance), VK_VERTEX_INPUT_RATE_INSTANCE}};
 constexpr VkVertexInputAttributeDescription kAttributes[]{
@@ -33,9 +33,10 @@ constexpr VkVertexInputAttributeDescription kAttributes[]{
     {5, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_y)},
     {6, 1, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::Instance, row_z)},
     {7, 1, VK_FORMAT_R32_SFLOAT, offsetof(shared::Instance, dimming)}};
+constexpr VkShaderStageFlags kPushStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 constexpr gpu::GraphicsShaders kShaders{
-    "gbuffer.frag", gbuffer_vert, gbuffer_frag, kTextures, sizeof(shared::GBufferPush), VK_SHADER_STAGE_VERTEX_BIT,
-    kBuffers,       kAttributes};
+    "gbuffer.frag", gbuffer_vert, gbuffer_frag, kTextures, sizeof(shared::GBufferPush),
+    kPushStages,    kBuffers,     kAttributes};
 
 // Bits of a variant of the pipeline. Variants that emit have the largest numbers: they are drawn last, after everything
 // that could hide them, and only they write emission, which is cleared to 0.
@@ -45,7 +46,8 @@ enum Variant : uint32_t {
     kEmissionTexture = 4,
     kMask = 8,
     kNearest = 16,  // times 1, 2 and 4 for the textures above
-    kEmits = 128
+    kRelief = 128,
+    kEmits = 256
 };
 
 uint32_t variant_of(const scene::Material& m) {
@@ -55,21 +57,22 @@ uint32_t variant_of(const scene::Material& m) {
         if (use.image != scene::kNone) variant |= texture | (use.nearest ? kNearest * texture : 0);
     };
     add(m.base_colour_texture, kBaseTexture), add(m.metallic_roughness_texture, kMetallicRoughnessTexture);
+    if (m.normal_texture.image != scene::kNone) variant |= kRelief;
     if (m.emission == glm::vec3(0)) return variant;
     add(m.emission_picture.image != scene::kNone ? m.emission_picture : m.emission_texture, kEmissionTexture);
     return variant | kEmits;
 }
 
 const gpu::GraphicsPipeline& pipeline_of(const gpu::GraphicsPipelineCache& pipelines, uint32_t variant) {
-    return pipelines.get(kShaders,
-                         {.targets = {{kReflectanceFormat},
-                                      {kSurfaceFormat},
-                                      {kEmissionFormat, (variant & kEmits) != 0},
-                                      {kTriangleFormat},
-                                      {kSlopeFormat}},
-                          .depth = kDepthFormat,
-                          .constants = {variant & kBaseTexture, variant & kMetallicRoughnessTexture,
-                                        variant & kEmissionTexture, variant & kMask, variant / kNearest & 7}});
+    return pipelines.get(kShaders, {.targets = {{kReflectanceFormat},
+                                                {kSurfaceFormat},
+                                                {kEmissionFormat, (variant & kEmits) != 0},
+                                                {kTriangleFormat},
+                                                {kSlopeFormat}},
+                                    .depth = kDepthFormat,
+                                    .constants = {variant & kBaseTexture, variant & kMetallicRoughnessTexture,
+                                                  variant & kEmissionTexture, variant & kMask, variant / kNearest & 7,
+                                                  variant & kRelief}});
 }
 
 // How the surfaces of one material are drawn.
@@ -162,8 +165,8 @@ void record_batches(const graph::Recording& recording, const GpuScene& scene, co
         if (batch.pipeline != last_pipeline)
             vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, batch.pipeline->pipeline());
         if (part.material != last_material) {
-            VkWriteDescriptorSet writes[3];
-            for (uint32_t i = 0; i < 3; ++i)
+            VkWriteDescriptorSet writes[std::size(kTextures)];
+            for (uint32_t i = 0; i < std::size(kTextures); ++i)
                 writes[i] = {.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET,
                              .dstBinding = i,
                              .descriptorCount = 1,
@@ -171,9 +174,10 @@ void record_batches(const graph::Recording& recording, const GpuScene& scene, co
                              .pImageInfo = &surface.textures[i]};
             recording.bind(*batch.pipeline, writes);
             // Clip space has y down: view y goes in with its sign turned.
-            const shared::GBufferPush push{m.base_colour, m.emission,          m.alpha_cutoff,        m.metallic,
-                                           m.roughness,   {scale.x, -scale.y}, {offset.x, -offset.y}, view.near};
-            vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof push, &push);
+            const shared::GBufferPush push{m.base_colour,    m.emission,          m.alpha_cutoff,        m.metallic,
+                                           m.roughness,      {scale.x, -scale.y}, {offset.x, -offset.y}, view.near,
+                                           view.ray_scale(), view.ray_offset()};
+            vkCmdPushConstants(commands, layout, kPushStages, 0, sizeof push, &push);
         }
         vkCmdSetCullMode(commands, m.double_sided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
         vkCmdSetFrontFace(commands, batch.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);

@@ -8,7 +8,13 @@ vec2 encode_normal(vec3 n) {
     return n.z < 0.0 ? folded : p;
 }
 
-vec3 decode_normal(vec2 p) {
+// Normals of a relief, which may face what its plane turns away from, are marked: their first number has this added.
+const float kReliefMark = 4.0;
+
+bool is_relief(vec2 p) { return p.x > 0.5 * kReliefMark; }
+
+vec3 decode_normal(vec2 marked) {
+    const vec2 p = vec2(is_relief(marked) ? marked.x - kReliefMark : marked.x, marked.y);
     const float z = 1.0 - abs(p.x) - abs(p.y);
     const vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
     return normalize(vec3(z < 0.0 ? folded : p, z));

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/angle.h"
+#include "base/budget.h"
 #include "base/luminance.h"
 #include "roads/road_lamps.h"
 #include "roads/sign_faces.h"
@@ -46,8 +47,15 @@ struct SignalBuilder {
 
     /// Lights whose id another one has are numbered: "signal_7", "signal_7#2".
     std::string own_name(const std::string& name) {
-        size_t& count = build.lights_named[name];
-        return ++count == 1 ? name : name + "#" + std::to_string(count);
+        if (!build.phases.contains(name)) return name;
+        size_t& number = build.light_numbers.try_emplace(name, 1).first->second;
+        ++build.lights_renamed;
+        std::string own;
+        do {
+            check_time();
+            own = name + "#" + std::to_string(++number);
+        } while (build.phases.contains(own));
+        return own;
     }
 
     /// +x is where the signal looks.
@@ -169,10 +177,8 @@ void build_signals(RoadBuild& build) {
     if (raised > 0)
         build.notes.push_back("signals at zOffset 0: " + std::to_string(raised) +
                               ", mounted as usual: lights 2.1 m, signs 2 m, over lanes 4.5 m above the road");
-    size_t twice = 0;
-    for (const auto& [name, count] : build.lights_named) twice += count - 1;
-    if (twice > 0)
-        build.notes.push_back("traffic lights with the id of another: " + std::to_string(twice) +
+    if (build.lights_renamed > 0)
+        build.notes.push_back("traffic lights with the id of another: " + std::to_string(build.lights_renamed) +
                               ", their lenses are numbered");
     supports.add_arms(mesh);
     mesh.place(build.scene, build.materials, "arms of signals");

@@ -20,10 +20,11 @@ struct RoadBuild {
     Ground ground{};
     std::vector<std::string> notes{};
     std::map<std::string, SignalPhase> phases{};
-    std::map<std::string, size_t> lights_named{};  ///< traffic lights of that id: 1 where the file is well-formed
-    std::map<std::string, size_t> dark_poles{};    ///< poles that are no lamps, by name
-    size_t lamps_by_height = 0;                    ///< poles without a name that are lamps
-    std::map<std::string, size_t> shapeless{};     ///< stencils whose paint is not known, by name
+    std::map<std::string, size_t> light_numbers{};  ///< the last one given to traffic lights that share an id
+    size_t lights_renamed = 0;
+    std::map<std::string, size_t> dark_poles{};  ///< poles that are no lamps, by name
+    size_t lamps_by_height = 0;                  ///< poles without a name that are lamps
+    std::map<std::string, size_t> shapeless{};   ///< stencils whose paint is not known, by name
 };
 
 /// One lane at one station.

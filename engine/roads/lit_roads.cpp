@@ -31,6 +31,11 @@ void count_triangles(RoadBuild& build) {
                           std::to_string(build.scene.cameras.size()) + " cameras");
 }
 
+/// Names of numbers and persons, not of things.
+bool says_nothing_to_see(const std::string& unread) {
+    return unread.starts_with("header@") || unread == "connection@id" || unread.ends_with("@name");
+}
+
 }  // namespace
 
 std::string listed(const std::map<std::string, size_t>& names, size_t most) {
@@ -72,7 +77,9 @@ LitRoads lit_roads(const RoadNetwork& network, const LitRoadOptions& options) {
     build_street_lamps(build);
     build_cameras(build);
     count_triangles(build);
-    if (!network.unread.empty()) build.notes.push_back("not shown, as nothing reads it: " + listed(network.unread, 16));
+    std::map<std::string, size_t> unread = network.unread;
+    std::erase_if(unread, [](const auto& each) { return says_nothing_to_see(each.first); });
+    if (!unread.empty()) build.notes.push_back("not shown, as nothing reads it: " + listed(unread, 16));
     return {std::move(build.scene), std::move(build.notes), std::move(build.phases)};
 }
 

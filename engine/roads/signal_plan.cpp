@@ -27,6 +27,7 @@ constexpr double kBeforeJunction = 60;                 // m from a light to the 
 constexpr double kSameWay = 0.6;                       // rad between directions of lights that face the same way
 constexpr double kApart = 2.5;                         // m between the centres of ways that do not conflict
 constexpr size_t kMostGroups = 64;                     // of a junction; more are one after another
+constexpr size_t kMostPairs = 4096;                    // of ways of two groups; more are taken to conflict
 
 /// A traffic light.
 struct Light {
@@ -99,9 +100,12 @@ public:
             for (const std::string& id : each.signals) controllers_[id].insert(each.id);
         for (uint32_t j = 0; j < network.junctions.size(); ++j) {
             for (const std::string& id : network.junctions[j].controllers) junction_of_[id] = j;
-            for (const JunctionConnection& each : network.junctions[j].connections)
-                if (const auto [known, is_new] = incoming_.try_emplace(each.connecting, each.incoming); !is_new)
-                    known->second = known->second == each.incoming ? each.incoming : kNoRoad;
+            for (const JunctionConnection& each : network.junctions[j].connections) {
+                // A road may begin and end at one junction, and its ways from either end cross.
+                const uint32_t from = has_both_ends_at(each.incoming, j) ? kNoRoad : each.incoming;
+                if (const auto [known, is_new] = incoming_.try_emplace(each.connecting, from); !is_new)
+                    known->second = known->second == from ? from : kNoRoad;
+            }
         }
         for (uint32_t r = 0; r < network.roads.size(); ++r)
             for (const std::string& id : network.roads[r].signal_references) references_[id].insert(r);
@@ -122,6 +126,14 @@ public:
 
 private:
     const RoadSignal& signal_of(const Light& light) const { return network_.roads[light.road].signals[light.signal]; }
+
+    bool has_both_ends_at(uint32_t road, uint32_t junction) const {
+        if (road == kNoRoad) return false;
+        const auto leads = [&](const RoadLink& link) {
+            return link.to == RoadLink::To::Junction && link.index == junction;
+        };
+        return leads(network_.roads[road].predecessor) && leads(network_.roads[road].successor);
+    }
 
     /// Adds a light; its junction, or the number of its road behind the junctions.
     uint32_t add(uint32_t r, uint32_t s) {
@@ -184,11 +196,14 @@ private:
         }
         const auto facing = [&](size_t i) { return std::remainder(lights_[members[i]].facing, 2 * kPi); };
         for (auto& [road, of] : of_road) {
-            // Neighbours in direction, around the circle.
+            // By direction, around the circle; those that face nearly as the first of them.
             std::sort(of.begin(), of.end(), [&](size_t a, size_t b) { return facing(a) < facing(b); });
-            for (size_t i = 0; i < of.size(); ++i)
-                if (const size_t next = of[(i + 1) % of.size()]; between(facing(of[i]), facing(next)) < kSameWay)
-                    joined.join(of[i], next);
+            size_t first = of.front();
+            for (const size_t i : of) {
+                if (between(facing(first), facing(i)) >= kSameWay) first = i;
+                joined.join(first, i);
+            }
+            if (between(facing(first), facing(of.front())) < kSameWay) joined.join(first, of.front());
         }
         return joined;
     }
@@ -229,14 +244,16 @@ private:
     }
 
     bool ways_meet(uint32_t a, uint32_t b) {
+        check_time();
         if (a == b) return true;
-        const auto [known, is_new] = meet_.try_emplace(std::minmax(a, b), false);
-        if (!is_new) return known->second;
         // Ways from one road part, and its traffic does not cross itself.
         const auto from_a = incoming_.find(a), from_b = incoming_.find(b);
         if (from_a != incoming_.end() && from_b != incoming_.end() && from_a->second == from_b->second &&
             from_a->second != kNoRoad)
             return false;
+        const auto [known, is_new] = meet_.try_emplace(std::minmax(a, b), false);
+        if (!is_new) return known->second;
+        spend(kBytesOfWay);
         for (const uint32_t i : lanes_of_[a])
             for (const uint32_t k : lanes_of_[b])
                 if (!known->second) known->second = lanes_meet(lanes_.lanes()[i], lanes_.lanes()[k]);
@@ -256,6 +273,7 @@ private:
 
     bool conflict(const Group& a, const Group& b) {
         if (a.on_foot || b.on_foot || a.ways.empty() || b.ways.empty()) return true;
+        if (a.ways.size() * b.ways.size() > kMostPairs) return true;
         for (const uint32_t one : a.ways)
             for (const uint32_t other : b.ways)
                 if (ways_meet(one, other)) return true;

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <map>
 #include <memory>
-#include <set>
+#include <optional>
 
 #include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
 #include <draco/compression/mesh/mesh_sequential_decoder.h>
@@ -24,9 +24,10 @@ using nlohmann::json;
 
 constexpr const char* kExtension = "KHR_draco_mesh_compression";
 constexpr uint16_t kBitstream = DRACO_BITSTREAM_VERSION(2, 2);  // the extension allows no other
-constexpr uint64_t kBytesOfFace = 200, kBytesOfCopies = 4;      // of tables; of values, beside themselves
+// Of tables of the mesh and of each attribute, and of values beside themselves.
+constexpr uint64_t kBytesOfFace = 200, kBytesOfSeams = 30, kBytesOfCopies = 4;
 
-/// A decoder of Draco that announces its memory before it takes it (spend()).
+/// A decoder of Draco that announces its memory before it takes it, for as long as it lives.
 template <class Decoder>
 class Bounded : public Decoder {
     bool DecodeConnectivity() override {
@@ -34,8 +35,10 @@ class Bounded : public Decoder {
         draco::DecoderBuffer ahead = *this->buffer();
         // Edgebreaker states vertices, then faces; the other faces, then points. Points are at most the corners.
         uint32_t first = 0, second = 0;
-        if (!draco::DecodeVarint(&first, &ahead) || !draco::DecodeVarint(&second, &ahead)) return false;
-        spend(std::max<uint64_t>(first, second) * kBytesOfFace);
+        uint8_t attributes = 0;  // of edgebreaker: those with tables of their own
+        if (!draco::DecodeVarint(&first, &ahead) || !draco::DecodeVarint(&second, &ahead) || !ahead.Decode(&attributes))
+            return false;
+        tables_.emplace(std::max<uint64_t>(first, second) * (kBytesOfFace + kBytesOfSeams * attributes));
         return Decoder::DecodeConnectivity();
     }
     bool DecodeAllAttributes() override {
@@ -43,9 +46,11 @@ class Bounded : public Decoder {
         uint64_t bytes = 0;
         for (int i = 0; i < points.num_attributes(); ++i)
             bytes += uint64_t{points.num_points()} * static_cast<uint64_t>(points.attribute(i)->num_components()) * 8;
-        spend(bytes * kBytesOfCopies);
+        values_.emplace(bytes * kBytesOfCopies);
         return Decoder::DecodeAllAttributes();
     }
+
+    std::optional<TemporaryMemory> tables_, values_;
 };
 
 std::unique_ptr<draco::Mesh> decode(std::span<const uint8_t> bytes, const JsonValue& place) {
@@ -131,6 +136,12 @@ struct Filled {
     bool indices = false;
 };
 
+/// A primitive that has been expanded; `listed`: its corners are a list of triangles now.
+struct Done {
+    size_t mesh, primitive;
+    bool listed;
+};
+
 class Expansion {
 public:
     explicit Expansion(GltfDocument& document) : document_(document) {}
@@ -143,8 +154,9 @@ public:
                 const auto extensions = primitives[p].find("extensions");
                 const auto compression = extensions ? extensions->find(kExtension) : std::nullopt;
                 if (!compression) continue;
+                listed_ = false;
                 expand(primitives[p], *compression);
-                done_.emplace_back(m, p);
+                done_.push_back({m, p, listed_});
             }
         }
         write();
@@ -184,6 +196,7 @@ private:
         }
         if (wants_indices)
             fill(indices->index(accessors, "accessors"), corners_of(*mesh), uint64_t{mesh->num_faces()} * 3, true);
+        listed_ = wants_indices;
     }
 
     void write() {
@@ -199,9 +212,9 @@ private:
             root["bufferViews"].push_back(
                 {{"buffer", buffer}, {"byteOffset", filled.offset}, {"byteLength", filled.length}});
         }
-        for (const auto& [m, p] : done_) {
-            json& primitive = root["meshes"][m]["primitives"][p];
-            primitive["mode"] = TINYGLTF_MODE_TRIANGLES;
+        for (const Done& done : done_) {
+            json& primitive = root["meshes"][done.mesh]["primitives"][done.primitive];
+            if (done.listed) primitive["mode"] = TINYGLTF_MODE_TRIANGLES;
             primitive["extensions"].erase(kExtension);
             if (primitive["extensions"].empty()) primitive.erase("extensions");
         }
@@ -211,7 +224,8 @@ private:
     GltfDocument& document_;
     std::vector<uint8_t> bytes_;
     std::map<uint32_t, Filled> filled_;  // by accessor
-    std::vector<std::pair<size_t, size_t>> done_;
+    std::vector<Done> done_;
+    bool listed_ = false;  // the triangles of the primitive at hand come from its geometry
 };
 
 }  // namespace

@@ -170,11 +170,14 @@ void read_emission(GltfReader& reader, Properties& p) {
     reader.notes.add("a material whose picture of emission cannot be read emits nothing");
 }
 
+constexpr double kSteepest = 100;  // scale of a normal texture
+
 void read_relief(GltfReader& reader, Properties& p) {
     const auto texture = p.material.json.find("normalTexture");
     if (!texture) return;
     const double scale = texture->number_or("scale", 1);
-    p.made.normal_scale = static_cast<float>(std::abs(scale));
+    p.made.normal_scale = static_cast<float>(std::min(std::abs(scale), kSteepest));
+    if (std::abs(scale) > kSteepest) reader.notes.add("a normal texture of a scale above 100 is read with 100");
     if (scale < 0) reader.notes.add("a normal texture of negative scale is read with the positive one");
     if (scale != 0) p.made.normal_texture = read_texture(reader, *texture, p.normal_uv);
 }

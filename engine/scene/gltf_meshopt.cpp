@@ -15,7 +15,8 @@ namespace {
 
 /// The format takes two bits for sixteen bytes at least.
 constexpr uint64_t kMostPerByte = 64, kAlways = 4096;
-constexpr uint64_t kPadding = 64;  // bytes of a buffer that belong to no view, for each of its views
+constexpr uint8_t kLaterVersion = 0xA1;  // first byte of attributes in version 1
+constexpr uint64_t kPadding = 64;        // bytes of a buffer that belong to no view, for each of its views
 
 /// A buffer view as it stands compressed.
 struct Compressed {
@@ -53,6 +54,8 @@ Compressed read(GltfDocument& document, const JsonValue& json, uint32_t buffer) 
     const bool fits = is_attributes ? made.stride > 0 && made.stride % 4 == 0 : made.stride == 2 || made.stride == 4;
     if (!fits) json.at("byteStride").fail("does not fit the mode " + made.mode);
     if (is_triangles && made.count % 3 != 0) json.at("count").fail("is no multiple of three");
+    if (is_attributes && length > 0 && made.bytes[0] == kLaterVersion)
+        json.fail("is of a later version of the format, which is not read");
     if (made.count * made.stride > kAlways + kMostPerByte * length)
         json.at("count").fail("states more elements than its " + std::to_string(length) + " bytes can hold");
     return made;
@@ -94,6 +97,8 @@ std::vector<uint8_t> decode_meshopt(GltfDocument& document, uint32_t buffer) {
                        length = view.at("byteLength").integer(uint64_t{1} << 40);
         parts.push_back({read(document, *compression, buffer), offset});
         const uint64_t bytes = parts.back().from.count * parts.back().from.stride;
+        if (offset % (parts.back().from.mode == "ATTRIBUTES" ? 4 : parts.back().from.stride) != 0)
+            view.at("byteOffset").fail("is no multiple of the size of its elements");
         if (bytes > length) view.at("byteLength").fail("is less than the compressed elements take");
         end = std::max(end, offset + length), decoded += bytes;
     }
@@ -101,7 +106,7 @@ std::vector<uint8_t> decode_meshopt(GltfDocument& document, uint32_t buffer) {
     const uint64_t size = stated.integer();
     if (std::max(size, end) > decoded + kPadding * (parts.size() + 1))
         stated.fail("is more than its compressed views, which have " + std::to_string(decoded) + " bytes");
-    spend(size);
+    spend(std::max(size, end));
     std::vector<uint8_t> made(std::max(size, end), 0);
     for (const Part& part : parts) {
         check_time();

@@ -48,6 +48,13 @@ void drop_compression(json& root) {
                     one.erase("extensions");
         }
     }
+    if (root.contains("meshes"))  // where Draco is not read, these have plain geometry beside it
+        for (json& mesh : root["meshes"])
+            for (json& primitive : mesh["primitives"])
+                if (const auto extensions = primitive.find("extensions");
+                    extensions != primitive.end() && extensions->is_object() &&
+                    extensions->erase("KHR_draco_mesh_compression") > 0 && extensions->empty())
+                    primitive.erase("extensions");
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
         const auto names = root.find(list);
         if (names == root.end()) continue;

@@ -111,7 +111,8 @@ void main() {
         if (m.y < 1.0 && spread > 0.0) m.y = min(sqrt(sqrt(alpha2)), 0.999);
     }
     out_reflectance = vec4(halves(base.rgb), m.x);
-    out_surface = vec4(encode_normal(normal), 1.0 / gl_FragCoord.w, m.y);
+    const float mark = kRelief != 0u ? kReliefMark : 0.0;
+    out_surface = vec4(encode_normal(normal) + vec2(mark, 0.0), 1.0 / gl_FragCoord.w, m.y);
     out_emission = vec4(emission, 1.0);
     out_triangle = triangle;
     out_slope = slope;

@@ -48,12 +48,14 @@ const float kMostTilt = 1e-3, kMostLift = 1e-3;  // of a plane's pixels: rad; an
 const float kWidest = 3.0;
 
 vec3 position[kBlockSize], normal[kBlockSize];  // of the column
+bool relief[kBlockSize];
 vec3 facet_normal[kBlockSize];  // of the planes of its triangles, which maps are compared with
 bool drawn[kBlockSize];
 bool plane;          // all of the block's surfaces are one
 bool filled;         // something is drawn at each of its pixels
 bool shiny;          // of the block: whether some surface with a specular lobe or road with a table is drawn
 float pixel_size;    // m across the way from the eye, where the block is nearest
+bool probe_relief[kProbes];
 vec3 probe_position[kProbes], probe_normal[kProbes], probe_facet[kProbes];  // two in each column and row, and in the corners
 bool probe_drawn[kProbes];
 // Of lamps.
@@ -78,6 +80,7 @@ void read_block(uvec2 corner) {
         drawn[r] = surface.z > 0.0 && all(lessThan(pixel, push.size));
         position[r] = ray * surface.z;
         normal[r] = decode_normal(surface.xy);
+        relief[r] = is_relief(surface.xy);
         facet_normal[r] = plane_normal(imageLoad(slope_image, at).r, ray, push.grid.ray_scale, normal[r]);
         shines = shines || (drawn[r] && surface.w < 1.0);
         all_drawn = all_drawn && drawn[r];
@@ -94,6 +97,7 @@ void read_block(uvec2 corner) {
         probe_drawn[k] = surface.z > 0.0 && all(lessThan(pixel, push.size));
         probe_position[k] = ray * surface.z;
         probe_normal[k] = decode_normal(surface.xy);
+        probe_relief[k] = is_relief(surface.xy);
         probe_facet[k] = plane_normal(imageLoad(slope_image, at).r, ray, push.grid.ray_scale, probe_normal[k]);
     }
     bool same = probe_drawn[0];
@@ -122,6 +126,9 @@ struct Sight {
 };
 
 // The normal of the plane that a map is compared with: of a triangle, or, where that faces away from the lamp, the interpolated one.
+// A relief sees no lamp that its plane turns away from: its normals would light it through itself.
+bool turns_away(bool relief, vec3 facet, vec3 to_lamp) { return relief && dot(facet, to_lamp) <= 0.0; }
+
 vec3 compared(vec3 facet, vec3 interpolated, vec3 to_lamp) { return dot(facet, to_lamp) > 0.0 ? facet : interpolated; }
 
 uint pack(Sight s) { return uint(s.cosine * 255.0) << 16u | s.facing << 8u | s.seen; }  // but for the ways
@@ -139,7 +146,8 @@ float probe_from(uint k, vec3 beside, FetchedMap map, vec3 lamp, inout Sight s, 
     const float cosine = dot(probe_normal[k], to) * inverse;
     const bool faces = probe_drawn[k] && cosine > 0.0;
     float way_here;
-    const bool sees_it = glances(map, beside - to, compared(probe_facet[k], probe_normal[k], to), way_here) && faces;
+    const bool sees_it = glances(map, beside - to, compared(probe_facet[k], probe_normal[k], to), way_here) && faces &&
+                         !turns_away(probe_relief[k], probe_facet[k], to);
     s.facing += faces ? 1u : 0u;
     s.seen += sees_it ? 1u : 0u;
     s.ways += faces && !sees_it ? way_here : 0.0;
@@ -228,8 +236,11 @@ uint look_up_edges(uint index) {
     const uint middle = kBlockSize / 2u;
     const mat2 per_pixel = texels_per_pixel(map, position[middle] - lamp, position[middle], facet_normal[middle], push.grid.ray_scale);
     uint word = 0u;
-    [[unroll]] for (uint r = 0u; r < kBlockSize; ++r)
-        word |= uint(visibility(map, position[r] - lamp, compared(facet_normal[r], normal[r], lamp - position[r]), per_pixel) * 15.0 + 0.5) << 4u * r;
+    [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
+        const vec3 to_lamp = lamp - position[r];
+        const float share = visibility(map, -to_lamp, compared(facet_normal[r], normal[r], to_lamp), per_pixel);
+        word |= (turns_away(relief[r], facet_normal[r], to_lamp) ? 0u : uint(share * 15.0 + 0.5)) << 4u * r;
+    }
     return word;
 }
 
@@ -279,6 +290,7 @@ uint look_up_penumbra(uint index, float width) {
     uint packed = 0u;
     [[unroll]] for (uint r = 0u; r < kBlockSize; ++r) {
         counts[r] = points[r].inside ? counts[r] : lookups;
+        counts[r] = turns_away(relief[r], facet_normal[r], lamp - position[r]) ? 0u : counts[r];
         packed |= counts[r] << 4u * r;  // 8 at most, by fours
     }
     counted[lane] = packed;

@@ -84,5 +84,21 @@ TEST(Relief, HasTheMeanLuminanceOfTriangles) {
         }
 }
 
+// Bumps that face a lamp behind the panel are not lit through it.
+TEST(Relief, LetsNoLightThrough) {
+    gpu::Device device(gpu::DeviceOptions{});
+    for (const float roughness : {1.0f, 0.5f})
+        for (const double radius : {0.0, 0.05}) {
+            scene::Scene scene = panel(true, 0.4, roughness);
+            scene.lamps[0].opening.length = scene.lamps[0].opening.width = 2 * radius,
+            scene.lamps[0].opening.round = true;
+            scene.nodes[1].translation = {0.3f, 0.2f, -0.6f};
+            scene.materials[0].double_sided = true;
+            EXPECT_EQ(mean_luminance(device, scene, 64), 0) << roughness << ", " << radius;
+            scene.nodes[1].translation.z = 0.6f;
+            EXPECT_GT(mean_luminance(device, scene, 64), 1);
+        }
+}
+
 }  // namespace
 }  // namespace vesper::test

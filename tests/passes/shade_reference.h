@@ -20,8 +20,9 @@ struct SurfaceTexel {
     dvec3 emission{0};     ///< cd/m^2
 };
 
-/// Unit vector of an octahedral map (Meyer et al. 2010; Cigolle et al. 2014).
+/// Unit vector of an octahedral map (Meyer et al. 2010; Cigolle et al. 2014), marked or not.
 inline dvec3 octahedral_decode(dvec2 e) {
+    if (e.x > 2) e.x -= 4;  // the mark of a relief
     const auto sign = [](double x) { return x < 0 ? -1.0 : 1.0; };
     dvec3 n(e, 1 - std::abs(e.x) - std::abs(e.y));
     if (n.z < 0) n = dvec3((1 - std::abs(e.y)) * sign(e.x), (1 - std::abs(e.x)) * sign(e.y), n.z);

@@ -35,6 +35,8 @@ TEST(ReliefTextures, HoldTheMeanNormalAndHowNormalsSpread) {
         EXPECT_NEAR(levels[1].rgba[2], length, 1e-6);
         EXPECT_NEAR(levels[1].rgba[3], std::sqrt(1 - length), 1e-6);
     }
+    const std::vector<float> steep = gpu_scene::relief_levels(image({{255, 0, 0}}), 100)[0].rgba;
+    EXPECT_NEAR(std::hypot(steep[0], steep[1], steep[2]), 1, 1e-5);
     // Painted holes and opposite directions give numbers.
     for (const auto& level : gpu_scene::relief_levels(image({{0, 0, 0}, {255, 255, 0}}), 1000))
         for (const float value : level.rgba) EXPECT_TRUE(std::isfinite(value));

@@ -116,6 +116,30 @@ TEST(SignalPlans, HeadsBehindAJunctionJoinNoWaysThatCross) {
     EXPECT_EQ(greens(network, {"signal_S1", "signal_far N0"}), (std::pair{40, 40}));
 }
 
+// Each faces nearly as the one before, and the last the other way.
+TEST(SignalPlans, LightsOfARoadAreNotChained) {
+    roads::RoadNetwork network = network_of(crossing_text(false));
+    std::vector<roads::RoadSignal>& signals = network.roads[index_of(network, "W")].signals;
+    for (int k = 1; k <= 6; ++k) {
+        signals.push_back(signals[0]);
+        signals.back().id = "turned " + std::to_string(k), signals.back().heading = 0.5 * k;
+    }
+    EXPECT_EQ(greens(network, {"signal_W1", "signal_turned 6"}).second, 0);
+    EXPECT_GT(greens(network, {"signal_W1", "signal_turned 1"}).second, 0);
+}
+
+// Two heads for all of 2,000 ways: neither pairs of them without end, nor memory that nobody counts.
+TEST(SignalPlans, ManyWaysAreTakenToConflict) {
+    roads::RoadNetwork network = network_of(crossing_text(false));
+    const size_t way = index_of(network, "c0");
+    for (int i = 0; i < 2000; ++i) {
+        network.roads.push_back(network.roads[way]);
+        network.roads.back().id = "way " + std::to_string(i), network.roads.back().sections.clear();
+        network.roads.back().signal_references = {i % 2 ? "W1" : "S1"};
+    }
+    EXPECT_EQ(greens(network, {"signal_W1", "signal_S1"}).second, 0);
+}
+
 // Each way has a light of its own: those from one road go together, though they begin at one point.
 TEST(SignalPlans, WaysFromOneRoadDoNotConflict) {
     roads::RoadNetwork network = network_of(crossing_text(true));
@@ -158,6 +182,8 @@ TEST(SignalPlans, LightsOfOneIdAreNumbered) {
     EXPECT_EQ(greens(network, {"signal_7#2", "signal_S2"}), (std::pair{40, 40}));
     const roads::LitRoads lit = roads::lit_roads(network, {.every_lens = true});
     EXPECT_EQ(lit.phases.size(), 8u);
+    network.roads[index_of(network, "E")].signals[0].id = "7#2";  // the first of all
+    EXPECT_EQ(roads::lit_roads(network, {.every_lens = true}).phases.size(), 8u);
     EXPECT_TRUE(std::ranges::any_of(lit.notes, [](const std::string& note) {
         return note.starts_with("traffic lights with the id of another: 1,");
     }));

@@ -186,6 +186,7 @@ TEST(GltfMeshopt, NamesThePlaceOfWhatIsWrong) {
                    {"/bufferViews/0/extensions/EXT_meshopt_compression/buffer", 1, "buffer: names a buffer without"},
                    {"/bufferViews/3/extensions/EXT_meshopt_compression/count", 1535, "count: is no multiple of three"},
                    {"/bufferViews/0/extensions", json::object(), "and is not compressed"},
+                   {"/bufferViews/0/byteOffset", 2, "/bufferViews/0/byteOffset: is no multiple"},
                    {"/bufferViews/0/byteOffset", 1'000'000'000, "/buffers/1/byteLength: is more than"},
                    {"/buffers/1/byteLength", 1'000'000'000, "/buffers/1/byteLength: is more than"}},
                   [](const json& root) { return complaint_of([&] { read(root); }); });

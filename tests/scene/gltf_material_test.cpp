@@ -230,6 +230,9 @@ TEST(GltfMaterial, ReadsReliefThatLiesAsTheColoursDo) {
         mentions(other.notes, "a normal texture that lies differently from the colours of its surface is left"));
     EXPECT_EQ(relief({{"index", 1}, {"texCoord", 1}, {"scale", 0}}).scene.materials[0].normal_texture.image,
               scene::kNone);
+    const scene::LoadedScene steep = relief({{"index", 1}, {"texCoord", 1}, {"scale", 1e20}});
+    EXPECT_EQ(steep.scene.materials[0].normal_scale, 100);
+    EXPECT_TRUE(mentions(steep.notes, "scale above 100"));
     GltfFile alone = with_material({{"normalTexture", {{"index", 0}, {"texCoord", 1}}}});
     add_texture(alone, png_uri({128, 128, 255, 255}));
     EXPECT_EQ(alone.read().scene.materials[0].normal_texture.image, 0u) << "its coordinates are those of the surface";

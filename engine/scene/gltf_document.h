@@ -44,6 +44,7 @@ public:
 
     JsonValue root() const { return JsonValue(json_); }
     const std::string& name() const { return json_.name; }
+    const SceneLimits& limits() const { return limits_; }
 
     /// An array of the root object: "nodes", "meshes", ...; empty where missing.
     std::span<const JsonValue> list(const char* key);

@@ -30,6 +30,11 @@ constexpr uint64_t kBytesOfFace = 200, kBytesOfSeams = 30, kBytesOfCopies = 4;
 /// A decoder of Draco that announces its memory before it takes it, for as long as it lives.
 template <class Decoder>
 class Bounded : public Decoder {
+public:
+    /// Elements beyond `most` throw Error at `place`.
+    Bounded(uint64_t most, const JsonValue& place) : most_(most), place_(place) {}
+
+private:
     bool DecodeConnectivity() override {
         if (this->bitstream_version() != kBitstream) return false;
         draco::DecoderBuffer ahead = *this->buffer();
@@ -38,6 +43,8 @@ class Bounded : public Decoder {
         uint8_t attributes = 0;  // of edgebreaker: those with tables of their own
         if (!draco::DecodeVarint(&first, &ahead) || !draco::DecodeVarint(&second, &ahead) || !ahead.Decode(&attributes))
             return false;
+        if (std::max(first, second) > most_)
+            place_.fail("takes the meshes over the limit of " + std::to_string(most_) + " vertices");
         tables_.emplace(std::max<uint64_t>(first, second) * (kBytesOfFace + kBytesOfSeams * attributes));
         return Decoder::DecodeConnectivity();
     }
@@ -50,10 +57,12 @@ class Bounded : public Decoder {
         return Decoder::DecodeAllAttributes();
     }
 
+    uint64_t most_;
+    JsonValue place_;
     std::optional<TemporaryMemory> tables_, values_;
 };
 
-std::unique_ptr<draco::Mesh> decode(std::span<const uint8_t> bytes, const JsonValue& place) {
+std::unique_ptr<draco::Mesh> decode(std::span<const uint8_t> bytes, uint64_t most, const JsonValue& place) {
     const auto fresh_buffer = [&] {
         draco::DecoderBuffer buffer;
         buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -64,8 +73,8 @@ std::unique_ptr<draco::Mesh> decode(std::span<const uint8_t> bytes, const JsonVa
     if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) place.fail("is no Draco geometry");
     if (header.encoder_type != draco::TRIANGULAR_MESH) place.fail("is a point cloud, and no mesh");
     buffer = fresh_buffer();
-    Bounded<draco::MeshEdgebreakerDecoder> edgebreaker;
-    Bounded<draco::MeshSequentialDecoder> sequential;
+    Bounded<draco::MeshEdgebreakerDecoder> edgebreaker(most, place);
+    Bounded<draco::MeshSequentialDecoder> sequential(most, place);
     auto& decoder = header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING
                         ? static_cast<draco::MeshDecoder&>(edgebreaker)
                         : static_cast<draco::MeshDecoder&>(sequential);
@@ -187,7 +196,7 @@ private:
         if (wanted.empty() && !wants_indices) return;
         const auto mesh = decode(
             document_.view(compression.at("bufferView").index(document_.list("bufferViews").size(), "bufferViews")),
-            compression);
+            document_.limits().vertices, compression);
         for (const auto& [accessor, number] : wanted) {
             const draco::PointAttribute* attribute = mesh->GetAttributeByUniqueId(number);
             if (!attribute) numbers.fail("the compressed geometry has no attribute " + std::to_string(number));

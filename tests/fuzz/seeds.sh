@@ -17,6 +17,7 @@ seeds() {
         warp_mesh) name='*.data' ;;
         exr | grid_exr) name='*.exr' ;;
         radiance) name='*.hdr' ;;
+        compressed) name='*.geometry' ;;
         opendrive) name='*.xodr' ;;
         world) name='*.world.json' ;;
         *) name='*.json' ;;

@@ -4,6 +4,7 @@
 
 #include "analysis/display_fit.h"
 #include "eye/projection.h"
+#include "fuzz/compressed.h"
 #include "io/exif.h"
 #include "io/hdr_image.h"
 #include "io/image_file.h"
@@ -88,6 +89,7 @@ std::map<std::string, FuzzTarget> make_targets() {
     return {
         {"gltf", of_file("x.gltf", [](const fs::path& file) { scene::read_scene(file, kFew); })},
         {"glb", of_file("x.glb", [](const fs::path& file) { scene::read_scene(file, kFew); })},
+        {"compressed", of_file("x.bin", [](const fs::path& file) { scene::read_scene(scene_around(file), kFew); })},
         {"photometry", of_file("x.photometry.json", apply)},
         {"ies", [](Bytes bytes) { photometry::parse_ies(bytes, "x.ies"); }},
         {"ldt", [](Bytes bytes) { photometry::parse_eulumdat(bytes, "x.ldt"); }},

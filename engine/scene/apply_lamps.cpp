@@ -199,7 +199,8 @@ void warn_of_measurement(Application& application, const LampRule& rule, const s
     std::vector<std::string>& warnings = application.report.warnings;
     const MeasuredLamp& lamp = application.photometry.measured[rule.lamp.distribution];
     if (told.insert(rule.lamp.distribution).second)
-        for (const std::string& note : lamp.distribution.notes) warnings.push_back(in_quotes(lamp.file) + ": " + note);
+        for (const std::string& note : lamp.distribution.notes)
+            warnings.push_back((lamp.standard ? "built-in lamp " : "") + in_quotes(lamp.file) + ": " + note);
     const auto turned = static_cast<size_t>(
         std::count_if(nodes.begin(), nodes.end(), [&](uint32_t node) { return is_turned_down(rule, world[node]); }));
     if (turned > 0)

@@ -19,6 +19,7 @@ namespace {
 uint32_t measured_lamp(const JsonValue& source, const std::filesystem::path& folder, Photometry& made) {
     const auto standard = source.find("standard");
     if (standard && source.find("file")) standard->fail("is given beside file: one of them is wanted");
+    if (standard && source.find("lamp_set")) standard->fail("lamp_set is for EULUMDAT (.ldt), not for a built-in lamp");
     const JsonValue file = standard ? *standard : source.at("file");
     MeasuredLamp wanted{.file = file.text(),
                         .standard = standard.has_value(),

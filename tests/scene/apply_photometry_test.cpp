@@ -215,5 +215,22 @@ TEST(SettledRotation, StaysWhenReadAgain) {
     EXPECT_FALSE(scene::unit_rotation(glm::vec4(0)));
 }
 
+// A lamp that is built in is no file of that name, and what is said of it does not read like one.
+TEST(ApplyPhotometry, NotesOfBuiltInLampsNameNoFile) {
+    const TempFolder folder;
+    const fs::path file = folder.write("p.json", R"({"version": 1, "lamps": [{"nodes": "a", "type": "distribution",
+        "standard": "street-lamp"}]})");
+    scene::Photometry rules = scene::read_photometry(file);
+    for (const bool standard : {true, false}) {
+        rules.measured.at(0).standard = standard;
+        rules.measured[0].distribution.notes = {"is odd"};
+        scene::Scene street;
+        street.nodes.push_back({.name = "a"});
+        const std::vector<std::string> warnings = scene::apply_photometry(street, rules, "s.gltf").warnings;
+        const std::string said = std::string(standard ? "built-in lamp " : "") + "'street-lamp': is odd";
+        EXPECT_NE(std::find(warnings.begin(), warnings.end(), said), warnings.end()) << said;
+    }
+}
+
 }  // namespace
 }  // namespace vesper::test

@@ -6,6 +6,7 @@
 
 #include "scene/colour.h"
 #include "scene/scene_files.h"
+#include "support/shared_data.h"
 
 namespace vesper::test {
 namespace {
@@ -106,6 +107,11 @@ TEST(Photometry, KnowsStandardLamps) {
     file["lamps"][0] = rule("standard", "street-lamp");
     file["lamps"][0]["lamp_set"] = 1;
     EXPECT_TRUE(contains(complaint_of([&] { read(file); }), "/lamps/0/standard: lamp_set is for EULUMDAT"));
+    file["lamps"][0]["lamp_set"] = 0;
+    EXPECT_TRUE(contains(complaint_of([&] { read(file); }), "/lamps/0/standard: lamp_set is for EULUMDAT"));
+    const std::string schema = read_text(std::filesystem::path(VESPER_SOURCE_DIR) / "data/photometry.schema.json");
+    const json refused = json::parse(schema).at(json::json_pointer("/$defs/lamp/oneOf/3/not/anyOf"));
+    EXPECT_EQ(refused.at(1)["required"], (json{"standard", "lamp_set"}));
     file["lamps"][0] = rule("file", "street-lamp");
     EXPECT_FALSE(complaint_of([&] { read(file); }).empty()) << "a file of that name is a file";
 }

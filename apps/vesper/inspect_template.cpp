@@ -21,6 +21,8 @@ std::string rows_of(const scene::PhotometryTemplate& made) {
     if (made.suns > 0) text += apps::format("  directional lights (sun or sky) without a rule: %zu\n", made.suns);
     if (made.nameless > 0)
         text += apps::format("  sources without a name, which no rule can match: %zu\n", made.nameless);
+    if (made.dark > 0) text += apps::format("  lights that are black or of 0 cd, without a rule: %zu\n", made.dark);
+    if (made.parts > 0) text += apps::format("  parts of lamps, which have the rule of their lamp: %zu\n", made.parts);
     if (made.left_out_sources > 0)
         text += apps::format("  left out, as rules or lamps are too many: %zu rules, %zu nodes or materials\n",
                              made.left_out_rules, made.left_out_sources);
@@ -54,6 +56,8 @@ Inspection inspect_template(const InspectArguments& arguments) {
                                           {"sources", made.sources[i]}});
     report.json["directional_lights"] = made.suns;
     report.json["nameless"] = made.nameless;
+    report.json["dark_lights"] = made.dark;
+    report.json["parts_of_lamps"] = made.parts;
     report.json["left_out"] = {{"rules", made.left_out_rules}, {"sources", made.left_out_sources}};
     report.json["notes"] = loaded.notes;
     return report;

@@ -25,6 +25,8 @@ struct PhotometryTemplate {
     size_t left_out_rules = 0, left_out_sources = 0;  ///< beyond the limits of a file
     size_t suns = 0;                                  ///< nodes with directional lights, which get no rule
     size_t nameless = 0;                              ///< sources that no pattern can name
+    size_t dark = 0;                                  ///< nodes with black lights or without intensity: no rule
+    size_t parts = 0;                                 ///< nodes named as lamps that are parts of others: no rule
 };
 
 /// Most rules of lamps, and of emitters, each.

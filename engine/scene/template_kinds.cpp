@@ -9,6 +9,9 @@
 namespace vesper::scene {
 namespace {
 
+constexpr size_t kLongestPart = 200;  // bytes of a part of a name that are looked at
+constexpr size_t kMostParts = 10;     // of a name that are looked at, the last ones
+
 constexpr glm::dvec3 kRed{1, 0.02, 0.01}, kAmber{1, 0.35, 0.02}, kGreen{0.05, 1, 0.55};
 
 // Intensities and openings are those of docs/photometry.md and of the Rivoli street; the first that is named counts.
@@ -163,8 +166,8 @@ std::vector<std::vector<std::string>> parts_of(const std::string& name) {
     for (size_t end = name.size();;) {
         const size_t slash = end == 0 ? std::string::npos : name.rfind('/', end - 1);
         const size_t start = slash == std::string::npos ? 0 : slash + 1;
-        parts.push_back(words_of(std::string_view(name).substr(start, end - start)));
-        if (slash == std::string::npos) return parts;
+        parts.push_back(words_of(std::string_view(name).substr(start, std::min(end - start, kLongestPart))));
+        if (slash == std::string::npos || parts.size() == kMostParts) return parts;
         end = slash;
     }
 }

@@ -27,7 +27,7 @@ struct SourceKind {
     double luminance = 0;  ///< of the surface that shines, cd/m^2
 };
 
-/// Words of each part of a name between slashes, the last part first.
+/// Words of each part of a name between slashes, the last part first: of the last ten parts, and of 200 bytes each.
 std::vector<std::vector<std::string>> parts_of(const std::string& name);
 
 /// The kind of a source by the parts of its name and then of the names above; "lamp" where no word tells.

@@ -7,8 +7,8 @@
 #include "base/angle.h"
 #include "base/budget.h"
 #include "base/decimal.h"
-#include "scene/apply_rules.h"
 #include "scene/scene_warnings.h"
+#include "scene/template_candidates.h"
 #include "scene/template_patterns.h"
 #include "scene/template_rules.h"
 
@@ -18,104 +18,16 @@ namespace {
 constexpr size_t kMostAbove = 3;     // nodes above one that may tell its kind
 constexpr double kOffsetStep = 0.1;  // m: lamps of a rule differ by less
 
-using Words = std::vector<std::string>;
-
-/// Parts of a lamp that do not shine, or are told by another part.
-constexpr std::string_view kPassive[] = {"pole",   "post",  "mast",    "base",   "foot",  "arm",    "bracket", "mount",
-                                         "socket", "cable", "housing", "holder", "frame", "stand",  "box",     "glass",
-                                         "cover",  "shade", "lens",    "metal",  "chain", "switch", "collider"};
-
-bool is_passive(const Words& words) {
-    return std::ranges::any_of(
-        words, [](const std::string& word) { return std::ranges::find(kPassive, word) != std::end(kPassive); });
+/// Whether the intensity of a light is that of a lamp: others are watts, or relative numbers.
+bool is_plausible(const Lamp& light) {
+    return double(light.intensity) >= kFaintestLamp && double(light.intensity) <= kBrightestLamp / 10;
 }
-
-/// The words of a name that another does not have, as a name.
-std::string added_words(const Words& words, const Words& known) {
-    std::string added;
-    for (const std::string& word : words)
-        if (std::ranges::find(known, word) == known.end()) added += word + " ";
-    return added;
-}
-
-/// Chooses nodes by their names: of an object whose parts are named, the part that shines.
-class Candidates {
-public:
-    Candidates(const Scene& scene, const SceneSource& source) : scene_(scene), sounding_(scene.nodes.size()) {
-        const std::vector<Node>& nodes = scene.nodes;
-        std::vector<uint32_t> above(nodes.size(), kNone);          // the nearest node above that sounds like a lamp
-        std::map<std::pair<uint32_t, std::string>, size_t> alike;  // nodes of a family below each parent
-        for (uint32_t i = 0; i < nodes.size(); ++i) {
-            check_time();
-            const uint32_t parent = nodes[i].parent;
-            if (parent != kNone) above[i] = sounding_[parent] ? parent : above[parent];
-            if (marked(source.added, i)) continue;
-            sounding_[i] = sounds_like_light(nodes[i].name) || is_signal_colour(parts(i, 1)) ||
-                           is_vehicle_lamp(parts_of(nodes[i].name)[0]);
-            if (sounding_[i]) ++alike[{parent, family_of(nodes[i].name)}];
-        }
-        for (uint32_t i = 0; i < nodes.size(); ++i) {
-            if (!sounding_[i]) continue;
-            uint32_t holder = above[i];
-            while (holder != kNone && !sounding_[holder]) holder = above[holder];
-            if (holder == kNone) continue;
-            const std::string added = added_words(parts_of(nodes[i].name)[0], parts_of(nodes[holder].name)[0]);
-            const bool copy = alike[{nodes[i].parent, family_of(nodes[i].name)}] > 1 && added.empty();
-            if (copy || sounds_like_light(added) || is_signal_colour(parts(i, 1)))
-                covered_.insert(holder);
-            else
-                sounding_[i] = false;  // "street_lamp_01/street_lamp_01_mesh" says nothing that the node above does not
-        }
-        drop_other_parts();
-    }
-
-    bool has(uint32_t i) const { return sounding_[i] && !covered_.contains(i); }
-
-    /// The parts of a node's name and of as many names above it.
-    std::vector<Words> parts(uint32_t i, size_t most_above) const {
-        std::vector<Words> all;
-        for (size_t level = 0; i != kNone && level <= most_above; ++level, i = scene_.nodes[i].parent)
-            for (Words& words : parts_of(scene_.nodes[i].name)) all.push_back(std::move(words));
-        return all;
-    }
-
-private:
-    /// Where lamps below a node have kinds, "lamps" beside them is their glass; beside "lamp_head", so is "lamp_pole".
-    /// Below "street_lamp_01", a mesh is the body of the "light" that has none.
-    void drop_other_parts() {
-        std::set<uint32_t> known, meshless;
-        std::set<std::pair<uint32_t, std::string>> active;
-        std::vector<uint32_t> found;
-        for (uint32_t i = 0; i < sounding_.size(); ++i) {
-            if (!has(i)) continue;
-            found.push_back(i);
-            const auto own = parts_of(scene_.nodes[i].name);
-            const uint32_t parent = scene_.nodes[i].parent;
-            if (&kind_of(std::span(own).first(1)) != &plain_lamp()) known.insert(parent);
-            if (scene_.nodes[i].mesh == kNone) meshless.insert(parent);
-            if (!own[0].empty() && !is_passive(own[0])) active.insert({parent, own[0][0]});
-        }
-        for (const uint32_t i : found) {
-            const Words own = parts_of(scene_.nodes[i].name)[0];
-            const uint32_t parent = scene_.nodes[i].parent;
-            const bool below = parent != kNone && scene_.nodes[i].mesh != kNone;
-            const bool glass = below && known.contains(parent) && &kind_of(parts(i, 0)) == &plain_lamp();
-            const bool body = below && covered_.contains(parent) && meshless.contains(parent);
-            const bool other = is_passive(own) && active.contains({parent, own[0]});
-            if (glass || body || other) sounding_[i] = false;
-        }
-    }
-
-    const Scene& scene_;
-    std::vector<bool> sounding_;
-    std::set<uint32_t> covered_;
-};
 
 /// Shape and intensity of the file's light where they are plausible.
 bool add_light(const Lamp& light, nlohmann::ordered_json& rule) {
     const auto candela = static_cast<double>(light.intensity);
     if (light.kind != Lamp::Kind::Point && light.kind != Lamp::Kind::Spot) return false;
-    if (candela < kFaintestLamp || candela > kBrightestLamp / 10) return false;  // watts, or a relative number
+    if (!is_plausible(light)) return false;
     rule["type"] = light.kind == Lamp::Kind::Spot ? "spot" : "point";
     rule["intensity_cd"] = rounded(candela);
     if (light.kind == Lamp::Kind::Spot) {
@@ -184,33 +96,149 @@ std::vector<std::string> patterns_of(const Scene& scene, const NameIndex& index,
     return index.matched(longer) == nodes ? longer : patterns;
 }
 
-std::string comment_of(const std::vector<uint32_t>& members, const std::vector<LampPlace>& places) {
+/// Nodes that may share a rule.
+struct Group {
+    TemplateRule rule;
+    std::string alike;                ///< the same of groups that differ by c0 and offset alone
+    std::vector<uint32_t> matched{};  ///< by the patterns, when there are some
+    bool arms = false;                ///< c0 is left out, as it differs
+    double least = 0, most = 0;       ///< cd, of lights of the file that are no intensities of lamps; 0: none
+
+    size_t size() const { return rule.members.size(); }
+    void add_implausible(double candela) {
+        least = most > 0 ? std::min(least, candela) : candela;
+        most = std::max(most, candela);
+    }
+};
+
+/// Makes one group of some that are alike, the largest first: with its offset, and without c0 where that differs.
+Group merged(const std::vector<const Group*>& groups) {
+    Group one = *groups[0];
+    bool same_c0 = true, same_offset = true;
+    for (const Group* const group : std::span(groups).subspan(1)) {
+        const auto differs = [&](const char* key) {
+            return one.rule.json.value(key, nlohmann::ordered_json()) !=
+                   group->rule.json.value(key, nlohmann::ordered_json());
+        };
+        same_c0 = same_c0 && !differs("c0"), same_offset = same_offset && !differs("offset_m");
+        one.rule.members.insert(one.rule.members.end(), group->rule.members.begin(), group->rule.members.end());
+    }
+    std::ranges::sort(one.rule.members);
+    if (!same_c0) one.rule.json.erase("c0"), one.arms = true;
+    if (!same_offset)
+        one.rule.comment = "; offsets differ: \"offset_m\" is that of " + std::to_string(groups[0]->size()) + " nodes";
+    return one;
+}
+
+void sort_by_size(std::vector<Group>& groups) {
+    std::ranges::stable_sort(groups, [](const Group& a, const Group& b) { return a.size() > b.size(); });
+}
+
+/// Merges groups that are alike, of these names or all (null). Whether there were any.
+bool merge(std::vector<Group>& groups, const std::set<std::string>* names) {
+    std::map<std::string, std::vector<const Group*>> sets;
+    for (const Group& group : groups) sets[group.alike].push_back(&group);
+    std::vector<Group> made;
+    for (const auto& [alike, set] : sets)
+        if (set.size() > 1 && (!names || names->contains(alike)))
+            made.push_back(merged(set));
+        else
+            for (const Group* const group : set) made.push_back(*group);
+    const bool changed = made.size() < groups.size();
+    groups = std::move(made);
+    sort_by_size(groups);
+    return changed;
+}
+
+/// Groups with their patterns; those that no patterns tell apart, or for which there is no room, are left out.
+struct NamedGroups {
+    std::vector<Group> groups;
+    std::set<std::string> left_out;  ///< Group::alike
+    size_t left_out_rules = 0, left_out_sources = 0;
+};
+
+NamedGroups named(const Scene& scene, const NameIndex& index, const std::vector<Group>& groups,
+                  const std::vector<std::string>& texts) {
+    NamedGroups made;
+    std::vector<bool> taken(scene.nodes.size());
+    for (Group group : groups) {
+        check_time();
+        std::vector<uint32_t>& members = group.rule.members;
+        // A node gets a lamp from every rule that matches it: what another rule has taken by the same name is its own.
+        std::erase_if(members, [&](uint32_t i) { return bool(taken[i]); });
+        if (members.empty()) continue;
+        std::vector<std::string> patterns;
+        if (made.groups.size() < kMostTemplateRules) patterns = patterns_of(scene, index, members, texts);
+        auto matched = index.matched(patterns);
+        if (patterns.empty() || std::ranges::any_of(matched, [&](uint32_t i) { return bool(taken[i]); })) {
+            ++made.left_out_rules, made.left_out_sources += members.size();
+            made.left_out.insert(group.alike);
+            continue;
+        }
+        for (const uint32_t i : matched) taken[i] = true;
+        nlohmann::ordered_json json{{"nodes", json_of_patterns(patterns)}};
+        json.update(group.rule.json);
+        group.rule.json = std::move(json);
+        group.matched = std::move(matched);
+        made.groups.push_back(std::move(group));
+    }
+    return made;
+}
+
+/// Names the groups. Those that are alike are told apart only if this leaves none out.
+NamedGroups named_or_merged(const Scene& scene, const NameIndex& index, std::vector<Group> groups,
+                            const std::vector<std::string>& texts) {
+    sort_by_size(groups);
+    NamedGroups made = named(scene, index, groups, texts);
+    for (const bool all : {false, true}) {
+        if (made.left_out.empty()) break;
+        if (merge(groups, all ? nullptr : &made.left_out)) made = named(scene, index, groups, texts);
+    }
+    return made;
+}
+
+std::string comment_of(const Group& group, const std::vector<LampPlace>& places) {
+    const std::vector<uint32_t>& members = group.rule.members;
     glm::dvec3 mean(0);
     for (const uint32_t i : members) mean += places[i].world / double(members.size());
-    return std::to_string(members.size()) + (members.size() == 1 ? " node at " : " nodes about ") + decimal(mean.x, 4) +
-           ", " + decimal(mean.y, 4) + ", " + decimal(mean.z, 4) + " m (x, up, z)";
+    std::string text = std::to_string(members.size()) + (members.size() == 1 ? " node at " : " nodes about ") +
+                       decimal(mean.x, 4) + ", " + decimal(mean.y, 4) + ", " + decimal(mean.z, 4) + " m (x, up, z)";
+    if (group.most > 0)
+        text += "; not the " + decimal(group.least, 3) +
+                (group.most > group.least ? " to " + decimal(group.most, 3) : "") + " cd of the file";
+    if (group.rule.json.value("standard", "") == "street-lamp" && !group.rule.json.contains("c0"))
+        text += std::string(group.arms ? "; arms differ" : "; no arm tells the road") +
+                ": \"c0\" is its direction in the frame of the node";
+    return text + group.rule.comment;
+}
+
+bool is_dark(const Lamp& light) {
+    return !(light.intensity > 0) || !(std::max({light.colour.r, light.colour.g, light.colour.b}) > 0);
 }
 
 }  // namespace
 
 std::vector<TemplateRule> lamp_rules(const Scene& scene, const SceneSource& source, const std::vector<bool>& shining,
                                      PhotometryTemplate& counts) {
-    const Candidates candidates(scene, source);
     const LampPlaces find(scene, shining);
+    const LampCandidates candidates(scene, source, find);
     std::vector<std::string> names, texts(scene.nodes.size());
     for (const Node& node : scene.nodes) names.push_back(node.name);
     const NameIndex index(names, &scene);
-    std::map<std::string, TemplateRule> groups;
+    std::map<std::string, Group> groups;
     std::vector<LampPlace> places(scene.nodes.size());
     size_t placed = 0;
+    counts.parts = candidates.parts_left_out();
     for (uint32_t i = 0; i < scene.nodes.size(); ++i) {
         const uint32_t lamp = scene.nodes[i].lamp;
-        const Lamp* const light = lamp == kNone ? nullptr : &scene.lamps[lamp];
+        const Lamp* light = lamp == kNone ? nullptr : &scene.lamps[lamp];
         if (light && light->kind == Lamp::Kind::Directional) {
             ++counts.suns;
             continue;
         }
-        if (marked(source.added, i) || (!light && !candidates.has(i))) continue;
+        if (marked(source.added, i)) continue;
+        if (light && is_dark(*light)) light = nullptr, counts.dark += candidates.has(i) ? 0 : 1;
+        if (!light && !candidates.has(i)) continue;
         const auto parts = candidates.parts(i, kMostAbove);
         const SourceKind& kind = kind_of(parts);
         if (!*kind.standard && !(kind.candela > 0) && !light) continue;  // a surface alone
@@ -222,41 +250,34 @@ std::vector<TemplateRule> lamp_rules(const Scene& scene, const SceneSource& sour
             ++counts.left_out_sources;
             continue;
         }
-        places[i] = find.of(i, kind, light != nullptr);
+        places[i] = find.of(i, kind, light != nullptr, candidates.is_foot(scene.nodes[i].parent));
         const SourceKind& used = *kind.standard || kind.candela > 0 ? kind : plain_lamp();
         texts[i] = text_of(scene, i, &kind_of(std::span(parts).first(1)) != &plain_lamp());
-        nlohmann::ordered_json rule = rule_of(used, places[i], light);
+        const nlohmann::ordered_json rule = rule_of(used, places[i], light);
         const SourceReason reason = light ? SourceReason::Light : SourceReason::Name;
-        const std::string key = family_of(texts[i]) + "\n" + rule.dump() + used.name + name_of(reason);
-        TemplateRule& group = groups.try_emplace(key, TemplateRule{reason, &used, {}, rule, {}}).first->second;
-        group.members.push_back(i);
+        nlohmann::ordered_json elsewhere = rule;
+        elsewhere.erase("c0"), elsewhere.erase("offset_m");
+        const std::string family = family_of(texts[i]) + "\n", ending = used.name + std::string(name_of(reason));
+        Group& group =
+            groups
+                .try_emplace(family + rule.dump() + ending,
+                             Group{.rule = {reason, &used, {}, rule, {}}, .alike = family + elsewhere.dump() + ending})
+                .first->second;
+        group.rule.members.push_back(i);
+        if (light && &used == &plain_lamp() && !is_plausible(*light)) group.add_implausible(double(light->intensity));
     }
-    std::vector<TemplateRule> rules, sorted;
-    for (auto& [_, group] : groups) sorted.push_back(std::move(group));
-    std::ranges::stable_sort(sorted, [](const auto& a, const auto& b) { return a.members.size() > b.members.size(); });
-    std::vector<bool> taken(scene.nodes.size());
-    for (TemplateRule& group : sorted) {
-        // A node gets a lamp from every rule that matches it: what another rule has taken by the same name is its own.
-        std::erase_if(group.members, [&](uint32_t i) { return bool(taken[i]); });
-        if (group.members.empty()) continue;
-        std::vector<std::string> patterns;
-        if (rules.size() < kMostTemplateRules) patterns = patterns_of(scene, index, group.members, texts);
-        const auto matched = index.matched(patterns);
-        if (patterns.empty() || std::ranges::any_of(matched, [&](uint32_t i) { return bool(taken[i]); })) {
-            ++counts.left_out_rules, counts.left_out_sources += group.members.size();
-            continue;
-        }
-        for (const uint32_t i : matched) taken[i] = true;
-        nlohmann::ordered_json json{{"nodes", json_of_patterns(patterns)}};
-        json.update(group.json);
-        group.comment = comment_of(group.members, places);
-        if (json.value("standard", "") == "street-lamp" && !json.contains("c0"))
-            group.comment += "; no arm tells the road: \"c0\" is its direction in the frame of the node";
-        group.json = std::move(json);
-        for (const uint32_t i : group.members)
-            group.lamps.push_back({i, places[i].world, find.axis(i, places[i]), {}, {}});
-        group.members = matched;
-        rules.push_back(std::move(group));
+    std::vector<Group> all;
+    for (auto& [_, group] : groups) all.push_back(std::move(group));
+    NamedGroups made = named_or_merged(scene, index, std::move(all), texts);
+    counts.left_out_rules += made.left_out_rules, counts.left_out_sources += made.left_out_sources;
+    std::vector<TemplateRule> rules;
+    for (Group& group : made.groups) {
+        TemplateRule& rule = group.rule;
+        for (const uint32_t i : rule.members)
+            rule.lamps.push_back({i, places[i].world, find.axis(i, places[i]), {}, {}});
+        rule.comment = comment_of(group, places);
+        rule.members = std::move(group.matched);
+        rules.push_back(std::move(rule));
     }
     return rules;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 #include <set>
+#include <string_view>
 
 #include "base/budget.h"
 #include "scene/photometry.h"
@@ -13,6 +14,7 @@ namespace {
 
 constexpr size_t kMostPatterns = 50;           // of a rule
 constexpr size_t kMostCompared = 100'000'000;  // names, some seconds
+constexpr std::string_view kSideWords[] = {"left", "Left", "LEFT", "right", "Right", "RIGHT"};
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -44,10 +46,15 @@ std::string family_of(const std::string& name) {
     size_t end = name.size();
     while (end > 0 && is_digit(name[end - 1])) --end;
     const bool copy = end < name.size() && end > 1 && name[end - 1] == '.';
-    std::string family = without_numbers(copy ? name.substr(0, end - 1) : name);
-    for (const std::string_view side : {"left", "Left", "LEFT", "right", "Right", "RIGHT"})
-        for (size_t at = family.find(side); at != family.npos; at = family.find(side))
-            family.replace(at, side.size(), "*");
+    const std::string plain = without_numbers(copy ? name.substr(0, end - 1) : name);
+    std::string family;
+    for (size_t i = 0; i < plain.size();) {
+        const auto* const side = std::ranges::find_if(
+            kSideWords, [&](std::string_view s) { return std::string_view(plain).substr(i).starts_with(s); });
+        const bool is_side = side != std::end(kSideWords);
+        family += is_side ? '*' : plain[i];
+        i += is_side ? side->size() : 1;
+    }
     return family;
 }
 

@@ -23,6 +23,7 @@ constexpr double kNear = 0.05, kArm = 0.3;               // m: less is no offset
 constexpr double kFacing = 0.5;                          // of an area: its sum of normals, if it faces a side
 constexpr double kSameAxis = 0.98;                       // cosine
 constexpr double kShortest = 1, kLongest = 30;           // m, of vehicles
+constexpr double kLongestArm = 10;                       // m, of poles
 
 /// A direction in a node's frame; none where its transform has no inverse.
 std::optional<dvec3> in_frame(const glm::dmat4& world, dvec3 direction) {
@@ -157,6 +158,7 @@ bool LampPlaces::shines_beside(uint32_t node) const {
 
 std::optional<dvec3> LampPlaces::off_vehicle(uint32_t node, dvec3 at) const {
     for (uint32_t up = node; up != kNone; up = scene_.nodes[up].parent) {
+        check_time();
         if (below_[up].empty()) continue;
         const dvec3 low(below_[up].low), high(below_[up].high), size = high - low;
         if (std::max(size.x, size.z) < kShortest) continue;
@@ -178,7 +180,7 @@ std::optional<dvec3> LampPlaces::off_vehicle(uint32_t node, dvec3 at) const {
     return std::nullopt;
 }
 
-LampPlace LampPlaces::of(uint32_t node, const SourceKind& kind, bool has_light) const {
+LampPlace LampPlaces::of(uint32_t node, const SourceKind& kind, bool has_light, bool foot_above) const {
     const glm::dmat4& world = world_[node];
     const dvec3 origin(world[3]);
     LampPlace place{.world = origin};
@@ -208,13 +210,22 @@ LampPlace LampPlaces::of(uint32_t node, const SourceKind& kind, bool has_light) 
     if (aim) place.aim = in_frame(world, *aim);
     if (place.aim && glm::dot(*place.aim, dvec3(0, 0, -1)) > kSameAxis) place.aim.reset();
     if (down) {
-        const uint32_t parent = scene_.nodes[node].parent;
-        if (!foot) foot = glm::length(place.offset) > 0 || parent == kNone ? origin : dvec3(world_[parent][3]);
-        dvec3 arm = place.world - *foot;
+        // An origin that is not set apart from the one above tells no more than that one.
+        const bool apart = scene_.nodes[node].translation != dvec3(0);
+        if (!foot && apart && glm::length(place.offset) > 0)
+            foot = origin;
+        else if (!foot && foot_above)
+            foot = dvec3(world_[scene_.nodes[node].parent][3]);
+        dvec3 arm = place.world - foot.value_or(place.world);
         arm.y = 0;
-        if (glm::length(arm) > kArm && glm::length(arm) < kLongest) place.c0 = in_frame(world, glm::cross(arm, kUp));
+        if (glm::length(arm) > kArm && glm::length(arm) < kLongestArm) place.c0 = in_frame(world, glm::cross(arm, kUp));
     }
     return place;
+}
+
+glm::dvec3 LampPlaces::middle(uint32_t node) const {
+    const Bounds& box = below_[node];
+    return box.empty() ? dvec3(world_[node][3]) : (dvec3(box.low) + dvec3(box.high)) / 2.0;
 }
 
 glm::dvec3 LampPlaces::axis(uint32_t node, const LampPlace& place) const {

@@ -52,9 +52,14 @@ struct LampPlace {
 class LampPlaces {
 public:
     LampPlaces(const Scene&, const std::vector<bool>& shining);
-    LampPlace of(uint32_t node, const SourceKind&, bool has_light) const;
+    /// `foot_above`: the parent's origin is the foot of the lamp's pole.
+    LampPlace of(uint32_t node, const SourceKind&, bool has_light, bool foot_above) const;
     /// The axis of that lamp in the world, unit length.
     glm::dvec3 axis(uint32_t node, const LampPlace&) const;
+    /// Of the meshes at and below a node, m, in the world.
+    const Bounds& below(uint32_t node) const { return below_[node]; }
+    /// The middle of these, else the node's origin; m, in the world.
+    glm::dvec3 middle(uint32_t node) const;
 
 private:
     struct Part {

@@ -172,6 +172,29 @@ TEST_F(Inspect, APhotometryTemplate) {
     EXPECT_FALSE(contains(applied, "warning")) << applied;
 }
 
+// Lamps below a common root all get rules; what gets none is counted.
+TEST_F(Inspect, ATemplateCountsWhatItLeavesOut) {
+    GltfFile file;
+    const nlohmann::json off = {{"KHR_lights_punctual", {{"light", 0}}}};
+    file.root["nodes"] = {{{"name", "Scene"}, {"children", {1, 2, 3, 4, 5}}},
+                          {{"name", "lamp_post_01"}, {"translation", {100, 5, 0}}},
+                          {{"name", "lamp_post_02"}, {"translation", {140, 5, 0}}},
+                          {{"name", "lamp_wall_01"}, {"translation", {180, 5, 0}}},
+                          {{"name", "lamp_shade_01"}, {"translation", {180, 5, 0}}},
+                          {{"name", "off"}, {"extensions", off}}};
+    file.root["scenes"] = {{{"nodes", {0}}}};
+    file.root["extensionsUsed"] = {"KHR_lights_punctual"};
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"intensity", 70}, {"color", {0, 0, 0}}}};
+    folder.write("a.gltf", file.text());
+    ASSERT_EQ(inspect("a.gltf --photometry-template p.json --json a.json"), 0) << said;
+    EXPECT_TRUE(prints("by name               rules: 2, nodes or materials: 3\n")) << printed;
+    EXPECT_TRUE(prints("lights that are black or of 0 cd, without a rule: 1\n")) << printed;
+    EXPECT_TRUE(prints("parts of lamps, which have the rule of their lamp: 1\n")) << printed;
+    EXPECT_EQ(json("a.json")["parts_of_lamps"], 1);
+    EXPECT_EQ(json("a.json")["dark_lights"], 1);
+}
+
 TEST_F(Inspect, ATemplateReplacesNothing) {
     folder.write("a.gltf", scene_of_names());
     folder.write("p.json", "mine");

@@ -145,6 +145,30 @@ TEST(PhotometryTemplate, LightsOfTheFileAreKeptWherePlausible) {
     EXPECT_NEAR(lamps["cone"]["outer_cone_deg"].get<double>(), 44.977, 1e-3);  // 0.785 rad
 }
 
+// A light that is off in the file is no lamp of 100 cd. One in watts becomes a usual lamp, and the rule says so.
+TEST(PhotometryTemplate, LightsThatAreOffGetNoRule) {
+    NamedParts street;
+    street.light(street.node("none"), Lamp::Kind::Point, 0);
+    street.light(street.node("black"), Lamp::Kind::Spot, 100);
+    street.scene.lamps.back().colour = glm::vec3(0);
+    EXPECT_EQ(street.made().dark, 2u);
+    EXPECT_EQ(street.made().lamps, 0u);
+    // A node that is named as a lamp is one all the same.
+    street.light(street.node("street lamp"), Lamp::Kind::Point, 0);
+    const PhotometryTemplate made = street.made();
+    EXPECT_EQ(made.dark, 2u);
+    EXPECT_EQ(count(made, SourceReason::Light), 0u);
+    EXPECT_EQ(count(made, SourceReason::Name), 1u);
+    NamedParts watts;
+    watts.light(watts.node("Empty.001"), Lamp::Kind::Point, 5e6f);
+    watts.light(watts.node("Empty.002"), Lamp::Kind::Point, 0.002f);
+    const json lamp = watts.rules("lamps").at(0);
+    EXPECT_EQ(lamp["intensity_cd"], 100);
+    EXPECT_TRUE(contains(lamp["comment"].get<std::string>(), "; not the 0.002 to 5e+06 cd of the file")) << lamp;
+    watts.light(watts.node("plain"), Lamp::Kind::Point, 70);
+    EXPECT_FALSE(contains(watts.rules("lamps").at(1)["comment"].get<std::string>(), "; not the"));
+}
+
 TEST(PhotometryTemplate, MaterialsThatEmit) {
     NamedParts street;
     const uint32_t wall = street.node("wall");

@@ -42,6 +42,38 @@ TEST(TemplatePlaces, TheHeadOfAStreetLamp) {
     EXPECT_FALSE(contains(lamp["comment"].get<std::string>(), "no arm"));
 }
 
+/// C0 of the rule for two lamps without meshes at (3, 6, 0) m below a parent; null without one.
+json c0_below(const std::string& parent, bool second, float wall = 0) {
+    NamedParts street;
+    const uint32_t above = parent.empty() ? kNone : street.node(parent);
+    street.node("street lamp 1", above, {3, 6, 0});
+    if (second) street.node("street lamp 2", above, {0, 6, 9});
+    if (wall > 0) street.show(street.node("wall", above), street.material("brick"), {0, 0, 0}, {wall, 0, 0}, {0, 2, 0});
+    return street.rules("lamps").at(0).value("c0", json());
+}
+
+// The origin of the node above is the foot of a pole only where that node is one, or has no other lamp.
+TEST(TemplatePlaces, ACommonRootIsNoFoot) {
+    EXPECT_EQ(c0_below("Scene", true), json());
+    EXPECT_EQ(c0_below("Lights", true), json());
+    EXPECT_EQ(c0_below("", false), json());
+    EXPECT_EQ(c0_below("Scene", false, 50), json()) << "a root with a street";
+    EXPECT_EQ(c0_below("object_1", false, 1), (json{0, 0, 1}));
+    EXPECT_EQ(c0_below("pole_17", false), (json{0, 0, 1}));
+    EXPECT_EQ(c0_below("lantern_7", false), (json{0, 0, 1}));
+    // Equal lamps below one root have one rule.
+    NamedParts street;
+    const uint32_t root = street.node("root");
+    for (int i = 0; i < 300; ++i) street.node("street lamp " + std::to_string(i), root, {i % 30, 5.1, i / 30});
+    ASSERT_EQ(street.made().lamps, 1u);
+    EXPECT_EQ(street.rules("lamps")[0]["nodes"], "street lamp *");
+    EXPECT_TRUE(contains(street.rules("lamps")[0]["comment"].get<std::string>(), "no arm tells the road"));
+    // Nor is the origin of a scene whose transforms are applied a foot: heads 0.4 m wide, a few metres off it.
+    NamedParts flat;
+    flat.show(flat.node("street lamp"), flat.material("iron"), {4, 6, 2}, {0.4f, 0, 0}, {0, 0, 0.4f});
+    EXPECT_FALSE(flat.rules("lamps").at(0).contains("c0"));
+}
+
 // A lens of 0.2 m that faces +X: the lamp shines there.
 TEST(TemplatePlaces, ALensFacesWhereItsLampShines) {
     NamedParts street;

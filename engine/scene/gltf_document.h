@@ -60,7 +60,7 @@ public:
     GltfPart<tinygltf::Node> node(size_t i) { return {&model().nodes[i], list("nodes")[i]}; }
     GltfPart<tinygltf::Skin> skin(size_t i) { return {&model().skins[i], list("skins")[i]}; }
 
-    /// Whether a buffer has bytes at all: one without uri, of which no view is compressed, is a placeholder.
+    /// Whether a buffer has bytes at all: one without uri and without compressed views is a placeholder.
     bool has_bytes(uint32_t buffer);
     /// Bytes of buffer or buffer view `index`, valid as long as the document.
     std::span<const uint8_t> buffer(uint32_t index);

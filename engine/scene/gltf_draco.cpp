@@ -63,16 +63,12 @@ private:
 };
 
 std::unique_ptr<draco::Mesh> decode(std::span<const uint8_t> bytes, uint64_t most, const JsonValue& place) {
-    const auto fresh_buffer = [&] {
-        draco::DecoderBuffer buffer;
-        buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-        return buffer;
-    };
-    draco::DecoderBuffer buffer = fresh_buffer();
+    draco::DecoderBuffer buffer;
+    buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    draco::DecoderBuffer ahead = buffer;
     draco::DracoHeader header;
-    if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) place.fail("is no Draco geometry");
+    if (!draco::PointCloudDecoder::DecodeHeader(&ahead, &header).ok()) place.fail("is no Draco geometry");
     if (header.encoder_type != draco::TRIANGULAR_MESH) place.fail("is a point cloud, and no mesh");
-    buffer = fresh_buffer();
     Bounded<draco::MeshEdgebreakerDecoder> edgebreaker(most, place);
     Bounded<draco::MeshSequentialDecoder> sequential(most, place);
     auto& decoder = header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING
@@ -163,9 +159,7 @@ public:
                 const auto extensions = primitives[p].find("extensions");
                 const auto compression = extensions ? extensions->find(kExtension) : std::nullopt;
                 if (!compression) continue;
-                listed_ = false;
-                expand(primitives[p], *compression);
-                done_.push_back({m, p, listed_});
+                done_.push_back({m, p, expand(primitives[p], *compression)});
             }
         }
         write();
@@ -182,7 +176,8 @@ private:
         bytes_.resize((bytes_.size() + 3) / 4 * 4);
     }
 
-    void expand(const JsonValue& primitive, const JsonValue& compression) {
+    /// Whether the triangles of the primitive come from its geometry.
+    bool expand(const JsonValue& primitive, const JsonValue& compression) {
         const size_t accessors = document_.list("accessors").size();
         // Attributes by their names: the accessor in the primitive, the number in the compressed geometry.
         std::map<uint32_t, uint32_t> wanted;
@@ -193,7 +188,7 @@ private:
                     wanted.emplace(index, static_cast<uint32_t>(numbers.at(name.c_str()).integer(UINT32_MAX)));
         const auto indices = primitive.find("indices");
         const bool wants_indices = indices && is_empty(indices->index(accessors, "accessors"));
-        if (wanted.empty() && !wants_indices) return;
+        if (wanted.empty() && !wants_indices) return false;
         const auto mesh = decode(
             document_.view(compression.at("bufferView").index(document_.list("bufferViews").size(), "bufferViews")),
             document_.limits().vertices, compression);
@@ -205,7 +200,7 @@ private:
         }
         if (wants_indices)
             fill(indices->index(accessors, "accessors"), corners_of(*mesh), uint64_t{mesh->num_faces()} * 3, true);
-        listed_ = wants_indices;
+        return wants_indices;
     }
 
     void write() {
@@ -234,7 +229,6 @@ private:
     std::vector<uint8_t> bytes_;
     std::map<uint32_t, Filled> filled_;  // by accessor
     std::vector<Done> done_;
-    bool listed_ = false;  // the triangles of the primitive at hand come from its geometry
 };
 
 }  // namespace

@@ -59,7 +59,7 @@ std::filesystem::path scene_around(const std::filesystem::path& file) {
     json root{{"asset", {{"version", "2.0"}}}, {"nodes", {{{"mesh", 0}}}}};
     root["buffers"] = {{{"byteLength", size}, {"uri", file.filename().string()}}};
     kind == 0 ? add_draco(root, number % 3, length) : add_meshopt(root, kind, number, byte(2) >> 6, length);
-    const std::filesystem::path scene = file.parent_path() / "x.gltf";
+    std::filesystem::path scene = file.parent_path() / "x.gltf";
     std::ofstream(scene) << root.dump();
     return scene;
 }

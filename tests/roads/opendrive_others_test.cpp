@@ -280,7 +280,7 @@ TEST(OthersOpenDrive, ValuesThatNobodyKnowsAreSaid) {
          geometry(0, 0, 0, 0, 25, "<line/>") + geometry(25, 25, 0, 0.01 + 2 * M_PI, 25, "<line/>"));
 }
 
-// What no reader asks for is counted, wherever it is: a child and an attribute more in each element.
+// Elements and attributes that no reader asks for are counted, wherever they are: one more of each in each element.
 TEST(OpenDriveOthers, NothingIsSkippedInSilence) {
     const std::string text = opendrive(crossing_text(true));
     std::string more;

@@ -90,6 +90,13 @@ std::optional<std::pair<uint32_t, uint32_t>> parse_version(const std::string& te
 
 }  // namespace
 
+void erase_extension(nlohmann::json& holder, const char* name) {
+    const auto extensions = holder.find("extensions");
+    if (extensions == holder.end() || !extensions->is_object()) return;
+    extensions->erase(name);
+    if (extensions->empty()) holder.erase("extensions");
+}
+
 bool is_supported_extension(std::string_view name) {
     if (name == "KHR_draco_mesh_compression") return reads_draco();
     return std::find(kSupported.begin(), kSupported.end(), name) != kSupported.end();

@@ -94,6 +94,9 @@ private:
     std::unique_ptr<const tinygltf::Model> model_;
 };
 
+/// Takes an extension from an object of a document, and "extensions" with the last one.
+void erase_extension(nlohmann::json& holder, const char* name);
+
 /// Whether we read, or may ignore, a glTF extension that a file requires.
 bool is_supported_extension(std::string_view name);
 

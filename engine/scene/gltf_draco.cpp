@@ -219,8 +219,7 @@ private:
         for (const Done& done : done_) {
             json& primitive = root["meshes"][done.mesh]["primitives"][done.primitive];
             if (done.listed) primitive["mode"] = TINYGLTF_MODE_TRIANGLES;
-            primitive["extensions"].erase(kExtension);
-            if (primitive["extensions"].empty()) primitive.erase("extensions");
+            erase_extension(primitive, kExtension);
         }
         if (!bytes_.empty()) document_.add_buffer(std::move(bytes_));
     }

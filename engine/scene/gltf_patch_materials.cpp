@@ -12,13 +12,6 @@ constexpr const char *kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness
                      *kStrength = "KHR_materials_emissive_strength", *kTransform = "KHR_texture_transform",
                      *kUnlit = "KHR_materials_unlit";
 
-void erase_extension(json& material, const char* name) {
-    const auto extensions = material.find("extensions");
-    if (extensions == material.end() || !extensions->is_object()) return;
-    extensions->erase(name);
-    if (extensions->empty()) material.erase("extensions");
-}
-
 bool has_extension(const json& material, const char* name) {
     const auto extensions = material.find("extensions");
     return extensions != material.end() && extensions->contains(name);

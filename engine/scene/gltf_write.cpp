@@ -38,23 +38,14 @@ Parts collect(GltfDocument& document, std::vector<std::string>& warnings) {
 /// Views and buffers that name compressed bytes would be wrong where buffers are put together; the document has them
 /// without compression.
 void drop_compression(json& root) {
-    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
-        for (const char* list : {"bufferViews", "buffers"}) {
-            if (!root.contains(list)) continue;
+    for (const char* list : {"bufferViews", "buffers"})
+        if (root.contains(list))
             for (json& one : root[list])
-                if (const auto extensions = one.find("extensions"); extensions != one.end() &&
-                                                                    extensions->is_object() &&
-                                                                    extensions->erase(name) > 0 && extensions->empty())
-                    one.erase("extensions");
-        }
-    }
+                for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+                    erase_extension(one, name);
     if (root.contains("meshes"))  // where Draco is not read, these have plain geometry beside it
         for (json& mesh : root["meshes"])
-            for (json& primitive : mesh["primitives"])
-                if (const auto extensions = primitive.find("extensions");
-                    extensions != primitive.end() && extensions->is_object() &&
-                    extensions->erase("KHR_draco_mesh_compression") > 0 && extensions->empty())
-                    primitive.erase("extensions");
+            for (json& primitive : mesh["primitives"]) erase_extension(primitive, "KHR_draco_mesh_compression");
     for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
         const auto names = root.find(list);
         if (names == root.end()) continue;
